@@ -1,0 +1,38 @@
+//! **stickslip**: frictional contact of elastic bodies in 2D and 3D.
+//!
+//! Two or more linear elastic bodies touch, stick and slide. The interface obeys unilateral contact,
+//! normal compliance or a micro-contact law of rough surfaces, and a friction law; both are enforced by a
+//! penalty, a perturbed Lagrangian or an augmented Lagrangian. The starting point is
+//! [Pop 1995](references::pop_1995).
+//!
+//! A problem is plain data ([`problem::Problem`]), usually read from a TOML file. It is checked and built into
+//! a [`simulation::Simulation`], which runs and hands every accepted increment to its observers.
+//!
+//! The modules are layered; `ARCHITECTURE.md` at the root of the repository draws the map and
+//! `tests/layers.rs` holds the code to it.
+
+pub mod error;
+pub mod math;
+pub mod references;
+pub mod registry;
+
+pub mod material;
+pub mod shape;
+
+pub mod linear;
+pub mod mesh;
+
+pub mod system;
+
+pub mod body;
+pub mod contact;
+pub mod newton;
+
+pub mod io;
+pub mod time;
+
+pub mod simulation;
+
+pub mod problem;
+
+pub use error::{Diagnostic, Error};

@@ -1,0 +1,4 @@
+//! Sparse matrices and their solution.
+/// placeholder
+#[derive(Debug)]
+pub struct BlockCsr;

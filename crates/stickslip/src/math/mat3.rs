@@ -1,0 +1,64 @@
+use super::vec3::{Vec3, cross, dot};
+
+/// A 3×3 matrix, row by row.
+pub type Mat3 = [[f64; 3]; 3];
+
+/// The unit matrix.
+pub fn identity() -> Mat3 {
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+}
+
+/// `m v`
+#[inline]
+pub fn mat_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    [dot(m[0], v), dot(m[1], v), dot(m[2], v)]
+}
+
+/// `mᵀ v`
+#[inline]
+pub fn transpose_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    std::array::from_fn(|j| m[0][j] * v[0] + m[1][j] * v[1] + m[2][j] * v[2])
+}
+
+/// `a ⊗ b`
+#[inline]
+pub fn outer(a: Vec3, b: Vec3) -> Mat3 {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i] * b[j]))
+}
+
+/// Determinant.
+#[inline]
+pub fn determinant(m: &Mat3) -> f64 {
+    dot(m[0], cross(m[1], m[2]))
+}
+
+/// Inverse and determinant; `None` if the determinant is zero or not finite.
+pub fn inverse(m: &Mat3) -> Option<(Mat3, f64)> {
+    let d = determinant(m);
+    if d == 0.0 || !d.is_finite() {
+        return None;
+    }
+    let c0 = cross(m[1], m[2]);
+    let c1 = cross(m[2], m[0]);
+    let c2 = cross(m[0], m[1]);
+    Some((
+        std::array::from_fn(|i| [c0[i] / d, c1[i] / d, c2[i] / d]),
+        d,
+    ))
+}
+
+/// The rotation by `angle` [rad] about the unit vector `axis` (Rodrigues' formula).
+pub fn rotation(axis: Vec3, angle: f64) -> Mat3 {
+    let (s, c) = angle.sin_cos();
+    let skew = [
+        [0.0, -axis[2], axis[1]],
+        [axis[2], 0.0, -axis[0]],
+        [-axis[1], axis[0], 0.0],
+    ];
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            c * unit + s * skew[i][j] + (1.0 - c) * axis[i] * axis[j]
+        })
+    })
+}

@@ -1,0 +1,18 @@
+//! Small vectors and matrices. Plain arrays: a point is `[f64; 3]` in 2D as well, with `z = 0`.
+
+mod eigen;
+mod mat3;
+mod vec3;
+
+pub use eigen::symmetric_eigen;
+pub use mat3::{Mat3, determinant, identity, inverse, mat_vec, outer, rotation, transpose_vec};
+pub use vec3::{Vec3, add, add_scaled, cross, distance, dot, norm, normalize, scale, sub};
+
+/// A value and its derivative with respect to the one argument of the function it came from.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Slope {
+    /// The value.
+    pub value: f64,
+    /// Its derivative.
+    pub slope: f64,
+}

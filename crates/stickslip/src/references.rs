@@ -1,0 +1,35 @@
+//! The works this library rests on, one item each, so that a doc link to a source is checked by the compiler.
+#![allow(non_upper_case_globals)]
+
+/// A cited work.
+#[derive(Debug, Clone, Copy)]
+pub struct Reference(
+    /// Authors, title, place and year.
+    pub &'static str,
+);
+
+macro_rules! references {
+    ($($name:ident: $text:literal),+ $(,)?) => {
+        $(#[doc = $text] pub const $name: Reference = Reference($text);)+
+        /// All of them, for the bibliography.
+        pub const ALL: &[(&str, Reference)] = &[$((stringify!($name), $name)),+];
+    };
+}
+
+references! {
+    pop_1995: "N. Pop, A finite element method for frictional contact problems, Buletinul Științific al Universității din Baia Mare, Seria B, XI (1995) 89-104.",
+    oden_martins_1985: "J. T. Oden, J. A. C. Martins, Models and computational methods for dynamic friction phenomena, Computer Methods in Applied Mechanics and Engineering 52 (1985) 527-634.",
+    zavarise_1992: "G. Zavarise, P. Wriggers, E. Stein, B. A. Schrefler, Real contact mechanisms and finite element formulation: a coupled thermomechanical approach, International Journal for Numerical Methods in Engineering 35 (1992) 767-785.",
+    simo_laursen_1992: "J. C. Simo, T. A. Laursen, An augmented Lagrangian treatment of contact problems involving friction, Computers and Structures 42 (1992) 97-116.",
+    wriggers_2006: "P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer, 2006.",
+    laursen_2002: "T. A. Laursen, Computational Contact and Impact Mechanics, Springer, 2002.",
+    johnson_1985: "K. L. Johnson, Contact Mechanics, Cambridge University Press, 1985.",
+    taylor_papadopoulos_1991: "R. L. Taylor, P. Papadopoulos, On a patch test for contact problems in two dimensions, in: Nonlinear Computational Mechanics, Springer, 1991, 690-702.",
+    raous_1988: "M. Raous, P. Chabrand, F. Lebon, Numerical methods for frictional contact problems and applications, Journal de Mécanique Théorique et Appliquée 7 suppl. 1 (1988) 111-128.",
+    ssnv128: "Code_Aster V6.04.128, SSNV128: plaque avec contact et frottement sur un plan rigide.",
+    hughes_1980: "T. J. R. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, International Journal for Numerical Methods in Engineering 15 (1980) 1413-1418.",
+    karypis_kumar_1998: "G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM Journal on Scientific Computing 20 (1998) 359-392.",
+    saad_schultz_1986: "Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems, SIAM Journal on Scientific and Statistical Computing 7 (1986) 856-869.",
+    mindlin_deresiewicz_1953: "R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, Journal of Applied Mechanics 20 (1953) 327-344.",
+    klarbring_1990: "A. Klarbring, Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems with friction, Ingenieur-Archiv 60 (1990) 529-541.",
+}

@@ -1,0 +1,110 @@
+//! What contact forces write into: a residual by dof and dense tangent blocks.
+
+/// A dense tangent block of one contact point, with a symmetric positive semi-definite stand-in for the preconditioner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactBlock {
+    /// Global dofs.
+    pub dofs: Vec<usize>,
+    /// Tangent, row by row, shape `(n, n)`; unsymmetric where points slip.
+    pub tangent: Vec<f64>,
+    /// Symmetric positive semi-definite approximation of the tangent, same shape.
+    pub surrogate: Vec<f64>,
+}
+
+/// The multiplier rows of a point in a perturbed Lagrangian, to be eliminated: `n` displacement dofs, `m` multipliers.
+///
+/// ```text
+/// [ K_uu  K_ul ] [du]     [ r_u ]
+/// [ K_lu  K_ll ] [dl] = - [ r_l ]
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Saddle<'a> {
+    /// `(n, m)`, row by row.
+    pub k_ul: &'a [f64],
+    /// `(m, n)`, row by row.
+    pub k_lu: &'a [f64],
+    /// Inverse of `K_ll`, `(m, m)`, row by row.
+    pub k_ll_inverse: &'a [f64],
+    /// Residual of the multiplier rows, length `m`.
+    pub r_l: &'a [f64],
+}
+
+/// Collects the residual and the tangent blocks of contact forces.
+#[derive(Debug, Default)]
+pub struct Assembler {
+    /// Residual (internal minus external), by dof. For blocks with multipliers it holds the residual of the
+    /// displacement rows themselves, which is what convergence is judged by.
+    pub residual: Vec<f64>,
+    /// What condensing the multipliers adds to the right-hand side of the Newton system, `-K_ul K_ll⁻¹ r_l`.
+    pub condensed: Vec<f64>,
+    /// Largest multiplier-row residual, as a force, for the convergence test.
+    pub multiplier_residual: f64,
+    /// Tangent blocks; left empty when only a residual is wanted.
+    pub blocks: Vec<ContactBlock>,
+    /// Whether tangents are wanted.
+    pub wants_tangent: bool,
+}
+
+impl Assembler {
+    /// An empty assembler for `dofs` unknowns.
+    pub fn new(dofs: usize) -> Self {
+        Assembler {
+            residual: vec![0.0; dofs],
+            condensed: vec![0.0; dofs],
+            ..Default::default()
+        }
+    }
+
+    /// Empties it for a new evaluation.
+    pub fn reset(&mut self, wants_tangent: bool) {
+        self.residual.fill(0.0);
+        self.condensed.fill(0.0);
+        self.multiplier_residual = 0.0;
+        self.blocks.clear();
+        self.wants_tangent = wants_tangent;
+    }
+
+    /// Adds the residual of one point.
+    pub fn add_residual(&mut self, dofs: &[usize], residual: &[f64]) {
+        for (&dof, &r) in dofs.iter().zip(residual) {
+            self.residual[dof] += r;
+        }
+    }
+
+    /// Adds the tangent of one point, if tangents are wanted.
+    pub fn add_tangent(&mut self, dofs: &[usize], tangent: &[f64], surrogate: &[f64]) {
+        if self.wants_tangent {
+            self.blocks.push(ContactBlock {
+                dofs: dofs.to_vec(),
+                tangent: tangent.to_vec(),
+                surrogate: surrogate.to_vec(),
+            });
+        }
+    }
+
+    /// Adds the condensed form of a point with multipliers: `tangent` is `K_uu` and becomes the Schur complement.
+    pub fn add_saddle(
+        &mut self,
+        dofs: &[usize],
+        tangent: &mut [f64],
+        surrogate: &[f64],
+        saddle: Saddle,
+    ) {
+        let n = dofs.len();
+        let m = saddle.r_l.len();
+        // a = K_ul K_ll⁻¹
+        let mut a = [0.0; 3];
+        for i in 0..n {
+            for (q, aq) in a.iter_mut().enumerate().take(m) {
+                *aq = (0..m)
+                    .map(|p| saddle.k_ul[i * m + p] * saddle.k_ll_inverse[p * m + q])
+                    .sum();
+            }
+            for (j, t) in tangent[i * n..(i + 1) * n].iter_mut().enumerate() {
+                *t -= (0..m).map(|q| a[q] * saddle.k_lu[q * n + j]).sum::<f64>();
+            }
+            self.condensed[dofs[i]] -= (0..m).map(|q| a[q] * saddle.r_l[q]).sum::<f64>();
+        }
+        self.add_tangent(dofs, tangent, surrogate);
+    }
+}

@@ -1,0 +1,36 @@
+/// The numbering of unknowns: `dim` displacements a point, point by point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dofs {
+    /// Displacements a point: 2 or 3.
+    pub dim: usize,
+    /// Number of points.
+    pub points: usize,
+}
+
+impl Dofs {
+    /// The dof of `component` (0 = x) at `point`.
+    #[inline]
+    pub fn of(&self, point: usize, component: usize) -> usize {
+        point * self.dim + component
+    }
+
+    /// Number of dofs.
+    #[inline]
+    pub fn count(&self) -> usize {
+        self.dim * self.points
+    }
+
+    /// The point and component of a dof.
+    #[inline]
+    pub fn locate(&self, dof: usize) -> (usize, usize) {
+        (dof / self.dim, dof % self.dim)
+    }
+
+    /// The vector at `point` in a dof vector, with a zero third component in 2D.
+    #[inline]
+    pub fn vector(&self, values: &[f64], point: usize) -> [f64; 3] {
+        let mut v = [0.0; 3];
+        v[..self.dim].copy_from_slice(&values[point * self.dim..(point + 1) * self.dim]);
+        v
+    }
+}

@@ -1,0 +1,74 @@
+use std::fmt;
+
+/// Why a step could not be taken.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// Newton's iteration did not converge.
+    NotConverged,
+    /// Something became NaN or infinite.
+    NotFinite,
+    /// The matrix is singular: a body can move freely.
+    Singular,
+    /// The linear solver did not reach its tolerance.
+    LinearSolver,
+    /// A cell is inverted or collapsed.
+    CollapsedCell,
+    /// Two successive solutions are too far apart.
+    TooFar,
+}
+
+/// A place to look at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Culprit {
+    /// What and where: `point 17 of base at (0.1, 0, 0)`.
+    pub place: String,
+    /// What it did: `open → slip → open, gap 1.2e-6, force 3.1`.
+    pub what: String,
+}
+
+impl fmt::Display for Culprit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.what)
+    }
+}
+
+/// A step that could not be taken: why, who, and what to try. The stepper cuts back or gives up with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepFailure {
+    /// The kind of failure.
+    pub cause: Cause,
+    /// In a sentence.
+    pub message: String,
+    /// Where to look, most guilty first.
+    pub culprits: Vec<Culprit>,
+    /// What to try.
+    pub help: Option<String>,
+}
+
+impl StepFailure {
+    /// A failure without places.
+    pub fn new(cause: Cause, message: impl Into<String>) -> Self {
+        StepFailure {
+            cause,
+            message: message.into(),
+            culprits: Vec::new(),
+            help: None,
+        }
+    }
+
+    /// Adds what to try.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// As the error that ends a run at time `t`.
+    pub fn at(self, t: f64) -> crate::error::RunError {
+        crate::error::RunError {
+            message: self.message,
+            time: t,
+            culprits: self.culprits.iter().map(Culprit::to_string).collect(),
+            help: self.help,
+        }
+    }
+}

@@ -1,0 +1,134 @@
+use super::{Assembler, Fields, StepFailure};
+
+/// Displacement, velocity and acceleration of all dofs at a time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct State {
+    /// Time.
+    pub t: f64,
+    /// Displacements, by dof.
+    pub u: Vec<f64>,
+    /// Velocities, by dof; empty in a quasi-static analysis.
+    pub v: Vec<f64>,
+    /// Accelerations, by dof; empty in a quasi-static analysis.
+    pub a: Vec<f64>,
+}
+
+/// An evaluation: from the last accepted state to the state at which forces are wanted.
+#[derive(Debug, Clone, Copy)]
+pub struct Stage<'a> {
+    /// Last accepted state.
+    pub from: &'a State,
+    /// State of evaluation.
+    pub at: &'a State,
+    /// `at.t - from.t`, positive.
+    pub dt: f64,
+}
+
+/// On which side of the seam a force stands: bulk is assembled and factored once, contact in every iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Bodies and everything attached to them.
+    Bulk,
+    /// Interfaces.
+    Contact,
+}
+
+/// The outcome of a multiplier update between two equilibrium solves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Augmentation {
+    /// Nothing changed: the constraint holds to the stated error.
+    Done,
+    /// Multipliers changed; solve again. The worst error relative to its limit is given.
+    Again(f64),
+}
+
+/// Energies of one force [energy]; `dissipated` and `work` are totals since the start of the analysis.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Energy {
+    /// Recoverable energy stored now.
+    pub stored: f64,
+    /// Energy dissipated since the start, never falling.
+    pub dissipated: f64,
+    /// Work done by this force on the bodies since the start, for loads and moving obstacles or belts.
+    pub work: f64,
+}
+
+/// Anything that acts on the degrees of freedom: elasticity, loads, springs, interfaces.
+///
+/// The equilibrium equation is `Σ residual = 0` with the residual counted as *internal minus external* force.
+/// A force is evaluated from **committed** history only; a rejected attempt simply never calls [`commit`](Force::commit).
+pub trait Force: Send {
+    /// Name for messages and histories.
+    fn name(&self) -> &str;
+
+    /// Bulk or contact.
+    fn role(&self) -> Role {
+        Role::Bulk
+    }
+
+    /// Points whose dofs this force couples, group by group (every pair in a group is coupled). Union over candidates.
+    fn couplings(&self, _visit: &mut dyn FnMut(&[usize])) {}
+
+    /// Adds the constant tangent of a bulk force to the matrix. Called once: the bulk of stickslip is linear.
+    fn stiffness(&self, _matrix: &mut crate::linear::BlockCsr) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
+    /// Adds the external force of a load at time `t` to `out`, by dof.
+    fn external(&self, _t: f64, _out: &mut [f64]) {}
+
+    /// Search and pairing at a state of iteration; contact only.
+    fn prepare(&mut self, _stage: &Stage) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
+    /// Starts an attempt: trial history := committed.
+    fn begin(&mut self) {}
+
+    /// Residual and tangent of a contact force, from committed history.
+    fn assemble(&mut self, _stage: &Stage, _out: &mut Assembler) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
+    /// Tells a force with unknowns of its own (multipliers) the Newton increment `step · du` that was accepted.
+    fn update_internal(&mut self, _du: &[f64], _step: f64) {}
+
+    /// Multiplier update between equilibrium solves.
+    fn augment(&mut self, _stage: &Stage) -> Augmentation {
+        Augmentation::Done
+    }
+
+    /// Accepts the attempt: committed history := trial.
+    fn commit(&mut self, _stage: &Stage) {}
+
+    /// Energies at the last committed state.
+    fn energy(&self) -> Energy {
+        Energy::default()
+    }
+
+    /// Adds named output fields of the last committed state.
+    fn fields(&self, _state: &State, _out: &mut Fields) {}
+
+    /// How many points changed status between the last two assemblies, and a short tally for the log.
+    fn tally(&self) -> Option<Tally> {
+        None
+    }
+
+    /// For contact forces that have become difficult: which points, and what they did.
+    fn diagnose(&self) -> Vec<super::Culprit> {
+        Vec::new()
+    }
+}
+
+/// Counts of contact points by status.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Tally {
+    /// Not in contact.
+    pub open: usize,
+    /// In contact without slip.
+    pub stick: usize,
+    /// In contact and sliding.
+    pub slip: usize,
+    /// Points whose status differs from the evaluation before.
+    pub changed: usize,
+}

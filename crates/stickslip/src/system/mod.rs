@@ -1,0 +1,19 @@
+//! What is common to all forces: state, degrees of freedom, the [`Force`] trait, assembly, constraints, amplitudes.
+
+mod amplitude;
+mod assembler;
+mod constraints;
+mod dofs;
+mod failure;
+mod fields;
+mod force;
+mod schedule;
+
+pub use amplitude::{Amplitude, AmplitudeError};
+pub use assembler::{Assembler, ContactBlock, Saddle};
+pub use constraints::Constraints;
+pub use dofs::Dofs;
+pub use failure::{Cause, Culprit, StepFailure};
+pub use fields::{Field, Fields, Location};
+pub use force::{Augmentation, Energy, Force, Role, Stage, State, Tally};
+pub use schedule::{Course, Piece, Schedule};
