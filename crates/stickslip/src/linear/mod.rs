@@ -1,4 +1,9 @@
-//! Sparse matrices and their solution.
-/// placeholder
-#[derive(Debug)]
-pub struct BlockCsr;
+//! Sparse matrices and the solution of linear systems.
+
+mod block_csr;
+mod pattern;
+#[cfg(test)]
+mod testing;
+
+pub use block_csr::BlockCsr;
+pub use pattern::Couplings;
