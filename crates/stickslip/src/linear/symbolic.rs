@@ -11,8 +11,9 @@ pub(super) const FIXED: u32 = u32::MAX;
 
 /// Where the entries of a Cholesky factor are, for one pattern and one set of fixed dofs.
 ///
-/// The points are ordered by nested dissection of their coupling graph (METIS), which leaves a third of the work
-/// of a minimum-degree ordering of the dofs; the free dofs of a point follow each other.
+/// The points are ordered by nested dissection of their coupling graph
+/// ([Karypis and Kumar 1998](crate::references::karypis_kumar_1998)), which in 3D leaves a third of the work of a
+/// minimum-degree ordering of the dofs. The free dofs of a point follow each other.
 #[derive(Debug)]
 pub struct Symbolic {
     /// The dof eliminated at each step.
