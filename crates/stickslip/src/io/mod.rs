@@ -2,4 +2,10 @@
 //!
 //! This module knows meshes and named fields, never what they mean.
 
+mod atomic;
+pub mod csv;
 pub mod gmsh;
+pub mod pvd;
+pub mod vtu;
+
+pub use atomic::write_atomically;
