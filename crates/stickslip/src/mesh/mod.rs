@@ -1,5 +1,14 @@
 //! Meshes: points, blocks of cells of one kind, named sets, boundary, generators.
 
+mod boundary;
+mod check;
+mod combine;
+pub mod generators;
+mod geometry;
+mod select;
+
+pub use combine::Appended;
+
 use std::collections::BTreeMap;
 
 use crate::math::Vec3;
