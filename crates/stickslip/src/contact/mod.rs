@@ -1,1 +1,16 @@
-//! contact
+//! Contact: surface → search → pairing → kinematics → law → enforcement → interface.
+//!
+//! | stage | file | knows |
+//! |---|---|---|
+//! | surface | `surface.rs` | points of the secondary with their areas, facets of the primary |
+//! | obstacle | `obstacle/` | rigid shapes and their motion |
+//! | search | `search.rs` | which facets a point may meet |
+//! | pairing | `pairing.rs` | the projection of a point on a facet |
+//! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
+//! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
+//! | response | `response.rs` | traction and its derivatives in the frame of the stencil |
+//! | interface | `interface.rs` | the only place that scatters into residual and tangent |
+
+pub mod enforcement;
+pub mod law;
+pub mod obstacle;

@@ -1,0 +1,114 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{SlipRule, SlipState, Tangential};
+use crate::contact::law::normal::positive;
+use crate::registry::Samples;
+
+/// The smooth friction of [Pop 1995](crate::references::pop_1995), eq. (14)-(20): `t = -limit φ_ε(w)` with the sliding velocity
+/// `w = slip / dt`.
+///
+/// It never quite sticks: under a steady shear `q` below the limit `T` the interface creeps at
+/// `ε (1 - √(1 - q/T))`. In a quasi-static analysis "velocity" is slip per unit of the problem's time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Regularised {
+    /// Velocity ε [m/s] above which the full limit acts.
+    pub epsilon: f64,
+}
+
+/// `ψ_ε(ξ)` of eq. (19), for `ξ ≥ 0`: the potential of [`phi`].
+pub fn psi(epsilon: f64, xi: f64) -> f64 {
+    if xi <= epsilon {
+        let r = xi / epsilon;
+        epsilon * r * r * (1.0 - r / 3.0)
+    } else {
+        xi - epsilon / 3.0
+    }
+}
+
+/// `|φ_ε(ξ)|` of eq. (20) and its derivative, for `ξ ≥ 0`.
+pub fn phi(epsilon: f64, xi: f64) -> (f64, f64) {
+    if xi <= epsilon {
+        let r = xi / epsilon;
+        ((2.0 - r) * r, 2.0 * (1.0 - r) / epsilon)
+    } else {
+        (1.0, 0.0)
+    }
+}
+
+impl SlipRule for Regularised {
+    fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
+        let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
+        let speed = motion.length(w);
+        let (value, slope) = phi(self.epsilon, speed);
+        // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
+        let f = if speed <= self.epsilon {
+            (2.0 - speed / self.epsilon) / self.epsilon
+        } else {
+            value / speed
+        };
+        let phi_vector = [f * w[0], f * w[1]];
+        let mut state = SlipState {
+            traction: [-limit * phi_vector[0], -limit * phi_vector[1]],
+            d_limit: [-phi_vector[0], -phi_vector[1]],
+            d_slip: [[-limit * f / motion.dt, 0.0], [0.0, -limit * f / motion.dt]],
+            sliding: speed > self.epsilon,
+            sliding_path: motion.slip,
+            ..SlipState::default()
+        };
+        if speed > 0.0 {
+            // df/d|w| = (φ' - f)/|w|
+            let df = (slope - f) / speed;
+            let toward = motion.length_slope(w, speed);
+            let d_speed = w[0] * w[1] / speed;
+            for i in 0..2 {
+                for (j, toward) in toward.iter().enumerate() {
+                    state.d_slip[i][j] -= limit * w[i] * df * toward / motion.dt;
+                }
+                state.d_skew[i] = -limit * w[i] * df * d_speed;
+            }
+        }
+        state
+    }
+
+    fn sticks(&self) -> bool {
+        false
+    }
+
+    fn faults(&self) -> Vec<(&'static str, String)> {
+        positive("epsilon", self.epsilon).into_iter().collect()
+    }
+}
+
+impl Samples for Regularised {
+    fn samples() -> Vec<Self> {
+        vec![Regularised { epsilon: 1.0 }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reproduces_the_table() {
+        // THEORY A3, ε = 1
+        let table = [
+            (0.1, 0.19, 0.009_666_7),
+            (0.25, 0.4375, 0.057_291_7),
+            (0.5, 0.75, 0.208_333_3),
+            (0.75, 0.9375, 0.421_875),
+            (1.0, 1.0, 0.666_666_7),
+            (2.0, 1.0, 1.666_666_7),
+        ];
+        for (xi, f, p) in table {
+            assert!((phi(1.0, xi).0 - f).abs() < 1e-12, "{xi}");
+            assert!((psi(1.0, xi) - p).abs() < 5e-8, "{xi}");
+            let h = 1e-6;
+            let slope = (psi(1.0, xi + h) - psi(1.0, xi - h)) / (2.0 * h);
+            assert!((slope - f).abs() < 1e-6);
+            assert!(xi - psi(1.0, xi) <= 1.0 / 3.0 + 1e-15);
+        }
+    }
+}
