@@ -89,6 +89,16 @@ impl Document {
         }
     }
 
+    /// Where the text departs from the schema, without places.
+    pub(super) fn departures(&self) -> Vec<Diagnostic> {
+        let findings = self
+            .tree()
+            .map(|tree| structure::check(schema::shared(), tree.get_ref()));
+        let mut findings = findings.unwrap_or_else(|findings| findings);
+        findings.iter_mut().for_each(|f| f.span = None);
+        findings
+    }
+
     fn tree(&self) -> Result<Spanned<Table<'_>>, Vec<Diagnostic>> {
         let (mut tree, errors) = Table::parse_recoverable(&self.source);
         let mut findings: Vec<Diagnostic> = errors.iter().map(syntax).collect();

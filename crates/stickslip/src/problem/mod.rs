@@ -8,11 +8,14 @@
 //! findings of a stage are reported at once (see [`Document::problem`]).
 
 mod amplitude;
+mod body;
 mod check;
 mod document;
+mod interface;
 mod key;
 mod model;
 mod nearest;
+mod obstacle;
 mod output;
 mod overrides;
 mod probe;
@@ -31,10 +34,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Diagnostic, Error, ProblemError};
+use crate::material::Material;
 
 pub use amplitude::AmplitudeTable;
+pub use body::{Body, Formulation, GmshFile, MeshSource};
 pub use document::Document;
+pub use interface::{FacetShape, Interface};
 pub use model::{Model, Space};
+pub use obstacle::Obstacle;
 pub use output::Output;
 pub use probe::{Probe, Probed};
 pub use schema::schema;
@@ -60,9 +67,20 @@ pub struct Problem {
     pub title: Option<String>,
     /// The space in which the bodies live.
     pub model: Model,
+    /// Elastic bodies, by name.
+    pub body: BTreeMap<String, Body>,
+    /// Materials, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub material: BTreeMap<String, Material>,
+    /// Rigid obstacles, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub obstacle: BTreeMap<String, Obstacle>,
     /// Sets chosen by geometry, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub set: BTreeMap<String, Set>,
+    /// Pairs of surfaces that may touch, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub interface: BTreeMap<String, Interface>,
     /// Prescribed displacements, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub support: BTreeMap<String, Support>,
@@ -115,12 +133,17 @@ impl Problem {
         })
     }
 
-    /// The rules that bind tables to each other and values to their ranges: names that exist, vectors of the right
+    /// The rules for single values, and those that bind tables to each other: names that exist, vectors of the right
     /// length, times that increase. What only a mesh can tell (whether it has a set) is found when the problem is
     /// built.
     ///
     /// The findings carry keys but no places; [`Document::error`] adds them.
     pub fn check(&self) -> Vec<Diagnostic> {
-        check::check(self)
+        let mut findings = match self.to_toml() {
+            Ok(text) => Document::new(text, None).departures(),
+            Err(e) => e.findings,
+        };
+        findings.extend(check::check(self));
+        findings
     }
 }

@@ -1,5 +1,0 @@
-use super::Problem;
-use crate::error::Diagnostic;
-pub(super) fn check(_p: &Problem) -> Vec<Diagnostic> {
-    Vec::new()
-}
