@@ -5,37 +5,13 @@ use crate::math::{Mat3, Vec3, inverse};
 use crate::mesh::Block;
 use crate::shape::{ElementKind, QuadraturePoint};
 
-/// Six points in a triangle, exact for polynomials of degree 4: two orbits of three points
-/// ([`dunavant_1985`](crate::references::dunavant_1985), table II).
-static TRIANGLE_SIX: [QuadraturePoint; 6] = {
-    const A: f64 = 0.445_948_490_915_964_9;
-    const B: f64 = 0.091_576_213_509_770_74;
-    const WA: f64 = 0.5 * 0.223_381_589_678_011_47;
-    const WB: f64 = 0.5 * 0.109_951_743_655_321_87;
-    const fn at(x: f64, y: f64, weight: f64) -> QuadraturePoint {
-        QuadraturePoint {
-            xi: [x, y, 0.0],
-            weight,
-        }
-    }
-    [
-        at(A, A, WA),
-        at(1.0 - 2.0 * A, A, WA),
-        at(A, 1.0 - 2.0 * A, WA),
-        at(B, B, WB),
-        at(1.0 - 2.0 * B, B, WB),
-        at(B, 1.0 - 2.0 * B, WB),
-    ]
-};
-
-/// The rule for integrals over a cell: that of the reference element, but finer in triangles turned about an axis.
+/// The rule for integrals over a cell.
 ///
-/// There the hoop strain and the radius raise the degree of the integrand. With its one point a tri3 would have a mode
-/// without energy besides its rigid one, and so would a tri6 with three points and mean dilatation.
+/// A tri3 turned about an axis gets the three points of tri6: with one, the ring would have a mode without energy
+/// besides its rigid one, and `∫ N r` would be off.
 pub(super) fn cell_rule(kind: ElementKind, space: Space) -> &'static [QuadraturePoint] {
     match (kind, space) {
         (ElementKind::Tri3, Space::Axisymmetric) => ElementKind::Tri6.reference().quadrature(),
-        (ElementKind::Tri6, Space::Axisymmetric) => &TRIANGLE_SIX,
         _ => kind.reference().quadrature(),
     }
 }
@@ -184,23 +160,3 @@ macro_rules! by_nodes {
     };
 }
 pub(super) use by_nodes;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn six_points_are_exact_to_degree_four() {
-        let factorial = |n: i32| (1..=n).product::<i32>() as f64;
-        for i in 0..=4 {
-            for j in 0..=4 - i {
-                let sum: f64 = TRIANGLE_SIX
-                    .iter()
-                    .map(|q| q.weight * q.xi[0].powi(i) * q.xi[1].powi(j))
-                    .sum();
-                let exact = factorial(i) * factorial(j) / factorial(i + j + 2);
-                assert!((sum - exact).abs() < 1e-15, "{i} {j}");
-            }
-        }
-    }
-}
