@@ -20,9 +20,9 @@ use crate::system::{Energy, Fields, Force, Stage, State, StepFailure};
 pub struct Part {
     /// Index into [`Mesh::blocks`].
     pub block: usize,
-    /// Stiffness in space [Pa], checked (see [`Elasticity::stiffness`](crate::material::Elasticity::stiffness)).
+    /// Stiffness in space `[Pa]`, checked (see [`Elasticity::stiffness`](crate::material::Elasticity::stiffness)).
     pub stiffness: Stiffness,
-    /// Mass per volume [kg/m³].
+    /// Mass per volume `[kg/m³]`.
     pub density: f64,
 }
 
@@ -140,7 +140,7 @@ impl Elastic {
         &self.points
     }
 
-    /// The largest stiffness against strain in one direction alone [Pa] in the cells of `block`, as the material acts
+    /// The largest stiffness against strain in one direction alone `[Pa]` in the cells of `block`, as the material acts
     /// in the body's space; `None` if the block is not part of this body. Penalties are multiples of it over a length.
     pub fn constrained_modulus(&self, block: usize) -> Option<f64> {
         let i = self.parts.iter().position(|p| p.block == block)?;

@@ -11,7 +11,7 @@ pub(super) struct FacetPoint<'a> {
     pub points: &'a [usize],
     /// Shape functions there.
     pub values: &'a [f64],
-    /// Area it stands for [m²], with thickness or circumference.
+    /// Area it stands for `[m²]`, with thickness or circumference.
     pub area: f64,
     /// Unit normal out of the body.
     pub normal: Vec3,
@@ -76,7 +76,7 @@ pub(super) fn combine(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     out
 }
 
-/// The area `∫ N_i dA` [m²] that belongs to each point of the facets, points ascending; thickness or circumference
+/// The area `∫ N_i dA` `[m²]` that belongs to each point of the facets, points ascending; thickness or circumference
 /// included.
 ///
 /// These are the weights that make a constant pressure consistent. For quadratic facets in space they are not
@@ -91,7 +91,7 @@ pub fn tributary_areas(mesh: &Mesh, facets: &[FacetRef], space: Space) -> Vec<(u
     combine(entries)
 }
 
-/// The area of each facet divided among its points in the proportion of `∫ N_i² dA` [m²], points ascending.
+/// The area of each facet divided among its points in the proportion of `∫ N_i² dA` `[m²]`, points ascending.
 ///
 /// Positive for every kind of facet, and with the same sum as [`tributary_areas`]; a constant pressure is not
 /// represented exactly on quadratic facets.

@@ -11,7 +11,7 @@ fn von_mises(s: &[f64]) -> f64 {
 }
 
 impl Elastic {
-    /// Stress at the body's points [Pa], six components each, in the order of [`points`](Elastic::points): taken from
+    /// Stress at the body's points `[Pa]`, six components each, in the order of [`points`](Elastic::points): taken from
     /// the quadrature points to the nodes of each cell by a least-squares fit of the order of the linear element, then
     /// averaged over the cells of this body that meet at the point. Different materials that share points are averaged
     /// too.
@@ -45,8 +45,8 @@ impl Elastic {
             .collect()
     }
 
-    /// Adds `S` (points, six components, [Pa]), `MISES` (points, [Pa]), `SENER` (cells, strain energy per volume
-    /// [J/m³]) and `ELSE` (cells, strain energy [J]).
+    /// Adds `S` (points, six components, `[Pa]`), `MISES` (points, `[Pa]`), `SENER` (cells, strain energy per volume
+    /// `[J/m³]`) and `ELSE` (cells, strain energy `[J]`).
     ///
     /// `MISES` is that of the averaged stress. Other bodies' points and cells keep what is there, zero at first.
     pub(super) fn add_fields(&self, state: &State, out: &mut Fields) {

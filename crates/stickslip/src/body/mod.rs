@@ -1,5 +1,8 @@
 //! Elastic bodies: element loops, stresses, loads, springs, rigid-body modes.
 
+// Tensor components and nodes read best by their indices.
+#![allow(clippy::needless_range_loop)]
+
 mod elastic;
 mod extrapolate;
 mod facets;

@@ -29,7 +29,7 @@ pub(super) struct Term {
     pub j: usize,
     /// Index `3 k + l` of the product of derivatives.
     pub kl: usize,
-    /// Factor [Pa].
+    /// Factor `[Pa]`.
     pub value: f64,
 }
 

@@ -12,13 +12,13 @@ use crate::system::Dofs;
 pub struct StressPoint {
     /// The cell.
     pub cell: CellRef,
-    /// Place in space [m].
+    /// Place in space `[m]`.
     pub x: [f64; 3],
-    /// Volume it stands for [m³].
+    /// Volume it stands for `[m³]`.
     pub volume: f64,
     /// Strain xx yy zz xy yz xz, shear strains as engineering strains; in plane stress zz is not filled in.
     pub strain: [f64; 6],
-    /// Stress xx yy zz xy yz xz [Pa].
+    /// Stress xx yy zz xy yz xz `[Pa]`.
     pub stress: [f64; 6],
 }
 
@@ -196,7 +196,7 @@ impl Elastic {
         );
     }
 
-    /// Adds the internal force at the displacements `u` [m] to `out` [N], both by dof of the whole mesh.
+    /// Adds the internal force at the displacements `u` `[m]` to `out` `[N]`, both by dof of the whole mesh.
     pub fn internal_force(&self, u: &[f64], out: &mut [f64]) {
         for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
@@ -246,7 +246,7 @@ impl Elastic {
         all
     }
 
-    /// The strain energy at the displacements `u` [m], by dof of the whole mesh [J].
+    /// The strain energy at the displacements `u` `[m]`, by dof of the whole mesh `[J]`.
     pub fn strain_energy(&self, u: &[f64]) -> f64 {
         (0..self.parts.len())
             .map(|part| {
@@ -258,7 +258,7 @@ impl Elastic {
             .sum()
     }
 
-    /// The volume of the body [m³], with its thickness or all around its axis.
+    /// The volume of the body `[m³]`, with its thickness or all around its axis.
     pub fn volume(&self) -> f64 {
         let rest = vec![0.0; self.dofs().count()];
         (0..self.parts.len())
@@ -271,7 +271,7 @@ impl Elastic {
             .sum()
     }
 
-    /// Stress and strain at every quadrature point at the displacements `u` [m]; parts, cells and points in order.
+    /// Stress and strain at every quadrature point at the displacements `u` `[m]`; parts, cells and points in order.
     pub fn stress_at_quadrature(&self, u: &[f64]) -> Vec<StressPoint> {
         let mut all = Vec::new();
         for (part, p) in self.parts.iter().enumerate() {

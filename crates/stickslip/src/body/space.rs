@@ -7,12 +7,12 @@ use crate::mesh::Mesh;
 pub enum Space {
     /// Two dimensions, no strain across the plane.
     PlaneStrain {
-        /// Extent across the plane [m].
+        /// Extent across the plane `[m]`.
         thickness: f64,
     },
     /// Two dimensions, no stress across the plane.
     PlaneStress {
-        /// Extent across the plane [m].
+        /// Extent across the plane `[m]`.
         thickness: f64,
     },
     /// Two dimensions turned about the y axis: x is the radius. Integrals run over the full `2π`, forces are those of
@@ -50,7 +50,7 @@ impl Space {
         }
     }
 
-    /// What an integral over the mesh is multiplied by at `x` to become one over the body: thickness [m], `2π r` [m]
+    /// What an integral over the mesh is multiplied by at `x` to become one over the body: thickness `[m]`, `2π r` `[m]`
     /// or 1.
     #[inline]
     pub fn extent(&self, x: Vec3) -> f64 {
@@ -109,7 +109,7 @@ impl Space {
             Space::Axisymmetric => {
                 // Meshes made by transformations put points of the axis a rounding error beside it.
                 let size = mesh.points.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()));
-                if let Some(i) = mesh.points.iter().position(|p| !(p[0] >= -1e-12 * size)) {
+                if let Some(i) = mesh.points.iter().position(|p| p[0] < -1e-12 * size) {
                     return Err(Diagnostic::new(
                         "space",
                         format!(

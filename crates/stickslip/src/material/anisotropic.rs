@@ -8,11 +8,11 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Anisotropic {
-    /// The stiffness [Pa], stresses and engineering strains in the order xx yy zz xy yz xz: six rows of six, or a
+    /// The stiffness `[Pa]`, stresses and engineering strains in the order xx yy zz xy yz xz: six rows of six, or a
     /// list of 36 numbers (row by row), of 21 (the upper triangle, row by row), or of 81 (`a_ijkl`, the last index
     /// fastest).
     pub stiffness: Entries,
-    /// Mass per volume [kg/m³]; needed for gravity and dynamics only.
+    /// Mass per volume `[kg/m³]`; needed for gravity and dynamics only.
     #[serde(default)]
     pub density: f64,
 }

@@ -18,7 +18,7 @@ pub struct MaterialError {
     pub parameter: String,
     /// What is wrong, in a sentence without a final stop.
     pub message: String,
-    /// Smallest eigenvalue of the stiffness in Mandel's scaling [Pa], where that is what is wrong.
+    /// Smallest eigenvalue of the stiffness in Mandel's scaling `[Pa]`, where that is what is wrong.
     pub smallest_eigenvalue: Option<f64>,
     /// What to do about it.
     pub help: Option<String>,
@@ -35,7 +35,7 @@ impl MaterialError {
         }
     }
 
-    /// Adds the smallest eigenvalue [Pa].
+    /// Adds the smallest eigenvalue `[Pa]`.
     pub fn eigenvalue(mut self, value: f64) -> Self {
         self.smallest_eigenvalue = Some(value);
         self
@@ -96,7 +96,7 @@ fn mandel(c: &Stiffness) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The largest `c` in `a_ijkl ξ_ij ξ_kl ≥ c |ξ|²` [Pa], the smallest eigenvalue of the tensor.
+/// The largest `c` in `a_ijkl ξ_ij ξ_kl ≥ c |ξ|²` `[Pa]`, the smallest eigenvalue of the tensor.
 pub fn smallest_eigenvalue(c: &Stiffness) -> f64 {
     symmetric_eigen(&mandel(c)).0[0]
 }

@@ -6,17 +6,17 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Isotropic {
-    /// Young's modulus [Pa], positive.
+    /// Young's modulus `[Pa]`, positive.
     pub young: f64,
-    /// Poisson's ratio [1], between -1 and 0.5, bounds excluded.
+    /// Poisson's ratio `[1]`, between -1 and 0.5, bounds excluded.
     pub poisson: f64,
-    /// Mass per volume [kg/m³]; needed for gravity and dynamics only.
+    /// Mass per volume `[kg/m³]`; needed for gravity and dynamics only.
     #[serde(default)]
     pub density: f64,
 }
 
 impl Isotropic {
-    /// Lamé's constants `(λ, μ)` [Pa], unchecked.
+    /// Lamé's constants `(λ, μ)` `[Pa]`, unchecked.
     pub fn lame(&self) -> (f64, f64) {
         let (e, nu) = (self.young, self.poisson);
         (

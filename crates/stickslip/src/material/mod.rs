@@ -3,6 +3,9 @@
 //! Stresses and strains are 6-vectors in the order xx yy zz xy yz xz; shear strains are engineering strains
 //! (`γ_xy = 2 ε_xy`), so that `σ = C ε` with the same `C` that handbooks print.
 
+// Tensor components read best by their indices.
+#![allow(clippy::needless_range_loop)]
+
 mod anisotropic;
 mod check;
 mod isotropic;
@@ -15,7 +18,7 @@ pub use isotropic::Isotropic;
 pub use orthotropic::Orthotropic;
 pub use reduce::{constrained_modulus, plane_stress};
 
-/// A 6×6 stiffness [Pa], row by row, in the order of this module.
+/// A 6×6 stiffness `[Pa]`, row by row, in the order of this module.
 pub type Stiffness = [[f64; 6]; 6];
 
 /// The Voigt index of the tensor component `(i, j)`.
@@ -23,16 +26,16 @@ pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// A linear elastic material.
 pub trait Elasticity {
-    /// The stiffness [Pa], checked: symmetric and positive definite.
+    /// The stiffness `[Pa]`, checked: symmetric and positive definite.
     ///
     /// # Errors
     /// Names the parameter at fault and, where the tensor is not elliptic, its smallest eigenvalue.
     fn stiffness(&self) -> Result<Stiffness, MaterialError>;
 
-    /// Mass per volume [kg/m³].
+    /// Mass per volume `[kg/m³]`.
     fn density(&self) -> f64;
 
-    /// A modulus [Pa] by which other quantities are made dimensionless: the largest constrained modulus
+    /// A modulus `[Pa]` by which other quantities are made dimensionless: the largest constrained modulus
     /// (uniaxial strain), see [`constrained_modulus`].
     ///
     /// # Errors

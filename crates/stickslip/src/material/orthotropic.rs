@@ -10,28 +10,28 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Orthotropic {
-    /// Young's modulus along axis 1 [Pa].
+    /// Young's modulus along axis 1 `[Pa]`.
     pub e1: f64,
-    /// Young's modulus along axis 2 [Pa].
+    /// Young's modulus along axis 2 `[Pa]`.
     pub e2: f64,
-    /// Young's modulus along axis 3 [Pa].
+    /// Young's modulus along axis 3 `[Pa]`.
     pub e3: f64,
-    /// Poisson's ratio [1]: contraction along 2 under stress along 1.
+    /// Poisson's ratio `[1]`: contraction along 2 under stress along 1.
     pub nu12: f64,
-    /// Poisson's ratio [1]: contraction along 3 under stress along 1.
+    /// Poisson's ratio `[1]`: contraction along 3 under stress along 1.
     pub nu13: f64,
-    /// Poisson's ratio [1]: contraction along 3 under stress along 2.
+    /// Poisson's ratio `[1]`: contraction along 3 under stress along 2.
     pub nu23: f64,
-    /// Shear modulus in the plane 1-2 [Pa].
+    /// Shear modulus in the plane 1-2 `[Pa]`.
     pub g12: f64,
-    /// Shear modulus in the plane 1-3 [Pa].
+    /// Shear modulus in the plane 1-3 `[Pa]`.
     pub g13: f64,
-    /// Shear modulus in the plane 2-3 [Pa].
+    /// Shear modulus in the plane 2-3 `[Pa]`.
     pub g23: f64,
-    /// Mass per volume [kg/m³]; needed for gravity and dynamics only.
+    /// Mass per volume `[kg/m³]`; needed for gravity and dynamics only.
     #[serde(default)]
     pub density: f64,
-    /// Directions of the axes 1 and 2 in space [1]; they are normalised, and axis 2 is made orthogonal to axis 1.
+    /// Directions of the axes 1 and 2 in space `[1]`; they are normalised, and axis 2 is made orthogonal to axis 1.
     /// Without it the axes are x, y, z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axes: Option<[Vec3; 2]>,
@@ -49,11 +49,9 @@ impl Orthotropic {
         };
         let first = normalize(a).ok_or_else(error)?;
         let across = add_scaled(b, -dot(first, b), first);
-        // Not `<`: a NaN must fail.
-        if !(norm(across) > 1e-6 * norm(b)) {
-            return Err(error());
-        }
-        let second = normalize(across).ok_or_else(error)?;
+        let second = normalize(across)
+            .filter(|_| norm(across) > 1e-6 * norm(b))
+            .ok_or_else(error)?;
         Ok(Some([first, second, cross(first, second)]))
     }
 

@@ -3,7 +3,7 @@
 use super::{Stiffness, VOIGT};
 use crate::math::Vec3;
 
-/// The largest stiffness against strain in one direction alone [Pa]: the largest of `C_xx`, `C_yy`, `C_zz`.
+/// The largest stiffness against strain in one direction alone `[Pa]`: the largest of `C_xx`, `C_yy`, `C_zz`.
 ///
 /// For an isotropic material `λ + 2μ`. Penalties are multiples of it over a length.
 pub fn constrained_modulus(c: &Stiffness) -> f64 {

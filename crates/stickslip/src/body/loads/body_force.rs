@@ -6,7 +6,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct BodyForce {
-    /// Force per volume [N/m³], as many components as the space has.
+    /// Force per volume `[N/m³]`, as many components as the space has.
     pub value: Vec<f64>,
 }
 

@@ -6,7 +6,7 @@ use crate::system::{Energy, Force, Schedule, Stage, StepFailure};
 pub struct Load {
     /// Name for messages and histories.
     pub name: String,
-    /// Forces by dof [N] at factor 1.
+    /// Forces by dof `[N]` at factor 1.
     pub entries: Vec<(usize, f64)>,
     /// The factor in time.
     pub schedule: Schedule,
@@ -36,7 +36,7 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// From stiffnesses by dof [N/m].
+    /// From stiffnesses by dof `[N/m]`.
     pub fn new(name: impl Into<String>, entries: Vec<(usize, f64)>) -> Self {
         Spring {
             name: name.into(),
@@ -45,12 +45,12 @@ impl Spring {
         }
     }
 
-    /// Stiffnesses by dof [N/m].
+    /// Stiffnesses by dof `[N/m]`.
     pub fn entries(&self) -> &[(usize, f64)] {
         &self.entries
     }
 
-    /// Adds the internal force at the displacements `u` [m] to `out` [N], by dof.
+    /// Adds the internal force at the displacements `u` `[m]` to `out` `[N]`, by dof.
     pub fn internal_force(&self, u: &[f64], out: &mut [f64]) {
         for &(dof, k) in &self.entries {
             out[dof] += k * u[dof];

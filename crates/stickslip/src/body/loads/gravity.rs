@@ -8,7 +8,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Gravity {
-    /// Acceleration [m/s²], as many components as the space has: `[0, -9.81]`.
+    /// Acceleration `[m/s²]`, as many components as the space has: `[0, -9.81]`.
     pub acceleration: Vec<f64>,
 }
 

@@ -57,16 +57,16 @@ pub struct Domain<'a> {
     pub mesh: &'a Mesh,
     /// Its space.
     pub space: Space,
-    /// Mass per volume of each block [kg/m³].
+    /// Mass per volume of each block `[kg/m³]`.
     pub densities: &'a [f64],
 }
 
 /// What a load kind comes down to; dofs ascending, each once.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Forces by dof [N], to be scaled by a schedule.
+    /// Forces by dof `[N]`, to be scaled by a schedule.
     Forces(Vec<(usize, f64)>),
-    /// Stiffnesses to ground by dof [N/m].
+    /// Stiffnesses to ground by dof `[N/m]`.
     Springs(Vec<(usize, f64)>),
 }
 
@@ -134,7 +134,7 @@ impl Domain<'_> {
         Ok(v)
     }
 
-    /// `∫ N t dA` by dof, with the traction `t` [Pa] given by the quadrature point.
+    /// `∫ N t dA` by dof, with the traction `t` `[Pa]` given by the quadrature point.
     fn over_facets(
         &self,
         target: &Target,
@@ -156,7 +156,7 @@ impl Domain<'_> {
         Ok(Action::Forces(combine(entries)))
     }
 
-    /// `∫ N f dV` by dof, with the force per volume `f` [N/m³] given by the block.
+    /// `∫ N f dV` by dof, with the force per volume `f` `[N/m³]` given by the block.
     fn over_cells(
         &self,
         target: &Target,

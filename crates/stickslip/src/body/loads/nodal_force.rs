@@ -6,7 +6,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct NodalForce {
-    /// Force at each point [N], as many components as the space has: over the whole thickness of a plane body, around
+    /// Force at each point `[N]`, as many components as the space has: over the whole thickness of a plane body, around
     /// the whole circumference of an axisymmetric one.
     pub value: Vec<f64>,
 }

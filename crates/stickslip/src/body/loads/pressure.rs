@@ -7,7 +7,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Pressure {
-    /// Pressure [Pa], positive when it pushes.
+    /// Pressure `[Pa]`, positive when it pushes.
     pub value: f64,
 }
 

@@ -6,7 +6,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GroundSpring {
-    /// Stiffness along each axis at each point [N/m], zero or more, as many as the space has: over the whole thickness
+    /// Stiffness along each axis at each point `[N/m]`, zero or more, as many as the space has: over the whole thickness
     /// of a plane body, around the whole circumference of an axisymmetric one.
     pub stiffness: Vec<f64>,
 }

@@ -6,7 +6,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Traction {
-    /// Traction [Pa], as many components as the space has; radius and axis in an axisymmetric problem.
+    /// Traction `[Pa]`, as many components as the space has; radius and axis in an axisymmetric problem.
     pub value: Vec<f64>,
 }
 
