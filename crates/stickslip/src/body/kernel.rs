@@ -1,7 +1,7 @@
 //! The stiffness matrix of one cell.
 
 use super::Space;
-use super::geometry::{Nodal, Table, point};
+use super::geometry::{Nodal, Point, Table, point};
 use super::operator::{Operator, Term};
 
 /// Workspace of [`stiffness`], one a task.
@@ -10,8 +10,10 @@ pub(super) struct Scratch<const N: usize> {
     local: [[[f64; N]; N]; 9],
     /// `Ḡ[3 k + l][a][b]`
     mean: [[[f64; N]; N]; 9],
-    /// The entries `(i, j)` of all blocks.
-    entry: [[f64; N]; N],
+    /// The entries `[3 i + j]` of the blocks of all pairs of nodes.
+    entries: [[[f64; N]; N]; 9],
+    /// Derivatives at the quadrature points.
+    points: Vec<Point<N>>,
 }
 
 impl<const N: usize> Scratch<N> {
@@ -20,7 +22,8 @@ impl<const N: usize> Scratch<N> {
         Box::new(Scratch {
             local: [[[0.0; N]; N]; 9],
             mean: [[[0.0; N]; N]; 9],
-            entry: [[0.0; N]; N],
+            entries: [[[0.0; N]; N]; 9],
+            points: Vec::new(),
         })
     }
 }
@@ -36,27 +39,36 @@ pub(super) fn stiffness<const N: usize>(
 ) {
     products(table, x, space, !operator.mean.is_empty(), scratch);
     let dim = space.dim();
-    let width = N * dim;
     for i in 0..dim {
         for j in i..dim {
-            scratch.entry = [[0.0; N]; N];
-            add(&mut scratch.entry, &operator.local, i, j, &scratch.local);
-            add(&mut scratch.entry, &operator.mean, i, j, &scratch.mean);
+            let entry = &mut scratch.entries[3 * i + j];
+            *entry = [[0.0; N]; N];
+            add(entry, &operator.local, i, j, &scratch.local);
+            add(entry, &operator.mean, i, j, &scratch.mean);
             if i == j {
                 for a in 0..N {
-                    for b in 0..=a {
-                        let value = scratch.entry[a][b];
-                        out[(a * dim + i) * width + b * dim + i] = value;
-                        out[(b * dim + i) * width + a * dim + i] = value;
+                    for b in 0..a {
+                        entry[b][a] = entry[a][b];
                     }
                 }
-            } else {
-                for a in 0..N {
-                    for b in 0..N {
-                        let value = scratch.entry[a][b];
-                        out[(a * dim + i) * width + b * dim + j] = value;
-                        out[(b * dim + j) * width + a * dim + i] = value;
-                    }
+            }
+        }
+    }
+    mirror(&mut scratch.entries, dim);
+    match dim {
+        2 => write::<N, 2>(&scratch.entries, out),
+        _ => write::<N, 3>(&scratch.entries, out),
+    }
+}
+
+/// Puts the entries `(i, j)` of all blocks into one matrix of `D` rows and columns a node.
+fn write<const N: usize, const D: usize>(entries: &[[[f64; N]; N]; 9], out: &mut [f64]) {
+    for (a, rows) in out.chunks_exact_mut(N * D * D).enumerate() {
+        for (i, row) in rows.chunks_exact_mut(N * D).enumerate() {
+            for j in 0..D {
+                let source = &entries[3 * i + j][a];
+                for (target, value) in row.chunks_exact_mut(D).zip(source) {
+                    target[j] = *value;
                 }
             }
         }
@@ -90,35 +102,47 @@ fn products<const N: usize>(
     scratch: &mut Scratch<N>,
 ) {
     let used = space.derivatives();
+    scratch.points.clear();
+    scratch
+        .points
+        .extend((0..table.len()).map(|q| point(table, q, x, space)));
     for k in 0..used {
         for l in k..used {
-            scratch.local[3 * k + l] = [[0.0; N]; N];
-        }
-    }
-    let mut volume = 0.0;
-    let mut sums = [[0.0; N]; 3];
-    for q in 0..table.len() {
-        let p = point(table, q, x, space);
-        for k in 0..used {
-            for l in k..used {
-                for (row, &dk) in scratch.local[3 * k + l].iter_mut().zip(&p.d[k]) {
-                    let factor = p.volume * dk;
-                    for (g, dl) in row.iter_mut().zip(&p.d[l]) {
-                        *g += factor * dl;
+            for (a, row) in scratch.local[3 * k + l].iter_mut().enumerate() {
+                // Two sums at a time stay in a register while the points are run through.
+                let mut b = 0;
+                while b + 1 < N {
+                    let mut sum = [0.0; 2];
+                    for p in &scratch.points {
+                        let factor = p.volume * p.d[k][a];
+                        sum = [sum[0] + factor * p.d[l][b], sum[1] + factor * p.d[l][b + 1]];
                     }
+                    (row[b], row[b + 1]) = (sum[0], sum[1]);
+                    b += 2;
                 }
-            }
-            if means {
-                for (s, d) in sums[k].iter_mut().zip(&p.d[k]) {
-                    *s += p.volume * d;
+                if b < N {
+                    row[b] = scratch
+                        .points
+                        .iter()
+                        .map(|p| p.volume * p.d[k][a] * p.d[l][b])
+                        .sum();
                 }
             }
         }
-        volume += p.volume;
     }
     mirror(&mut scratch.local, used);
     if means {
         // V d̄_a d̄_b = (∫ d_a)(∫ d_b) / V
+        let mut volume = 0.0;
+        let mut sums = [[0.0; N]; 3];
+        for p in &scratch.points {
+            volume += p.volume;
+            for (sum, d) in sums.iter_mut().zip(&p.d) {
+                for (s, d) in sum.iter_mut().zip(d) {
+                    *s += p.volume * d;
+                }
+            }
+        }
         for k in 0..used {
             for l in k..used {
                 for a in 0..N {
@@ -132,7 +156,7 @@ fn products<const N: usize>(
     }
 }
 
-/// `G[l][k]_ab = G[k][l]_ba`
+/// `g[l][k]_ab = g[k][l]_ba`, for products of derivatives and blocks of the matrix alike.
 fn mirror<const N: usize>(g: &mut [[[f64; N]; N]; 9], used: usize) {
     for k in 0..used {
         for l in k + 1..used {

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 /// Cells computed by one task.
-const CELLS_PER_TASK: usize = 32;
+const CELLS_PER_TASK: usize = 16;
 
-/// Values held at a time by each of the two buffers: 8 MiB.
-const BUFFER: usize = 1 << 20;
+/// Values held at a time by each of the two buffers: 2 MiB, so that what is consumed is still in the cache.
+const BUFFER: usize = 1 << 18;
 
 /// Computes `width` values for each of `cells` cells and hands them to `consume`, cell by cell in order.
 ///
