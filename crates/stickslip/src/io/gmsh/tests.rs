@@ -399,6 +399,9 @@ fn errors_name_the_line_and_the_remedy() {
         assert_eq!(error.line, Some(line), "{error}");
         assert_eq!(error.file.as_deref(), Some(Path::new("a.msh")));
     }
+    let parametric = triangle(NODES, "1 2 2 0 1 1 2 3").replace("Nodes\n", "ParametricNodes\n");
+    let error = refused(&parametric).to_string();
+    assert!(error.contains("Mesh.SaveParametric = 0"), "{error}");
     let error = read(Path::new("no/such/file.msh")).unwrap_err();
     assert!(error.message.contains("cannot be read"));
 }
