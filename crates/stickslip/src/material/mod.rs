@@ -1,1 +1,88 @@
-//! material
+//! Linear elastic materials: the tensor `a_ijkl` of [`pop_1995`](crate::references::pop_1995), eq. (2), one file a model.
+//!
+//! Stresses and strains are 6-vectors in the order xx yy zz xy yz xz; shear strains are engineering strains
+//! (`γ_xy = 2 ε_xy`), so that `σ = C ε` with the same `C` that handbooks print.
+
+mod anisotropic;
+mod check;
+mod isotropic;
+mod orthotropic;
+mod reduce;
+
+pub use anisotropic::{Anisotropic, Entries};
+pub use check::{MaterialError, smallest_eigenvalue};
+pub use isotropic::Isotropic;
+pub use orthotropic::Orthotropic;
+pub use reduce::{constrained_modulus, plane_stress};
+
+/// A 6×6 stiffness [Pa], row by row, in the order of this module.
+pub type Stiffness = [[f64; 6]; 6];
+
+/// The Voigt index of the tensor component `(i, j)`.
+pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// A linear elastic material.
+pub trait Elasticity {
+    /// The stiffness [Pa], checked: symmetric and positive definite.
+    ///
+    /// # Errors
+    /// Names the parameter at fault and, where the tensor is not elliptic, its smallest eigenvalue.
+    fn stiffness(&self) -> Result<Stiffness, MaterialError>;
+
+    /// Mass per volume [kg/m³].
+    fn density(&self) -> f64;
+
+    /// A modulus [Pa] by which other quantities are made dimensionless: the largest constrained modulus
+    /// (uniaxial strain), see [`constrained_modulus`].
+    ///
+    /// # Errors
+    /// As [`stiffness`](Elasticity::stiffness).
+    fn characteristic_modulus(&self) -> Result<f64, MaterialError> {
+        Ok(constrained_modulus(&self.stiffness()?))
+    }
+
+    /// Checks all parameters.
+    ///
+    /// # Errors
+    /// As [`stiffness`](Elasticity::stiffness); also for a density that is negative or not finite.
+    fn check(&self) -> Result<(), MaterialError> {
+        self.stiffness()?;
+        check::density(self.density())
+    }
+}
+
+crate::family! {
+    /// The materials.
+    Material: "material", dyn Elasticity {
+        /// The same in all directions: two constants.
+        Isotropic(Isotropic) = "isotropic",
+        /// Three orthogonal planes of symmetry: nine constants.
+        Orthotropic(Orthotropic) = "orthotropic",
+        /// The full tensor: up to 21 constants.
+        Anisotropic(Anisotropic) = "anisotropic",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::Family;
+
+    #[test]
+    fn samples_are_elliptic_and_round_trip() {
+        let samples = Material::samples();
+        for entry in Material::entries() {
+            assert!(samples.iter().any(|m| m.kind() == entry.name));
+        }
+        for material in samples {
+            let model = material.as_dyn();
+            model.check().expect("samples are sound");
+            let c = model.stiffness().expect("samples are sound");
+            assert!(smallest_eigenvalue(&c) > 0.0);
+            assert!(model.characteristic_modulus().expect("checked") > 0.0);
+            let text = serde_json::to_string(&material).expect("plain data");
+            let back: Material = serde_json::from_str(&text).expect("its own text");
+            assert_eq!(back, material);
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::shape::{ElementKind, MAX_NODES};
 
 impl Mesh {
     /// The derivative of position with respect to the reference coordinates of a cell, `j[i][a] = ∂x_i/∂ξ_a`
-    /// [length]. In 2D the third row and column are those of the unit matrix, so that the determinant is the ratio of
+    /// `[length]`. In 2D the third row and column are those of the unit matrix, so that the determinant is the ratio of
     /// areas.
     pub fn jacobian(&self, cell: CellRef, xi: [f64; 3]) -> Mat3 {
         jacobian(self.cell_kind(cell), xi, |i| {
@@ -38,7 +38,7 @@ impl Mesh {
         }))
     }
 
-    /// Diagonal of the bounding box [length]; zero without points.
+    /// Diagonal of the bounding box `[length]`; zero without points.
     pub fn diameter(&self) -> f64 {
         self.bounding_box().map_or(0.0, |(lo, hi)| distance(lo, hi))
     }
@@ -65,12 +65,13 @@ fn jacobian(kind: ElementKind, xi: [f64; 3], point: impl Fn(usize) -> Vec3) -> M
 }
 
 /// The determinant over the product of the lengths of its columns: 1 for right angles, 0 for a collapsed cell,
-/// negative for one turned inside out; aspect ratio and size do not matter. `size` [length] is that of the cell: a
+/// negative for one turned inside out; aspect ratio and size do not matter. `size` `[length]` is that of the cell: a
 /// column below its rounding error counts as collapsed.
 pub(super) fn shape_quality(j: &Mat3, dim: usize, size: f64) -> f64 {
     let mut scale = 1.0;
-    for a in 0..dim {
-        let length = norm([j[0][a], j[1][a], j[2][a]]);
+    let [x, y, z] = j;
+    for ((x, y), z) in x.iter().zip(y).zip(z).take(dim) {
+        let length = norm([*x, *y, *z]);
         if length <= 1e-12 * size {
             return 0.0;
         }

@@ -4,7 +4,7 @@ use super::{FacetRef, Mesh};
 use crate::math::{Vec3, distance, dot, normalize, sub};
 
 impl Mesh {
-    /// The points within `tolerance` [length] of a place, sorted.
+    /// The points within `tolerance` `[length]` of a place, sorted.
     pub fn points_near(&self, place: Vec3, tolerance: f64) -> Vec<usize> {
         self.points_where(|x| distance(x, place) <= tolerance)
     }
@@ -21,7 +21,7 @@ impl Mesh {
         self.points_where(|x| (0..3).all(|i| lo[i] <= x[i] && x[i] <= hi[i]))
     }
 
-    /// The points within `tolerance` [length] of the plane through `origin` with normal `normal`, sorted; none if the
+    /// The points within `tolerance` `[length]` of the plane through `origin` with normal `normal`, sorted; none if the
     /// normal is zero.
     pub fn points_on_plane(&self, origin: Vec3, normal: Vec3, tolerance: f64) -> Vec<usize> {
         match normalize(normal) {
@@ -45,7 +45,7 @@ impl Mesh {
         self.boundary_within(&self.points_in_box(lo, hi))
     }
 
-    /// The boundary facets all of whose points lie within `tolerance` [length] of a plane.
+    /// The boundary facets all of whose points lie within `tolerance` `[length]` of a plane.
     pub fn boundary_on_plane(&self, origin: Vec3, normal: Vec3, tolerance: f64) -> Vec<FacetRef> {
         self.boundary_within(&self.points_on_plane(origin, normal, tolerance))
     }

@@ -13,10 +13,10 @@ use crate::shape::ElementKind;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Cuboid {
-    /// Corner with the lowest coordinates [length].
+    /// Corner with the lowest coordinates `[length]`.
     #[serde(default)]
     pub from: [f64; 3],
-    /// Corner with the highest coordinates [length]. Needed unless `x`, `y` and `z` are given.
+    /// Corner with the highest coordinates `[length]`. Needed unless `x`, `y` and `z` are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<[f64; 3]>,
     /// Number of cells along x, y and z. Needed unless `x`, `y` and `z` are given.
@@ -28,7 +28,7 @@ pub struct Cuboid {
     /// How the cells grow along x, y and z.
     #[serde(default)]
     pub grading: Grading,
-    /// The grid planes' x, increasing [length]; replaces `from`, `to`, `cells` and `grading` along x.
+    /// The grid planes' x, increasing `[length]`; replaces `from`, `to`, `cells` and `grading` along x.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub x: Vec<f64>,
     /// The grid planes' y, likewise.

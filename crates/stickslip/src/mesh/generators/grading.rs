@@ -9,7 +9,7 @@ use crate::error::MeshError;
 )]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Stretch {
-    /// Size of the last cell over that of the first; the sizes between are a geometric sequence [-].
+    /// Size of the last cell over that of the first; the sizes between are a geometric sequence `[-]`.
     pub ratio: f64,
 }
 

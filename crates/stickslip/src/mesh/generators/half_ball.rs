@@ -15,16 +15,16 @@ use crate::shape::ElementKind;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct HalfBall {
-    /// Middle of the flat side [length].
+    /// Middle of the flat side `[length]`.
     #[serde(default)]
     pub centre: [f64; 3],
-    /// Radius [length].
+    /// Radius `[length]`.
     pub radius: f64,
     /// From the centre to the contact point; only its direction counts. The planes of the sectors contain it and stay
     /// as near to x = 0 and y = 0 as they can; where it is near to the x axis, to y = 0 and z = 0.
     #[serde(default = "downwards")]
     pub direction: [f64; 3],
-    /// Largest size of the cells at the surface [length]; an eighth of the radius unless given.
+    /// Largest size of the cells at the surface `[length]`; an eighth of the radius unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
     /// Smaller cells at the contact point.

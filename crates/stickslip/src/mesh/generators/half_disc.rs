@@ -16,15 +16,15 @@ use crate::shape::ElementKind;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct HalfDisc {
-    /// Middle of the flat side [length].
+    /// Middle of the flat side `[length]`.
     #[serde(default)]
     pub centre: [f64; 2],
-    /// Radius [length].
+    /// Radius `[length]`.
     pub radius: f64,
     /// From the centre to the contact point; only its direction counts.
     #[serde(default = "downwards")]
     pub direction: [f64; 2],
-    /// Largest size of the cells at the surface [length]; an eighth of the radius unless given.
+    /// Largest size of the cells at the surface `[length]`; an eighth of the radius unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
     /// Smaller cells at the contact point.

@@ -207,15 +207,15 @@ fn goes_up(diagonal: Diagonal, cell: &LatticeCell) -> bool {
     match diagonal {
         Diagonal::Up => true,
         Diagonal::Down => false,
-        Diagonal::Alternating => index(0) % 2 == 0,
-        Diagonal::UnionJack => (index(0) + index(1)) % 2 == 0,
+        Diagonal::Alternating => index(0).is_multiple_of(2),
+        Diagonal::UnionJack => (index(0) + index(1)).is_multiple_of(2),
     }
 }
 
 /// The coordinate at a lattice index: entries of the table at even ones, the middle between at odd ones.
 pub(super) fn at(table: &[f64], index: usize) -> f64 {
     let i = index / 2;
-    if index % 2 == 0 {
+    if index.is_multiple_of(2) {
         table[i]
     } else {
         0.5 * (table[i] + table[i + 1])

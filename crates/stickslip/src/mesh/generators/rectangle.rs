@@ -13,10 +13,10 @@ use crate::shape::ElementKind;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Rectangle {
-    /// Lower left corner [length].
+    /// Lower left corner `[length]`.
     #[serde(default)]
     pub from: [f64; 2],
-    /// Upper right corner [length]. Needed unless `x` and `y` are given.
+    /// Upper right corner `[length]`. Needed unless `x` and `y` are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<[f64; 2]>,
     /// Number of cells along x and y. Needed unless `x` and `y` are given.
@@ -28,10 +28,10 @@ pub struct Rectangle {
     /// How the cells grow along x and y.
     #[serde(default)]
     pub grading: Grading,
-    /// The grid lines' x, increasing [length]; replaces `from`, `to`, `cells` and `grading` along x.
+    /// The grid lines' x, increasing `[length]`; replaces `from`, `to`, `cells` and `grading` along x.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub x: Vec<f64>,
-    /// The grid lines' y, increasing [length]; replaces `from`, `to`, `cells` and `grading` along y.
+    /// The grid lines' y, increasing `[length]`; replaces `from`, `to`, `cells` and `grading` along y.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub y: Vec<f64>,
     /// Which diagonal splits a cell into triangles.

@@ -19,13 +19,13 @@ use crate::shape::ElementKind;
 pub(super) struct Round {
     /// 2 or 3.
     pub dim: usize,
-    /// Centre of the circle or sphere [length].
+    /// Centre of the circle or sphere `[length]`.
     pub centre: Vec3,
-    /// [length]
+    /// `[length]`
     pub radius: f64,
     /// From the centre to the contact point; need not be a unit vector.
     pub direction: Vec3,
-    /// Largest size of the cells [length].
+    /// Largest size of the cells `[length]`.
     pub size: Option<f64>,
     /// Smaller ones at the contact point.
     pub refine: Option<Refinement>,
@@ -189,7 +189,7 @@ impl Round {
                     .for_each(|axis| *axis = others.next().unwrap_or(3));
                 // The directions (others, outward) are a permutation of the axes, turned round on the low side.
                 let odd = if dim == 2 { a == 0 } else { a == 1 };
-                let reversed = (odd != !high) != mirrored;
+                let reversed = (odd == high) != mirrored;
                 let (m1, m2) = (n[axes[0]], if dim == 3 { n[axes[1]] } else { 1 });
                 affordable(&[m1, m2, layers])?;
                 for layer in 0..layers {

@@ -9,13 +9,13 @@ use crate::error::MeshError;
 )]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Refinement {
-    /// Largest size of the cells at the contact point [length].
+    /// Largest size of the cells at the contact point `[length]`.
     pub finest: f64,
-    /// Distance from the contact point out to which cells have that size [length]. Choose it a little wider than the
+    /// Distance from the contact point out to which cells have that size `[length]`. Choose it a little wider than the
     /// half-width of the contact.
     #[serde(default)]
     pub width: f64,
-    /// Size of a cell over that of its neighbour nearer to the contact point [-].
+    /// Size of a cell over that of its neighbour nearer to the contact point `[-]`.
     #[serde(default = "growth")]
     pub growth: f64,
 }

@@ -406,28 +406,36 @@ fn nonsense_is_refused_with_advice() {
 }
 
 #[test]
-fn zz_quality() {
-    for el in [
+fn a_refined_ball_of_any_element_is_sound() {
+    for element in [
         ElementKind::Hex8,
         ElementKind::Hex20,
         ElementKind::Tet4,
         ElementKind::Tet10,
     ] {
-        let b = HalfBall {
+        let refine = Refinement {
+            finest: 0.01,
+            width: 0.04,
+            growth: 1.4,
+        };
+        let ball = HalfBall {
             radius: 1.0,
-            size: None,
-            element: el,
-            direction: [0., 0., 1.],
+            direction: [0.0, 0.0, 1.0],
+            size: Some(0.2),
+            refine: Some(refine),
+            element,
             sector: Sector::Quarter,
-            refine: Some(Refinement {
-                finest: 0.005,
-                width: 0.05,
-                growth: 1.25,
-            }),
             ..HalfBall::samples()[0].clone()
         };
-        let m = b.generate().unwrap();
-        m.check().unwrap();
-        println!("{el} cells {} points {}", m.cell_count(), m.points.len());
+        let mesh = ball.generate().unwrap();
+        mesh.check().unwrap_or_else(|e| panic!("{element}: {e}"));
+        let volume = mesh.measure() / (PI / 6.0);
+        if element.order() == 1 {
+            // Chords of length h lie at most h² / 8 R inside of the sphere in each of two directions.
+            let least = (1.0_f64 - 2.0 * 0.2 * 0.2 / 8.0).powi(3);
+            assert!(least < volume && volume < 1.0, "{element}: {volume}");
+        } else {
+            assert!((volume - 1.0).abs() < 1e-4, "{element}: {volume}");
+        }
     }
 }

@@ -1,0 +1,64 @@
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[body.NAME]`: an elastic body: its mesh and what it is made of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Body {
+    /// The `[material.NAME]` of all cells that are in none of the `regions`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Materials by cell set of the mesh: `regions.coat = "bronze"`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub regions: BTreeMap<String, String>,
+    /// How strains are taken in a cell.
+    #[serde(default)]
+    pub formulation: Formulation,
+    /// Factor on the coordinates of the mesh, applied before `translate`: 1e-3 for a mesh in mm and a problem in m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Shift of the mesh [length].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub translate: Option<Vec<f64>>,
+    /// Where the mesh comes from.
+    #[serde(flatten)]
+    pub mesh: MeshSource,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// How strains are taken in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formulation {
+    /// Point by point.
+    #[default]
+    Standard,
+    /// The change of volume is averaged over the cell (B-bar), which keeps nearly incompressible bodies from locking.
+    MeanDilatation,
+}
+
+/// Where the mesh of a body comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeshSource {
+    /// From a file of Gmsh: `.msh`, format 2.2 or 4.1, ASCII or binary.
+    Gmsh(GmshFile),
+}
+
+/// A mesh file of Gmsh. Its physical groups become sets.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct GmshFile {
+    /// The file, relative to the folder of the problem file.
+    pub file: PathBuf,
+    /// The physical group of cells that is this body; all cells if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
+}

@@ -1,0 +1,266 @@
+//! Names that are used must exist, and mean one thing.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::nearest::suggest;
+use super::super::{Probed, Problem, Select};
+use super::Findings;
+
+pub(super) fn check(problem: &Problem, findings: &mut Findings) {
+    declared(problem, findings);
+    bodies(problem, findings);
+    sets(problem, findings);
+    interfaces(problem, findings);
+    for (name, support) in &problem.support {
+        set(problem, findings, &["support", name, "set"], &support.set);
+        let key = ["support", name, "amplitude"];
+        one_of(
+            findings,
+            &key,
+            support.amplitude.as_deref(),
+            "amplitudes",
+            &problem.amplitude,
+        );
+    }
+    probes(problem, findings);
+}
+
+/// Bodies, obstacles and sets share their names: `set = "block"` and `primary = "floor"` look into all of them.
+fn declared(problem: &Problem, findings: &mut Findings) {
+    let shared: [(&str, Vec<&String>); 3] = [
+        ("body", problem.body.keys().collect()),
+        ("obstacle", problem.obstacle.keys().collect()),
+        ("set", problem.set.keys().collect()),
+    ];
+    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    for (table, names) in &shared {
+        for name in names {
+            match seen.get(name.as_str()) {
+                Some(other) => findings.add(
+                    &[table, name],
+                    format!("`{name}` is the name of a {other} already"),
+                    "bodies, obstacles and sets need names of their own",
+                ),
+                None => {
+                    seen.insert(name, table);
+                }
+            }
+            if name.is_empty() || name.contains('.') {
+                findings.add(
+                    &[table, name],
+                    format!("`{name}` cannot be the name of a {table}"),
+                    "a name is not empty and has no dot: the dot separates a body from its sets",
+                );
+            }
+        }
+    }
+}
+
+fn bodies(problem: &Problem, findings: &mut Findings) {
+    if problem.body.is_empty() {
+        findings.add(&[], "there is no body", "add a table [body.NAME]");
+    }
+    for (name, body) in &problem.body {
+        if body.material.is_none() && body.regions.is_empty() {
+            let help = match problem.material.keys().next() {
+                Some(material) => format!("add material = \"{material}\""),
+                None => "add material = \"NAME\" and a table [material.NAME]".into(),
+            };
+            findings.add(
+                &["body", name],
+                format!("the body `{name}` has no material"),
+                help,
+            );
+        }
+        let key = ["body", name, "material"];
+        one_of(
+            findings,
+            &key,
+            body.material.as_deref(),
+            "materials",
+            &problem.material,
+        );
+        for (region, material) in &body.regions {
+            let key = ["body", name, "regions", region];
+            one_of(
+                findings,
+                &key,
+                Some(material),
+                "materials",
+                &problem.material,
+            );
+        }
+    }
+}
+
+fn sets(problem: &Problem, findings: &mut Findings) {
+    for (name, set) in &problem.set {
+        if let Select::Union(parts) = &set.select {
+            for (i, part) in parts.iter().enumerate() {
+                self::set(
+                    problem,
+                    findings,
+                    &["set", name, "union", &i.to_string()],
+                    part,
+                );
+            }
+            if parts.is_empty() {
+                findings.add(&["set", name, "union"], "a union of nothing", "");
+            }
+            if reaches(problem, name, name, &mut BTreeSet::new()) {
+                let message = format!("the set `{name}` is a part of itself");
+                findings.add(&["set", name, "union"], message, "");
+            }
+            if set.of.is_some() {
+                findings.add(
+                    &["set", name, "of"],
+                    "a union has no `of`",
+                    "remove the key",
+                );
+            }
+        } else if let Some(of) = &set.of {
+            let key = ["set", name, "of"];
+            if of.contains('.') {
+                self::set(problem, findings, &key, of);
+            } else {
+                one_of(findings, &key, Some(of), "bodies", &problem.body);
+            }
+        } else {
+            let help = match problem.body.keys().next() {
+                Some(body) => format!("add of = \"{body}\", or of = \"{body}.SET\""),
+                None => String::new(),
+            };
+            let message = format!("the set `{name}` does not say of which body it is");
+            findings.add(&["set", name], message, help);
+        }
+    }
+}
+
+/// Whether the union `from` contains the set `target`, directly or not.
+fn reaches<'p>(
+    problem: &'p Problem,
+    from: &'p str,
+    target: &str,
+    seen: &mut BTreeSet<&'p str>,
+) -> bool {
+    let Some(Select::Union(parts)) = problem.set.get(from).map(|s| &s.select) else {
+        return false;
+    };
+    parts
+        .iter()
+        .any(|part| part == target || (seen.insert(part) && reaches(problem, part, target, seen)))
+}
+
+fn interfaces(problem: &Problem, findings: &mut Findings) {
+    for (name, interface) in &problem.interface {
+        let key = |side| ["interface", name.as_str(), side];
+        if problem.obstacle.contains_key(&interface.secondary) {
+            findings.add(
+                &key("secondary"),
+                format!(
+                    "`{}` is an obstacle, and obstacles are primary",
+                    interface.secondary
+                ),
+                "swap secondary and primary",
+            );
+        } else {
+            set(problem, findings, &key("secondary"), &interface.secondary);
+        }
+        if !problem.obstacle.contains_key(&interface.primary) {
+            set(problem, findings, &key("primary"), &interface.primary);
+        }
+        if interface.primary == interface.secondary {
+            findings.add(
+                &key("primary"),
+                "primary and secondary are the same surface",
+                "a surface in contact with itself is two interfaces' worth of sets: divide it",
+            );
+        }
+    }
+}
+
+fn probes(problem: &Problem, findings: &mut Findings) {
+    for (name, probe) in &problem.probe {
+        let key = |last| ["probe", name.as_str(), last];
+        match &probe.what {
+            Probed::Point(_) => {
+                one_of(
+                    findings,
+                    &key("of"),
+                    probe.of.as_deref(),
+                    "bodies",
+                    &problem.body,
+                );
+                if probe.of.is_none() && problem.body.len() > 1 {
+                    let bodies: Vec<&str> = problem.body.keys().map(String::as_str).collect();
+                    findings.add(
+                        &["probe", name],
+                        format!("the probe `{name}` does not say of which body its point is"),
+                        format!("add `of`, one of: {}", bodies.join(", ")),
+                    );
+                }
+                continue;
+            }
+            Probed::Interface(i) => {
+                one_of(
+                    findings,
+                    &key("interface"),
+                    Some(i),
+                    "interfaces",
+                    &problem.interface,
+                );
+            }
+            Probed::Support(s) => {
+                one_of(
+                    findings,
+                    &key("support"),
+                    Some(s),
+                    "supports",
+                    &problem.support,
+                );
+            }
+        }
+        if probe.of.is_some() {
+            findings.add(&key("of"), "only a point has an `of`", "remove the key");
+        }
+    }
+}
+
+/// `name`, if given, must be a key of `table`.
+fn one_of<T>(
+    findings: &mut Findings,
+    key: &[&str],
+    name: Option<&str>,
+    what: &str,
+    table: &BTreeMap<String, T>,
+) {
+    let Some(name) = name.filter(|n| !table.contains_key(*n)) else {
+        return;
+    };
+    let names: Vec<&str> = table.keys().map(String::as_str).collect();
+    let message = format!("`{name}` is not among the {what}");
+    findings.add(key, message, suggest(name, what, &names));
+}
+
+/// `name` must be a set, a body, or `body.set`; whether the mesh has the set is not known here.
+pub(super) fn set(problem: &Problem, findings: &mut Findings, key: &[&str], name: &str) {
+    match name.split_once('.') {
+        Some((body, set)) => {
+            if set.is_empty() {
+                findings.add(key, format!("`{name}` names no set after the dot"), "");
+            }
+            one_of(findings, key, Some(body), "bodies", &problem.body);
+        }
+        None if problem.set.contains_key(name) || problem.body.contains_key(name) => {}
+        None => {
+            let mut names: Vec<&str> = problem.set.keys().map(String::as_str).collect();
+            names.extend(problem.body.keys().map(String::as_str));
+            let help = suggest(name, "sets and bodies", &names);
+            findings.add(
+                key,
+                format!("there is no set or body `{name}`"),
+                format!("{help}; sets of a mesh are written body.set"),
+            );
+        }
+    }
+}

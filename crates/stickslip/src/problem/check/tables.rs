@@ -1,0 +1,206 @@
+//! Tables on their own: dimensions, parameters of models, what excludes what.
+
+use super::super::{Interface, Probed, Problem, Select, Space};
+use super::Findings;
+use crate::math::normalize;
+use crate::registry::Family;
+use crate::system::{Amplitude, AmplitudeError};
+
+pub(super) fn check(problem: &Problem, findings: &mut Findings) {
+    let space = problem.model.space;
+    if problem.model.thickness.is_some() && matches!(space, Space::Axisymmetric | Space::Solid) {
+        findings.add(
+            &["model", "thickness"],
+            format!(
+                "a thickness has no meaning where the model is {}",
+                space.name()
+            ),
+            "remove the key",
+        );
+    }
+    for (name, body) in &problem.body {
+        if let Some(shift) = &body.translate {
+            findings.vector(problem, &["body", name, "translate"], shift);
+        }
+    }
+    materials(problem, findings);
+    obstacles(problem, findings);
+    for (name, set) in &problem.set {
+        select(problem, findings, name, &set.select);
+    }
+    for (name, interface) in &problem.interface {
+        laws(findings, name, interface);
+        velocity(problem, findings, name, interface);
+    }
+    supports(problem, findings);
+    for (name, amplitude) in &problem.amplitude {
+        times(
+            findings,
+            &["amplitude", name, "table"],
+            amplitude.table.clone(),
+        );
+    }
+    for (name, probe) in &problem.probe {
+        if let Probed::Point(point) = &probe.what {
+            findings.vector(problem, &["probe", name, "point"], point);
+        }
+    }
+}
+
+fn materials(problem: &Problem, findings: &mut Findings) {
+    for (name, material) in &problem.material {
+        let Err(error) = material.as_dyn().check() else {
+            continue;
+        };
+        let key = ["material", name, material.kind()];
+        let eigenvalue = error
+            .smallest_eigenvalue
+            .map(|value| format!("; the smallest eigenvalue of the stiffness is {value:.6e}"));
+        let message = error.message + &eigenvalue.unwrap_or_default();
+        let mut key: Vec<&str> = key.to_vec();
+        key.extend(error.parameter.split('.'));
+        findings.add(&key, message, error.help.unwrap_or_default());
+    }
+}
+
+fn obstacles(problem: &Problem, findings: &mut Findings) {
+    let dim = problem.model.space.dim();
+    for (name, obstacle) in &problem.obstacle {
+        let key = ["obstacle", name, obstacle.shape.kind()];
+        findings.faults(&key, obstacle.shape.as_dyn().faults(dim));
+        if let Some(motion) = &obstacle.motion {
+            findings.faults(&["obstacle", name, "motion"], motion.faults(dim));
+        }
+    }
+}
+
+fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Select) {
+    let key = |last: &'static str| ["set", name, last];
+    match select {
+        Select::Point(point) => findings.vector(problem, &key("point"), point),
+        Select::Box(region) => {
+            findings.vector(problem, &["set", name, "box", "from"], &region.from);
+            findings.vector(problem, &["set", name, "box", "to"], &region.to);
+            if region.from.iter().zip(&region.to).any(|(a, b)| a > b) {
+                let message = "`from` lies beyond `to`: the box is empty";
+                findings.add(&key("box"), message, "`from` has the smaller coordinates");
+            }
+        }
+        Select::Plane(plane) => {
+            findings.vector(problem, &["set", name, "plane", "point"], &plane.point);
+            let at = ["set", name, "plane", "normal"];
+            findings.vector(problem, &at, &plane.normal);
+            let mut normal = [0.0; 3];
+            for (n, x) in normal.iter_mut().zip(&plane.normal) {
+                *n = *x;
+            }
+            if normalize(normal).is_none() {
+                findings.add(&at, "the normal is zero", "");
+            }
+        }
+        Select::Ball(ball) => {
+            findings.vector(problem, &["set", name, "ball", "centre"], &ball.centre);
+        }
+        Select::Numbers(numbers) if numbers.is_empty() => {
+            findings.add(&key("numbers"), "a set without points", "");
+        }
+        Select::Numbers(_) | Select::Union(_) => {}
+    }
+}
+
+fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
+    let Interface {
+        normal,
+        friction,
+        slip,
+        enforcement,
+        ..
+    } = interface;
+    let mut add = |stage, kind, faults| findings.faults(&["interface", name, stage, kind], faults);
+    add("normal", normal.kind(), normal.as_dyn().faults());
+    add("friction", friction.kind(), friction.as_dyn().faults());
+    add("slip", slip.kind(), slip.as_dyn().faults());
+    add(
+        "enforcement",
+        enforcement.kind(),
+        enforcement.as_dyn().faults(),
+    );
+    // An exact law has no penetration of its own: what there is comes from the enforcement and means nothing.
+    if friction.as_dyn().needs_penetration() && normal.as_dyn().pressure(0.0).is_none() {
+        findings.add(
+            &["interface", name, "friction"],
+            format!(
+                "friction `{}` depends on the penetration, which normal `{}` does not allow",
+                friction.kind(),
+                normal.kind()
+            ),
+            "choose a compliant normal law, or friction.coulomb",
+        );
+    }
+}
+
+fn velocity(problem: &Problem, findings: &mut Findings, name: &str, interface: &Interface) {
+    if let Some(velocity) = &interface.primary_velocity {
+        let key = ["interface", name, "primary-velocity"];
+        findings.vector(problem, &key, velocity);
+        if interface.primary_velocity_table.is_some() {
+            let message = "`primary-velocity` and `primary-velocity-table` exclude each other";
+            findings.add(&key, message, "keep one of the two");
+        }
+    }
+    if let Some(rows) = &interface.primary_velocity_table {
+        let key = ["interface", name, "primary-velocity-table"];
+        let dim = problem.model.space.dim();
+        if let Some(i) = rows.iter().position(|row| row.len() != dim + 1) {
+            let row = i.to_string();
+            let key = [&key[..], &[&row]].concat();
+            let message = format!(
+                "expected a time and {dim} components because the model is {}, found {} numbers",
+                problem.model.space.name(),
+                rows[i].len()
+            );
+            findings.add(&key, message, "");
+        } else {
+            times(
+                findings,
+                &key,
+                rows.iter().map(|row| [row[0], 0.0]).collect(),
+            );
+        }
+    }
+}
+
+fn supports(problem: &Problem, findings: &mut Findings) {
+    for (name, support) in &problem.support {
+        if support.components().iter().all(|(_, x)| x.is_none()) {
+            findings.add(
+                &["support", name],
+                format!("the support `{name}` holds no component"),
+                "give x, y or z; 0.0 holds it fast",
+            );
+        }
+        if problem.model.space.dim() == 2 && support.z.is_some() {
+            let message = format!(
+                "there is no component z because the model is {}",
+                problem.model.space.name()
+            );
+            findings.add(&["support", name, "z"], message, "remove the key");
+        }
+    }
+}
+
+fn times(findings: &mut Findings, key: &[&str], table: Vec<[f64; 2]>) {
+    match Amplitude::new(table) {
+        Ok(_) => {}
+        Err(AmplitudeError::Empty) => findings.add(key, "the table has no rows", ""),
+        Err(AmplitudeError::Row(i)) => {
+            let row = i.to_string();
+            let key = [key, &[&row]].concat();
+            findings.add(
+                &key,
+                "the time does not increase",
+                "each row starts with a time larger than that of the row before",
+            );
+        }
+    }
+}

@@ -1,0 +1,163 @@
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+
+use super::tree::{self, Table};
+use super::{FORMAT, Problem, check, key, overrides, schema, structure};
+use crate::error::{Diagnostic, Error, ProblemError};
+
+/// The text of a problem file with its overrides: it becomes a [`Problem`], and shows where in the text a finding is.
+#[derive(Debug, Clone)]
+pub struct Document {
+    /// The file, if the text came from one. Mesh files are looked up relative to its folder.
+    pub file: Option<PathBuf>,
+    /// The text.
+    pub source: String,
+    /// Changes `path=value`, applied in order before anything is checked.
+    pub overrides: Vec<String>,
+}
+
+impl Document {
+    /// A text; `file` is named in messages.
+    pub fn new(source: impl Into<String>, file: Option<&Path>) -> Self {
+        Document {
+            file: file.map(Path::to_path_buf),
+            source: source.into(),
+            overrides: Vec::new(),
+        }
+    }
+
+    /// The text of a file.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be read or is not UTF-8.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let source = std::fs::read_to_string(file).map_err(|e| Error::io(file, e))?;
+        Ok(Document::new(source, Some(file)))
+    }
+
+    /// Adds overrides `path=value`, for example `interface.base.friction.coulomb.mu=0.3` or `step.0.duration=2`.
+    pub fn with_overrides(mut self, overrides: impl IntoIterator<Item = String>) -> Self {
+        self.overrides.extend(overrides);
+        self
+    }
+
+    /// The folder relative to which the problem names files; empty if unknown.
+    pub fn folder(&self) -> PathBuf {
+        let parent = self.file.as_deref().and_then(Path::parent);
+        parent.map(Path::to_path_buf).unwrap_or_default()
+    }
+
+    /// Reads and checks the text.
+    ///
+    /// # Errors
+    /// All findings of the first stage that has any: syntax, then keys and types, then the rules of
+    /// [`Problem::check`].
+    pub fn problem(&self) -> Result<Problem, ProblemError> {
+        let tree = self.tree().map_err(|f| self.error(f))?;
+        if let Some(finding) = other_format(tree.get_ref()) {
+            return Err(self.error(vec![finding]));
+        }
+        let findings = structure::check(schema::shared(), tree.get_ref());
+        if !findings.is_empty() {
+            return Err(self.error(findings));
+        }
+        let problem: Problem = deserialize(tree).map_err(|f| self.error(vec![f]))?;
+        let findings = check::check(&problem);
+        if !findings.is_empty() {
+            return Err(self.error(findings));
+        }
+        Ok(problem)
+    }
+
+    /// Findings, made elsewhere, about this text: the place of each is looked up by its key.
+    pub fn error(&self, mut findings: Vec<Diagnostic>) -> ProblemError {
+        if findings.iter().any(|f| f.span.is_none())
+            && let Ok(tree) = self.tree()
+        {
+            for finding in findings.iter_mut().filter(|f| f.span.is_none()) {
+                let path = key::parse(&finding.key).ok();
+                finding.span = path.and_then(|path| tree::find(tree.get_ref(), &path));
+            }
+        }
+        // Findings without a place, about the whole file, come first; `sort_by_key` keeps the order of equals.
+        findings.sort_by_key(|f| f.span.as_ref().map(|s| s.start));
+        ProblemError {
+            file: self.file.clone(),
+            source: self.source.clone(),
+            findings,
+        }
+    }
+
+    /// Where the text departs from the schema, without places.
+    pub(super) fn departures(&self) -> Vec<Diagnostic> {
+        let findings = self
+            .tree()
+            .map(|tree| structure::check(schema::shared(), tree.get_ref()));
+        let mut findings = findings.unwrap_or_else(|findings| findings);
+        findings.iter_mut().for_each(|f| f.span = None);
+        findings
+    }
+
+    fn tree(&self) -> Result<Spanned<Table<'_>>, Vec<Diagnostic>> {
+        let (mut tree, errors) = Table::parse_recoverable(&self.source);
+        let mut findings: Vec<Diagnostic> = errors.iter().map(syntax).collect();
+        if findings.is_empty() {
+            let mut wrong = |text| overrides::apply(tree.get_mut(), text).err();
+            findings.extend(self.overrides.iter().filter_map(|o| wrong(o)));
+        }
+        if findings.is_empty() {
+            Ok(tree)
+        } else {
+            Err(findings)
+        }
+    }
+}
+
+fn syntax(error: &toml::de::Error) -> Diagnostic {
+    Diagnostic {
+        message: format!("not TOML: {}", error.message()),
+        key: String::new(),
+        span: error.span(),
+        help: None,
+    }
+}
+
+/// A finding if the file is of another format than this version reads: anything else said about it would mislead.
+fn other_format(root: &Table) -> Option<Diagnostic> {
+    let format = root.get("format").map(|v| tree::number(v.get_ref()));
+    let finding = match format {
+        Some(Some(number)) if number == f64::from(FORMAT) => return None,
+        // The check of the structure says that the type is wrong.
+        Some(None) => return None,
+        Some(Some(number)) if number > f64::from(FORMAT) => Diagnostic::new(
+            "format",
+            format!("the file has format {number}; this version reads format {FORMAT}"),
+        )
+        .help("use a newer version of stickslip"),
+        Some(Some(number)) => Diagnostic::new("format", format!("there is no format {number}"))
+            .help(format!("write `format = {FORMAT}`")),
+        None => Diagnostic::new("", "the key `format` is missing").help(format!(
+            "write `format = {FORMAT}` in the first line, so that later versions know how to read the file"
+        )),
+    };
+    Some(finding)
+}
+
+/// The last stage. [`structure`] has found what people get wrong; what it does not know about still has a place.
+fn deserialize(tree: Spanned<Table<'_>>) -> Result<Problem, Diagnostic> {
+    let deserializer = toml::de::Deserializer::from(tree);
+    serde_path_to_error::deserialize(deserializer).map_err(|e| {
+        let segments: Vec<String> = e.path().iter().map(|s| s.to_string()).collect();
+        let segments: Vec<&str> = (segments.iter())
+            .map(|s| s.trim_matches(['[', ']']))
+            .collect();
+        let span = e.inner().span().and_then(tree::place);
+        Diagnostic {
+            message: e.inner().message().to_string(),
+            key: key::join(&segments),
+            span: span.filter(|s| !s.is_empty()),
+            help: None,
+        }
+    })
+}

@@ -1,0 +1,52 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::contact::enforcement::EnforcementModel;
+use crate::contact::law::friction::FrictionModel;
+use crate::contact::law::normal::NormalModel;
+use crate::contact::law::slip::SlipModel;
+
+/// `[interface.NAME]`: two surfaces that may touch, and their laws.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Interface {
+    /// The surface whose points are kept from entering the primary: `body.set` or a `[set.NAME]`. Choose the softer
+    /// or more finely meshed of the two.
+    pub secondary: String,
+    /// The surface that carries the normal: `body.set`, a `[set.NAME]`, or an obstacle.
+    pub primary: String,
+    /// How the surfaces resist being pressed together.
+    #[serde(default)]
+    pub normal: NormalModel,
+    /// How much shear the interface carries.
+    #[serde(default)]
+    pub friction: FrictionModel,
+    /// How stick and slip change hands.
+    #[serde(default)]
+    pub slip: SlipModel,
+    /// How contact and stick are enforced.
+    #[serde(default)]
+    pub enforcement: EnforcementModel,
+    /// Velocity of the material of the primary surface beyond the motion of its body, such as a belt [length/time],
+    /// constant. Its normal component has no effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub primary_velocity: Option<Vec<f64>>,
+    /// The same over the time of the analysis, instead of `primary-velocity`: rows `[time, vx, vy]`, in 3D
+    /// `[time, vx, vy, vz]`, linear in between, constant outside.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub primary_velocity_table: Option<Vec<Vec<f64>>>,
+    /// How quadrilateral facets of the primary are taken.
+    #[serde(default)]
+    pub facets: FacetShape,
+}
+
+/// How quadrilateral facets of a primary surface are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FacetShape {
+    /// As the bilinear (for quadratic cells: quadratic) surfaces that they are.
+    #[default]
+    Bilinear,
+    /// Split into plane triangles.
+    Triangles,
+}

@@ -1,0 +1,48 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[model]`: the space in which the bodies live.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Model {
+    /// Plane strain, plane stress, axisymmetric or solid (3D).
+    pub space: Space,
+    /// Thickness [length] of a plane problem, 1 if not given. Forces are those of this thickness.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+}
+
+/// The space in which the bodies live.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Space {
+    /// In the plane x, y; no strain along z.
+    PlaneStrain,
+    /// In the plane x, y; no stress along z.
+    PlaneStress,
+    /// Around the y axis, x is the radius; forces are those of the full turn.
+    Axisymmetric,
+    /// Three-dimensional.
+    Solid,
+}
+
+impl Space {
+    /// Displacement components a point: 2 or 3.
+    pub fn dim(self) -> usize {
+        match self {
+            Space::Solid => 3,
+            _ => 2,
+        }
+    }
+
+    /// As written in the problem file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Space::PlaneStrain => "plane-strain",
+            Space::PlaneStress => "plane-stress",
+            Space::Axisymmetric => "axisymmetric",
+            Space::Solid => "solid",
+        }
+    }
+}

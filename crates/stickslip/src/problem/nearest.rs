@@ -1,0 +1,108 @@
+//! The name that was probably meant.
+
+/// Words of other programs and of older literature, and the word of this one.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("master", "primary"),
+    ("slave", "secondary"),
+    ("source", "secondary"),
+    ("target", "primary"),
+    ("bodies", "body"),
+    ("materials", "material"),
+    ("interfaces", "interface"),
+    ("contact", "interface"),
+    ("steps", "step"),
+    ("loads", "load"),
+    ("boundary", "support"),
+    ("supports", "support"),
+    ("probes", "probe"),
+    ("sets", "set"),
+    ("E", "young"),
+    ("youngs-modulus", "young"),
+    ("nu", "poisson"),
+    ("poissons-ratio", "poisson"),
+    ("friction-coefficient", "mu"),
+    ("time", "duration"),
+    ("mesh", "generate"),
+];
+
+/// The one of `names` that `word` probably stands for: a synonym, or the nearest if at most a third of it differs.
+pub(super) fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
+    let synonym = SYNONYMS.iter().filter(|(other, _)| *other == word);
+    if let Some(name) = synonym
+        .flat_map(|(_, name)| names.iter().find(|n| *n == name))
+        .next()
+    {
+        return Some(name);
+    }
+    let word = simplify(word);
+    let (distance, name) = names
+        .iter()
+        .map(|name| (distance(&word, &simplify(name)), *name))
+        .min()?;
+    (distance <= (word.len() / 3).max(1) && distance < word.len()).then_some(name)
+}
+
+/// `help` for a name that is not among `names`: what was probably meant and what there is.
+pub(super) fn suggest(word: &str, what: &str, names: &[&str]) -> String {
+    let all = match names {
+        [] => format!("there are no {what}"),
+        _ => format!("{what}: {}", names.join(", ")),
+    };
+    match nearest(word, names) {
+        Some(name) => format!("did you mean `{name}`? {all}"),
+        None => all,
+    }
+}
+
+fn simplify(word: &str) -> Vec<char> {
+    let lower = word.chars().flat_map(char::to_lowercase);
+    lower.map(|c| if c == '_' { '-' } else { c }).collect()
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours between two words.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let replace = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut best = replace.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(best);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{nearest, suggest};
+
+    #[test]
+    fn finds_typing_errors_and_synonyms() {
+        let names = ["primary", "secondary", "friction", "primary-velocity"];
+        for (word, meant) in [
+            ("frction", "friction"),
+            ("frcition", "friction"),
+            ("Friction", "friction"),
+            ("primary_velocity", "primary-velocity"),
+            ("slave", "secondary"),
+        ] {
+            assert_eq!(nearest(word, &names), Some(meant));
+        }
+        assert_eq!(nearest("banana", &names), None);
+        assert_eq!(nearest("x", &["y"]), None);
+    }
+
+    #[test]
+    fn lists_what_there_is() {
+        assert_eq!(
+            suggest("steal", "materials", &["steel", "wood"]),
+            "did you mean `steel`? materials: steel, wood"
+        );
+        assert_eq!(suggest("a", "sets", &[]), "there are no sets");
+    }
+}

@@ -1,0 +1,24 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[output]`: which fields are written to `fields.pvd`, and when. Histories and the summary cover every increment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Output {
+    /// Fields are written every so many increments, and at the end of every step; 0 for the ends of steps only.
+    pub every: usize,
+    /// Further times [time] at which fields are written, increasing. Increments land on them.
+    pub times: Vec<f64>,
+    /// Names of the fields written, as in the results (`U`, `S`, `CPRESS`, …); all if empty.
+    pub fields: Vec<String>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output {
+            every: 1,
+            times: Vec::new(),
+            fields: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,352 @@
+//! Holds the parsed text against the JSON schema: unknown keys, wrong types, missing keys, numbers out of range.
+//!
+//! Deserialisation stops at its first complaint. Here all of them are found at once, each with its place and with the
+//! names that are allowed there. The schema comes from the structs themselves, so a new model needs nothing here.
+
+use std::ops::Range;
+
+use serde_json::{Map, Value as Json};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::nearest::{nearest, suggest};
+use super::tree::{self, Table, Value};
+use super::{key, tree::number};
+use crate::error::Diagnostic;
+
+/// Everything in which `table` departs from `schema`.
+pub(super) fn check(schema: &Json, table: &Table) -> Vec<Diagnostic> {
+    let mut walk = Walk {
+        root: schema,
+        path: Vec::new(),
+        findings: Vec::new(),
+    };
+    let all = Expected::of(schema, schema);
+    walk.table(&all, table, tree::ELSEWHERE);
+    walk.findings
+}
+
+/// What the schema says about a value, references resolved.
+struct Expected<'s> {
+    /// The keyword object.
+    own: &'s Map<String, Json>,
+    /// Description at the place of use or of the type.
+    description: Option<&'s str>,
+    /// Keys with a meaning.
+    properties: Vec<(&'s str, &'s Json)>,
+    /// Keys of which exactly one must be there.
+    kinds: Vec<(&'s str, &'s Json)>,
+    /// Strings allowed.
+    words: Vec<&'s str>,
+}
+
+impl<'s> Expected<'s> {
+    fn of(root: &'s Json, schema: &'s Json) -> Self {
+        static NOTHING: std::sync::LazyLock<Map<String, Json>> = std::sync::LazyLock::new(Map::new);
+        let mut description = None;
+        let mut schema = schema;
+        // References, and the `X or null` of optional keys.
+        let own = loop {
+            let Some(own) = schema.as_object() else {
+                break &*NOTHING;
+            };
+            description = description.or_else(|| own.get("description").and_then(Json::as_str));
+            let reference = own.get("$ref").and_then(Json::as_str);
+            let target = reference.and_then(|r| root.pointer(r.strip_prefix('#')?));
+            let some = || {
+                own.get("anyOf")?
+                    .as_array()?
+                    .iter()
+                    .find(|s| s.get("type").and_then(Json::as_str) != Some("null"))
+            };
+            match target.or_else(some) {
+                Some(next) => schema = next,
+                None => break own,
+            }
+        };
+        let entries = |map: &'s Map<String, Json>| {
+            let properties = map.get("properties").and_then(Json::as_object);
+            properties
+                .into_iter()
+                .flatten()
+                .map(|(k, v)| (k.as_str(), v))
+        };
+        let mut kinds = Vec::new();
+        let mut words: Vec<&str> = Vec::new();
+        let alternatives = own.get("oneOf").and_then(Json::as_array);
+        for alternative in alternatives.into_iter().flatten() {
+            words.extend(alternative.get("const").and_then(Json::as_str));
+            words.extend(strings(alternative.get("enum")));
+            kinds.extend(alternative.as_object().into_iter().flat_map(entries));
+        }
+        words.extend(strings(own.get("enum")));
+        Expected {
+            own,
+            description,
+            properties: entries(own).collect(),
+            kinds,
+            words,
+        }
+    }
+
+    fn allows(&self, kind: &str) -> bool {
+        match self.own.get("type") {
+            Some(Json::String(s)) => s == kind,
+            Some(Json::Array(all)) => all.iter().any(|s| s == kind),
+            _ => match kind {
+                "object" => !self.kinds.is_empty(),
+                "string" => !self.words.is_empty(),
+                _ => false,
+            },
+        }
+    }
+
+    fn limit(&self, keyword: &str) -> Option<f64> {
+        self.own.get(keyword).and_then(Json::as_f64)
+    }
+
+    /// In words.
+    fn name(&self) -> String {
+        let names = [
+            ("object", "a table"),
+            ("array", "a list"),
+            ("number", "a number"),
+            ("integer", "a whole number"),
+            ("string", "a string"),
+            ("boolean", "true or false"),
+        ];
+        let names: Vec<&str> = names
+            .iter()
+            .filter(|(kind, _)| self.allows(kind))
+            .map(|(_, name)| *name)
+            .collect();
+        names.join(" or ")
+    }
+}
+
+fn strings(list: Option<&Json>) -> impl Iterator<Item = &str> {
+    let list = list.and_then(Json::as_array).into_iter().flatten();
+    list.filter_map(Json::as_str)
+}
+
+struct Walk<'s> {
+    root: &'s Json,
+    path: Vec<String>,
+    findings: Vec<Diagnostic>,
+}
+
+impl<'s> Walk<'s> {
+    fn report(&mut self, span: Range<usize>, message: String, help: Option<String>) {
+        self.findings.push(Diagnostic {
+            message,
+            key: key::join(&self.path),
+            span: tree::place(span),
+            help,
+        });
+    }
+
+    /// `at` is the place of the key.
+    fn value(&mut self, schema: &'s Json, value: &Spanned<Value>, at: Range<usize>) {
+        let expected = Expected::of(self.root, schema);
+        let span = tree::show(at.clone(), value);
+        match value.get_ref() {
+            DeValue::Table(table) if expected.allows("object") => self.table(&expected, table, at),
+            DeValue::Array(list) if expected.allows("array") => self.list(&expected, list, span),
+            DeValue::String(word) if expected.allows("string") => {
+                if !expected.words.is_empty() && !expected.words.contains(&&**word) {
+                    let help = suggest(word, "allowed", &expected.words);
+                    self.report(span, format!("`{word}` is not known here"), Some(help));
+                }
+            }
+            DeValue::Boolean(_) if expected.allows("boolean") => {}
+            DeValue::Integer(_) if expected.allows("integer") || expected.allows("number") => {
+                self.number(&expected, value, span)
+            }
+            DeValue::Float(_) if expected.allows("number") => self.number(&expected, value, span),
+            found => {
+                let name = expected.name();
+                // A schema without a type allows anything.
+                if !name.is_empty() {
+                    let message =
+                        format!("expected {name}, found {}", found_name(found.type_str()));
+                    let help = self.kind_help(&expected, found);
+                    self.report(span, message, help);
+                }
+            }
+        }
+    }
+
+    /// For `friction = "coulomb"`: how to write a kind; otherwise what the key means.
+    fn kind_help(&self, expected: &Expected, found: &Value) -> Option<String> {
+        let kinds: Vec<&str> = expected.kinds.iter().map(|(k, _)| *k).collect();
+        if kinds.is_empty() {
+            return expected.description.map(first_sentence);
+        }
+        let kind = match found {
+            DeValue::String(word) => nearest(word, &kinds),
+            _ => None,
+        };
+        let example = format!(
+            "{}.{} = {{ … }}",
+            key::join(&self.path),
+            kind.unwrap_or(kinds[0])
+        );
+        Some(format!(
+            "the kind is a key: `{example}`; kinds: {}",
+            kinds.join(", ")
+        ))
+    }
+
+    fn number(&mut self, expected: &Expected, value: &Spanned<Value>, span: Range<usize>) {
+        let Some(x) = number(value.get_ref()) else {
+            return;
+        };
+        let text = match value.get_ref() {
+            DeValue::Integer(i) => i.as_str().to_string(),
+            DeValue::Float(f) => f.as_str().to_string(),
+            _ => String::new(),
+        };
+        let limits = [
+            ("minimum", "at least", true),
+            ("exclusiveMinimum", "greater than", true),
+            ("maximum", "at most", false),
+            ("exclusiveMaximum", "less than", false),
+        ];
+        for (keyword, words, below) in limits {
+            let Some(limit) = expected.limit(keyword) else {
+                continue;
+            };
+            let beyond = if below { x < limit } else { x > limit };
+            let on = keyword.starts_with("exclusive") && x == limit;
+            if beyond || on {
+                let message = format!("must be {words} {limit}, found {text}");
+                self.report(span, message, expected.description.map(first_sentence));
+                return;
+            }
+        }
+        if !x.is_finite() {
+            let message = format!("must be a finite number, found {text}");
+            self.report(span, message, expected.description.map(first_sentence));
+        }
+    }
+
+    fn list(&mut self, expected: &Expected<'s>, list: &[Spanned<Value>], span: Range<usize>) {
+        let count = list.len() as f64;
+        let (least, most) = (expected.limit("minItems"), expected.limit("maxItems"));
+        let wanted = match (least, most) {
+            (Some(a), Some(b)) if a == b && count != a => Some(format!("{a}")),
+            (Some(a), _) if count < a => Some(format!("at least {a}")),
+            (_, Some(b)) if count > b => Some(format!("at most {b}")),
+            _ => None,
+        };
+        if let Some(wanted) = wanted {
+            let message = format!("expected {wanted} entries, found {}", list.len());
+            self.report(span, message, expected.description.map(first_sentence));
+        }
+        let first = expected.own.get("prefixItems").and_then(Json::as_array);
+        let rest = expected.own.get("items");
+        for (i, value) in list.iter().enumerate() {
+            if let Some(schema) = first.and_then(|f| f.get(i)).or(rest) {
+                self.path.push(i.to_string());
+                self.value(schema, value, value.span());
+                self.path.pop();
+            }
+        }
+    }
+
+    fn table(&mut self, expected: &Expected<'s>, table: &Table, at: Range<usize>) {
+        let rest = expected.own.get("additionalProperties");
+        let names: Vec<&str> = (expected.properties.iter())
+            .chain(&expected.kinds)
+            .map(|(name, _)| *name)
+            .collect();
+        let mut chosen: Option<String> = None;
+        let mut unknown = false;
+        for (name, value) in in_order(table) {
+            let span = name.span();
+            let name: &str = name.get_ref();
+            let find = |list: &[(&str, &'s Json)]| {
+                list.iter()
+                    .find(|(n, _)| *n == name)
+                    .map(|(_, schema)| *schema)
+            };
+            let kind = find(&expected.kinds);
+            let schema = kind
+                .or_else(|| find(&expected.properties))
+                .or(rest.filter(|r| r.is_object()));
+            self.path.push(name.to_string());
+            match schema {
+                Some(schema) => self.value(schema, value, span.clone()),
+                None if rest == Some(&Json::Bool(true)) => {}
+                None => {
+                    unknown = true;
+                    let help = suggest(name, "allowed here", &names);
+                    self.report(span.clone(), format!("unknown key `{name}`"), Some(help));
+                }
+            }
+            self.path.pop();
+            if kind.is_some() {
+                match &chosen {
+                    None => chosen = Some(name.to_string()),
+                    Some(first) => {
+                        let message = format!("`{first}` and `{name}` exclude each other");
+                        self.report(span, message, Some("keep one of the two".into()));
+                    }
+                }
+            }
+        }
+        // An unknown key is probably the missing one, misspelt: one message is enough.
+        if unknown {
+            return;
+        }
+        for name in strings(expected.own.get("required")) {
+            if !table.contains_key(name) {
+                let schema = expected.properties.iter().find(|(n, _)| *n == name);
+                let help = schema.and_then(|(_, s)| Expected::of(self.root, s).description);
+                let message = format!("the key `{name}` is missing");
+                self.report(at.clone(), message, help.map(first_sentence));
+            }
+        }
+        if chosen.is_none() && !expected.kinds.is_empty() {
+            let kinds: Vec<&str> = expected.kinds.iter().map(|(k, _)| *k).collect();
+            let message = match &kinds[..] {
+                [one] => format!("the key `{one}` is missing"),
+                _ => format!("one of these keys is missing: {}", kinds.join(", ")),
+            };
+            self.report(at, message, None);
+        }
+    }
+}
+
+/// The entries of a table in the order of the text.
+fn in_order<'t, 'i>(
+    table: &'t Table<'i>,
+) -> Vec<(
+    &'t Spanned<std::borrow::Cow<'i, str>>,
+    &'t Spanned<Value<'i>>,
+)> {
+    let mut all: Vec<_> = table.iter().collect();
+    all.sort_by_key(|(name, _)| name.span().start);
+    all
+}
+
+fn found_name(kind: &str) -> &str {
+    match kind {
+        "table" => "a table",
+        "array" => "a list",
+        "integer" => "a whole number",
+        "float" => "a number with a decimal point",
+        "string" => "a string",
+        "boolean" => "true or false",
+        "datetime" => "a date",
+        other => other,
+    }
+}
+
+/// Up to the first full stop that ends a sentence, or the first paragraph.
+fn first_sentence(description: &str) -> String {
+    let paragraph = description.split("\n\n").next().unwrap_or(description);
+    let text = paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
+    let end = text.find(". ").unwrap_or(text.len());
+    text[..end].trim_end_matches('.').to_string()
+}

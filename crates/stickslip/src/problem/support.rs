@@ -1,0 +1,32 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[support.NAME]`: displacements prescribed on a set. Components that are not given stay free.
+///
+/// Over the step in which it becomes active, a support moves linearly from the displacement the points have to the
+/// one prescribed, unless an amplitude says otherwise. In a step that does not list it, it lets go.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Support {
+    /// The points: `body.set`, a `[set.NAME]`, or a body.
+    pub set: String,
+    /// Displacement along x [length]; in an axisymmetric problem the radial one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<f64>,
+    /// Displacement along y [length].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y: Option<f64>,
+    /// Displacement along z [length], in 3D.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+    /// An `[amplitude.NAME]` over the time of the analysis, by which the displacements are multiplied.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<String>,
+}
+
+impl Support {
+    /// The components by name and value, given or not.
+    pub fn components(&self) -> [(&'static str, Option<f64>); 3] {
+        [("x", self.x), ("y", self.y), ("z", self.z)]
+    }
+}
