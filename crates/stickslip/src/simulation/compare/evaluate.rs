@@ -60,7 +60,7 @@ impl<'a> Results<'a> {
             let table = self.table(self.dir.join(file), file)?;
             let values = column(table, file, name)?;
             return match check.at {
-                Some(t) => at_time(column(table, file, "time")?, values, t),
+                Some(t) => at_time(column(table, file, "TIME")?, values, t),
                 None => reduce(values, how),
             };
         }

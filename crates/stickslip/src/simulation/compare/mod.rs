@@ -9,7 +9,7 @@
 //! [[check]]
 //! what = "u_x at A"               # free text for the report
 //! history = "A.U1"                # a column of history.csv
-//! at = 1.0                        # its row: the time; the last row if absent
+//! at = 1.0                        # its row: the value of column TIME; the last row if absent
 //! value = 2.84594e-5
 //! relative = 5e-4                 # |error| <= 5e-4 |value|
 //! source = "table 3"

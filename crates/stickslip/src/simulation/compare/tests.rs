@@ -21,7 +21,7 @@ impl Folder {
         let folder = Folder(path);
         folder.file(
             "history.csv",
-            "time,A.U1,A.U2,bad\n0,0,0,0\n0.5,2e-5,-7,NaN\n1,2.84594e-5,1,1\n",
+            "TIME,A.U1,A.U2,bad\n0,0,0,0\n0.5,2e-5,-7,NaN\n1,2.84594e-5,1,1\n",
         );
         folder.file(
             "summary.json",
@@ -251,7 +251,7 @@ fn what_is_missing_fails_and_is_named() {
     ] {
         folder.assert_missing(&keys, why);
     }
-    folder.file("history.csv", "time,A.U1\n");
+    folder.file("history.csv", "TIME,A.U1\n");
     folder.assert_missing("history = 'A.U1'\nbelow = 1", "no rows");
     fs::remove_file(folder.0.join("history.csv")).unwrap();
     folder.assert_missing("history = 'A.U1'\nbelow = 1", "there is no history.csv");
@@ -362,7 +362,7 @@ fn the_report_is_an_aligned_table() {
         "FAIL  u_x at A    2.845940e-5  2.850000e-5  1.42e-3 rel  5.00e-4 rel",
         "ok    iterations            7   >= 1, <= 9            -            -",
         "FAIL  lost                  -            -            -            -",
-        "        no column `B` in history.csv; there are: time, A.U1, A.U2, bad",
+        "        no column `B` in history.csv; there are: TIME, A.U1, A.U2, bad",
         "1 of 3 checks passed",
     ]
     .join("\n");
