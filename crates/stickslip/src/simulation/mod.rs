@@ -1,5 +1,6 @@
 //! A model and its run: the step loop, observers, reports.
 
+pub mod compare;
 mod diagnosis;
 mod files;
 mod history;
