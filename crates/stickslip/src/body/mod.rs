@@ -1,1 +1,25 @@
-//! body
+//! Elastic bodies: element loops, stresses, loads, springs, rigid-body modes.
+
+mod elastic;
+mod extrapolate;
+mod facets;
+mod fields;
+mod geometry;
+mod kernel;
+pub mod loads;
+mod operator;
+mod recover;
+mod rigid;
+mod space;
+mod waves;
+
+pub use elastic::{Elastic, Part};
+pub use facets::{positive_areas, tributary_areas};
+pub use recover::StressPoint;
+pub use rigid::{RigidMode, rigid_modes};
+pub use space::{Formulation, Space};
+
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;

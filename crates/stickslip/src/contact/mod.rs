@@ -9,8 +9,14 @@
 //! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
 //! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
 //! | response | `response.rs` | traction and its derivatives in the frame of the stencil |
-//! | interface | `interface.rs` | the only place that scatters into residual and tangent |
+//! | interface | `interface/` | the only place that scatters into residual and tangent |
 
 pub mod enforcement;
+pub mod interface;
+pub mod kinematics;
 pub mod law;
 pub mod obstacle;
+pub mod pairing;
+pub mod response;
+pub mod search;
+pub mod surface;

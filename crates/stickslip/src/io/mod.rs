@@ -1,1 +1,11 @@
-//! io
+//! Files: meshes in ([`gmsh`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]).
+//!
+//! This module knows meshes and named fields, never what they mean.
+
+mod atomic;
+pub mod csv;
+pub mod gmsh;
+pub mod pvd;
+pub mod vtu;
+
+pub use atomic::write_atomically;

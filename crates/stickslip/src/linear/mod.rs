@@ -1,4 +1,26 @@
-//! Sparse matrices and their solution.
-/// placeholder
-#[derive(Debug)]
-pub struct BlockCsr;
+//! Sparse matrices and the solution of linear systems; [`gmres`] solves unsymmetric ones, preconditioned by a factor of
+//! something close. [`relative_residual`] tells whether any of them did.
+//!
+//! [`BlockCsr`] holds a matrix over the points of a mesh. [`Symbolic`] and [`Factor`] solve symmetric positive definite
+//! systems.
+
+mod block_csr;
+mod dense;
+mod error;
+mod factor;
+mod gmres;
+mod ordering;
+mod pattern;
+mod residual;
+mod symbolic;
+#[cfg(test)]
+mod testing;
+
+pub use block_csr::BlockCsr;
+pub use dense::DenseLu;
+pub use error::LinearError;
+pub use factor::{Factor, SINGULAR_ROUNDINGS};
+pub use gmres::{GmresReport, GmresSettings, gmres};
+pub use pattern::Couplings;
+pub use residual::{backward_error, relative_residual};
+pub use symbolic::Symbolic;

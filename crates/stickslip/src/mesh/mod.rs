@@ -1,5 +1,14 @@
 //! Meshes: points, blocks of cells of one kind, named sets, boundary, generators.
 
+mod boundary;
+mod check;
+mod combine;
+pub mod generators;
+mod geometry;
+mod select;
+
+pub use combine::Appended;
+
 use std::collections::BTreeMap;
 
 use crate::math::Vec3;
@@ -10,7 +19,7 @@ use crate::shape::ElementKind;
 pub struct Mesh {
     /// Dimension of the space: 2 or 3.
     pub dim: usize,
-    /// Coordinates, shape `(n, 3)` [length].
+    /// Coordinates, shape `(n, 3)` `[length]`.
     pub points: Vec<Vec3>,
     /// The user's number of each point.
     pub point_ids: Vec<u64>,

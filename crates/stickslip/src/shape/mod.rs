@@ -1,8 +1,26 @@
 //! Reference elements: shape functions, their derivatives, faces and quadrature. One file per element.
 //!
 //! Node order, face order and reference domains follow Gmsh (see its manual, *Node ordering*): lines on `[-1, 1]`,
-//! quadrilaterals and hexahedra on `[-1, 1]^d`, triangles and tetrahedra on the unit simplex. The exception is
-//! hex20, whose nodes follow VTK (edges 01 12 23 30, 45 56 67 74, 04 15 26 37); readers and writers translate.
+//! quadrilaterals and hexahedra on `[-1, 1]^d`, triangles and tetrahedra on the unit simplex. The exceptions are
+//! tet10 and hex20, whose nodes follow VTK (tet10: edges 01 12 20 03 13 23; hex20: edges 01 12 23 30, 45 56 67 74,
+//! 04 15 26 37); the Gmsh reader translates.
+
+mod gauss;
+mod hex20;
+mod hex8;
+mod kind;
+mod line2;
+mod line3;
+mod quad4;
+mod quad8;
+mod simplex;
+mod tet10;
+mod tet4;
+mod tri3;
+mod tri6;
+
+#[cfg(test)]
+mod tests;
 
 /// The element family.
 #[derive(

@@ -1,1 +1,15 @@
-//! simulation
+//! A model and its run: the step loop, observers, reports.
+
+mod diagnosis;
+mod files;
+mod history;
+mod model;
+mod run;
+mod summary;
+
+pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
+pub use files::ResultFiles;
+pub use history::Row;
+pub use model::{Body, Model, OutputPlan, Prescribed, Probe, ProbeKind, Step, Support};
+pub use run::{Event, Observer, Simulation};
+pub use summary::{Phases, Summary};

@@ -43,6 +43,8 @@ pub struct StepFailure {
     pub culprits: Vec<Culprit>,
     /// What to try.
     pub help: Option<String>,
+    /// The dof at which a singular system was found out.
+    pub dof: Option<usize>,
 }
 
 impl StepFailure {
@@ -53,6 +55,7 @@ impl StepFailure {
             message: message.into(),
             culprits: Vec::new(),
             help: None,
+            dof: None,
         }
     }
 

@@ -1,0 +1,246 @@
+//! The force of elastic bodies.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::geometry::{Table, by_nodes, coordinates, point};
+use super::kernel::{self, Scratch};
+use super::operator::Operator;
+use super::waves::in_order;
+use super::{Formulation, Space};
+use crate::error::Diagnostic;
+use crate::linear::BlockCsr;
+use crate::material::{Stiffness, constrained_modulus, plane_stress};
+use crate::mesh::{Block, Mesh};
+use crate::system::{Energy, Fields, Force, Stage, State, StepFailure};
+
+/// A block of cells and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Index into [`Mesh::blocks`].
+    pub block: usize,
+    /// Stiffness in space [Pa], checked (see [`Elasticity::stiffness`](crate::material::Elasticity::stiffness)).
+    pub stiffness: Stiffness,
+    /// Mass per volume [kg/m³].
+    pub density: f64,
+}
+
+/// A linear elastic body: some blocks of a mesh, each with a material.
+#[derive(Debug, Clone)]
+pub struct Elastic {
+    name: String,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) space: Space,
+    pub(super) formulation: Formulation,
+    pub(super) parts: Vec<Part>,
+    /// Stiffness as it acts in the space (condensed for plane stress), by part.
+    pub(super) acting: Vec<Stiffness>,
+    points: Vec<usize>,
+    stored: f64,
+}
+
+impl Elastic {
+    /// A body of the given parts, which must be different blocks.
+    ///
+    /// # Errors
+    /// The space does not suit the mesh, the formulation not the space, a part names a block that does not exist or
+    /// has lines in it, or a cell is inverted or collapsed at a quadrature point. The key of the finding is
+    /// `space`, `thickness`, `formulation` or empty.
+    pub fn new(
+        name: impl Into<String>,
+        mesh: Arc<Mesh>,
+        space: Space,
+        formulation: Formulation,
+        parts: Vec<Part>,
+    ) -> Result<Self, Diagnostic> {
+        let name = name.into();
+        space.check(&mesh)?;
+        let in_plane_stress = matches!(space, Space::PlaneStress { .. });
+        if in_plane_stress && formulation == Formulation::MeanDilatation {
+            return Err(Diagnostic::new(
+                "formulation",
+                "mean dilatation does not go with plane stress",
+            )
+            .help("use the standard formulation: in plane stress the thickness is free to change and nothing locks"));
+        }
+        for (i, part) in parts.iter().enumerate() {
+            let Some(block) = mesh.blocks.get(part.block) else {
+                return Err(Diagnostic::new(
+                    "",
+                    format!(
+                        "body {name} names block {}, the mesh has {}",
+                        part.block,
+                        mesh.blocks.len()
+                    ),
+                ));
+            };
+            if block.kind.dim() != space.dim() {
+                return Err(Diagnostic::new(
+                    "",
+                    format!(
+                        "body {name} has {} cells, which do not fill the space",
+                        block.kind.name()
+                    ),
+                ));
+            }
+            if parts[..i].iter().any(|p| p.block == part.block) {
+                return Err(Diagnostic::new(
+                    "",
+                    format!("body {name} names block {} twice", part.block),
+                ));
+            }
+            by_nodes!(block.kind, check_cells(&mesh, block, space))?;
+        }
+        let mut points: Vec<usize> = parts
+            .iter()
+            .flat_map(|p| mesh.blocks[p.block].connectivity.iter().copied())
+            .collect();
+        points.sort_unstable();
+        points.dedup();
+        let acting = parts
+            .iter()
+            .map(|p| {
+                if in_plane_stress {
+                    plane_stress(&p.stiffness)
+                } else {
+                    p.stiffness
+                }
+            })
+            .collect();
+        Ok(Elastic {
+            name,
+            mesh,
+            space,
+            formulation,
+            parts,
+            acting,
+            points,
+            stored: 0.0,
+        })
+    }
+
+    /// The mesh it is part of.
+    pub fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
+    /// The space it is in.
+    pub fn space(&self) -> Space {
+        self.space
+    }
+
+    /// Its parts.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Its points, ascending.
+    pub fn points(&self) -> &[usize] {
+        &self.points
+    }
+
+    /// The largest stiffness against strain in one direction alone [Pa] in the cells of `block`, as the material acts
+    /// in the body's space; `None` if the block is not part of this body. Penalties are multiples of it over a length.
+    pub fn constrained_modulus(&self, block: usize) -> Option<f64> {
+        let i = self.parts.iter().position(|p| p.block == block)?;
+        Some(constrained_modulus(&self.acting[i]))
+    }
+
+    /// Hands out the stiffness matrix of every cell, shape `(n dim, n dim)` row by row, with the cell's points; parts
+    /// and cells in order.
+    pub fn element_matrices(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
+        for (part, acting) in self.parts.iter().zip(&self.acting) {
+            let block = &self.mesh.blocks[part.block];
+            let operator = Operator::new(acting, self.space, self.formulation);
+            by_nodes!(
+                block.kind,
+                matrices(&self.mesh, block, self.space, &operator, visit)
+            );
+        }
+    }
+}
+
+fn matrices<const N: usize>(
+    mesh: &Mesh,
+    block: &Block,
+    space: Space,
+    operator: &Operator,
+    visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
+) {
+    let table = Table::<N>::new(block.kind, space);
+    let width = (N * space.dim()).pow(2);
+    in_order(
+        block.connectivity.len() / N,
+        width,
+        |first, part| {
+            let mut scratch = Scratch::<N>::new();
+            for (c, out) in part.chunks_exact_mut(width).enumerate() {
+                let x = coordinates(&mesh.points, block, first + c);
+                kernel::stiffness(&table, &x, space, operator, &mut scratch, out);
+            }
+        },
+        |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),
+    );
+}
+
+/// The first cell whose volume is not positive at a quadrature point.
+fn check_cells<const N: usize>(mesh: &Mesh, block: &Block, space: Space) -> Result<(), Diagnostic> {
+    let table = Table::<N>::new(block.kind, space);
+    let bad = (0..block.connectivity.len() / N)
+        .into_par_iter()
+        .find_map_first(|cell| {
+            let x = coordinates(&mesh.points, block, cell);
+            (0..table.len())
+                .map(|q| point(&table, q, &x, space))
+                .find(|p| !(p.volume > 0.0 && p.volume.is_finite()))
+                .map(|p| (cell, p.jacobian))
+        });
+    match bad {
+        None => Ok(()),
+        Some((cell, jacobian)) => Err(Diagnostic::new(
+            "",
+            format!(
+                "cell {} ({}) is inverted or collapsed: its Jacobian is {jacobian:.3e}",
+                block.cell_ids.get(cell).copied().unwrap_or(cell as u64),
+                block.kind.name()
+            ),
+        )
+        .help("check the coordinates of its nodes and their order")),
+    }
+}
+
+impl Force for Elastic {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn couplings(&self, visit: &mut dyn FnMut(&[usize])) {
+        for part in &self.parts {
+            let block = &self.mesh.blocks[part.block];
+            for cell in block.connectivity.chunks_exact(block.kind.node_count()) {
+                visit(cell);
+            }
+        }
+    }
+
+    fn stiffness(&self, matrix: &mut BlockCsr) -> Result<(), StepFailure> {
+        self.element_matrices(&mut |points, dense| matrix.add_group(points, dense));
+        Ok(())
+    }
+
+    fn commit(&mut self, stage: &Stage) {
+        self.stored = self.strain_energy(&stage.at.u);
+    }
+
+    fn energy(&self) -> Energy {
+        Energy {
+            stored: self.stored,
+            ..Energy::default()
+        }
+    }
+
+    fn fields(&self, state: &State, out: &mut Fields) {
+        self.add_fields(state, out);
+    }
+}

@@ -1,0 +1,122 @@
+//! Integrals over boundary facets.
+
+use super::Space;
+use crate::math::{Vec3, add_scaled, cross, norm, scale};
+use crate::mesh::{FacetRef, Mesh};
+use crate::shape::MAX_NODES;
+
+/// A quadrature point of a facet.
+pub(super) struct FacetPoint<'a> {
+    /// Points of the facet.
+    pub points: &'a [usize],
+    /// Shape functions there.
+    pub values: &'a [f64],
+    /// Area it stands for [m²], with thickness or circumference.
+    pub area: f64,
+    /// Unit normal out of the body.
+    pub normal: Vec3,
+}
+
+/// Visits the quadrature points of a facet. Facets that have shrunk to nothing have none.
+pub(super) fn visit_facet(
+    mesh: &Mesh,
+    space: Space,
+    facet: FacetRef,
+    visit: &mut dyn FnMut(FacetPoint),
+) {
+    let block = &mesh.blocks[facet.cell.block];
+    let nodes = block.kind.node_count();
+    let connectivity = &block.connectivity[facet.cell.cell * nodes..][..nodes];
+    let face = &block.kind.reference().faces()[facet.face];
+    let count = face.nodes.len();
+    let mut points = [0; MAX_NODES];
+    for (p, &local) in points.iter_mut().zip(face.nodes) {
+        *p = connectivity[local];
+    }
+    let points = &points[..count];
+    let element = face.kind.reference();
+    let mut n = [0.0; MAX_NODES];
+    let mut d = [[0.0; 3]; MAX_NODES];
+    for q in element.quadrature() {
+        element.values(q.xi, &mut n[..count]);
+        element.gradients(q.xi, &mut d[..count]);
+        let (mut x, mut t1, mut t2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for (a, &p) in points.iter().enumerate() {
+            x = add_scaled(x, n[a], mesh.points[p]);
+            t1 = add_scaled(t1, d[a][0], mesh.points[p]);
+            t2 = add_scaled(t2, d[a][1], mesh.points[p]);
+        }
+        let across = if mesh.dim == 2 {
+            [t1[1], -t1[0], 0.0]
+        } else {
+            cross(t1, t2)
+        };
+        let measure = norm(across);
+        if measure > 0.0 {
+            visit(FacetPoint {
+                points,
+                values: &n[..count],
+                area: q.weight * measure * space.extent(x),
+                normal: scale(1.0 / measure, across),
+            });
+        }
+    }
+}
+
+/// Sums the entries of equal index; ascending, and each sum in the order of the entries.
+pub(super) fn combine(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    entries.sort_by_key(|e| e.0);
+    let mut out: Vec<(usize, f64)> = Vec::new();
+    for (index, value) in entries {
+        match out.last_mut() {
+            Some(last) if last.0 == index => last.1 += value,
+            _ => out.push((index, value)),
+        }
+    }
+    out
+}
+
+/// The area `∫ N_i dA` [m²] that belongs to each point of the facets, points ascending; thickness or circumference
+/// included.
+///
+/// These are the weights that make a constant pressure consistent. For quadratic facets in space they are not
+/// positive: zero at the corners of tri6, negative at those of quad8. [`positive_areas`] are.
+pub fn tributary_areas(mesh: &Mesh, facets: &[FacetRef], space: Space) -> Vec<(usize, f64)> {
+    let mut entries = Vec::new();
+    for &facet in facets {
+        visit_facet(mesh, space, facet, &mut |q| {
+            entries.extend(q.points.iter().zip(q.values).map(|(&p, n)| (p, n * q.area)));
+        });
+    }
+    combine(entries)
+}
+
+/// The area of each facet divided among its points in the proportion of `∫ N_i² dA` [m²], points ascending.
+///
+/// Positive for every kind of facet, and with the same sum as [`tributary_areas`]; a constant pressure is not
+/// represented exactly on quadratic facets.
+pub fn positive_areas(mesh: &Mesh, facets: &[FacetRef], space: Space) -> Vec<(usize, f64)> {
+    let mut entries = Vec::new();
+    for &facet in facets {
+        let mut total = 0.0;
+        let first = entries.len();
+        let mut started = false;
+        visit_facet(mesh, space, facet, &mut |q| {
+            if !started {
+                entries.extend(q.points.iter().map(|&p| (p, 0.0)));
+                started = true;
+            }
+            total += q.area;
+            for ((_, w), n) in entries[first..].iter_mut().zip(q.values) {
+                *w += n * n * q.area;
+            }
+        });
+        let sum: f64 = entries[first..].iter().map(|e| e.1).sum();
+        if sum > 0.0 {
+            for (_, w) in &mut entries[first..] {
+                *w *= total / sum;
+            }
+        }
+    }
+    combine(entries)
+}

@@ -1,0 +1,126 @@
+use crate::error::Diagnostic;
+use crate::math::Vec3;
+use crate::mesh::Mesh;
+
+/// How the coordinates of the mesh stand for a body in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Space {
+    /// Two dimensions, no strain across the plane.
+    PlaneStrain {
+        /// Extent across the plane [m].
+        thickness: f64,
+    },
+    /// Two dimensions, no stress across the plane.
+    PlaneStress {
+        /// Extent across the plane [m].
+        thickness: f64,
+    },
+    /// Two dimensions turned about the y axis: x is the radius. Integrals run over the full `2π`, forces are those of
+    /// the whole ring; points on the axis are allowed. The zz components of stress and strain are the hoop's.
+    Axisymmetric,
+    /// Three dimensions.
+    Solid,
+}
+
+/// What the elements do with the change of volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Formulation {
+    /// Strains as the displacements give them.
+    #[default]
+    Standard,
+    /// The dilatation is replaced by its mean over the cell (B-bar,
+    /// [`hughes_1980`](crate::references::hughes_1980)), so that nearly incompressible bodies do not lock.
+    ///
+    /// Works with any material and with axial symmetry (the mean is weighted by the radius). Not for plane stress,
+    /// where the strain across the plane is free and nothing locks. Cells with constant strain (tri3, tet4) are not
+    /// changed by it.
+    MeanDilatation,
+}
+
+impl Space {
+    /// Dimension of the mesh: 2 or 3.
+    pub fn dim(&self) -> usize {
+        match self {
+            Space::Solid => 3,
+            _ => 2,
+        }
+    }
+
+    /// What an integral over the mesh is multiplied by at `x` to become one over the body: thickness [m], `2π r` [m]
+    /// or 1.
+    #[inline]
+    pub fn extent(&self, x: Vec3) -> f64 {
+        match self {
+            Space::PlaneStrain { thickness } | Space::PlaneStress { thickness } => *thickness,
+            Space::Axisymmetric => std::f64::consts::TAU * x[0],
+            Space::Solid => 1.0,
+        }
+    }
+
+    /// The strain component (see [`material`](crate::material)) to which displacement component `i` contributes
+    /// through its derivative `k`. With axial symmetry derivative 2 is the division by the radius.
+    #[inline]
+    pub(super) fn component(&self, i: usize, k: usize) -> Option<usize> {
+        match (self, k) {
+            (Space::Solid, _) => Some(crate::material::VOIGT[i][k]),
+            (Space::Axisymmetric, 2) => (i == 0).then_some(2),
+            (_, 2) => None,
+            _ => Some(crate::material::VOIGT[i][k]),
+        }
+    }
+
+    /// How many derivatives are in use: 2 in the plane, 3 otherwise.
+    pub(super) fn derivatives(&self) -> usize {
+        match self {
+            Space::PlaneStrain { .. } | Space::PlaneStress { .. } => 2,
+            Space::Axisymmetric | Space::Solid => 3,
+        }
+    }
+
+    /// Checks that `mesh` can stand for a body in this space.
+    ///
+    /// # Errors
+    /// The dimensions differ, the thickness is not positive, or a radius is negative.
+    pub fn check(&self, mesh: &Mesh) -> Result<(), Diagnostic> {
+        if mesh.dim != self.dim() {
+            return Err(Diagnostic::new(
+                "space",
+                format!(
+                    "the mesh has {} dimensions and the space {}",
+                    mesh.dim,
+                    self.dim()
+                ),
+            )
+            .help("choose \"solid\" for a 3D mesh, and one of the plane or axisymmetric spaces for a 2D mesh"));
+        }
+        match self {
+            Space::PlaneStrain { thickness } | Space::PlaneStress { thickness } => {
+                if !(*thickness > 0.0 && thickness.is_finite()) {
+                    return Err(Diagnostic::new(
+                        "thickness",
+                        format!("thickness = {thickness} is not positive"),
+                    ));
+                }
+            }
+            Space::Axisymmetric => {
+                // Meshes made by transformations put points of the axis a rounding error beside it.
+                let size = mesh.points.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()));
+                if let Some(i) = mesh.points.iter().position(|p| !(p[0] >= -1e-12 * size)) {
+                    return Err(Diagnostic::new(
+                        "space",
+                        format!(
+                            "point {} has the negative radius {}",
+                            mesh.point_ids.get(i).copied().unwrap_or(i as u64),
+                            mesh.points[i][0]
+                        ),
+                    )
+                    .help(
+                        "in an axisymmetric problem x is the radius: model the half x >= 0 only",
+                    ));
+                }
+            }
+            Space::Solid => {}
+        }
+        Ok(())
+    }
+}

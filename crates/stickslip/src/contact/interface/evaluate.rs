@@ -1,0 +1,413 @@
+//! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
+
+use super::{Interface, Primary, SaddleRows};
+use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
+use crate::contact::obstacle::Pose;
+use crate::contact::pairing::{FacetPoint, beyond, facet_distance, project};
+use crate::contact::response::{Circumstances, Response};
+use crate::contact::surface::Facet;
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+
+/// What all points of one evaluation share.
+pub(super) struct Scene<'a> {
+    pub x: &'a [Vec3],
+    pub before: &'a [Vec3],
+    /// Pose of the obstacle now and at the last accepted state.
+    pub poses: Option<&'a (Pose, Pose)>,
+    pub belt: Vec3,
+    pub dt: f64,
+    pub tangent: bool,
+}
+
+/// The outcome at one point.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Evaluation {
+    /// Global dofs; empty where there is no force.
+    pub dofs: Vec<usize>,
+    pub residual: Vec<f64>,
+    pub tangent: Vec<f64>,
+    pub surrogate: Vec<f64>,
+    pub saddle: Option<SaddleRows>,
+    pub response: Response,
+    pub gap: f64,
+    pub normal: Vec3,
+    /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
+    pub frame: [Vec3; 2],
+    pub frame_before: [Vec3; 2],
+    /// Relative slip since the last accepted state, in space, belt included.
+    pub moved: Vec3,
+    pub facet: Option<usize>,
+    /// Facet weights, for output on the primary side.
+    pub facet_weights: Vec<(usize, f64)>,
+    pub normal_stiffness: f64,
+    pub tangential_stiffness: f64,
+    /// Multipliers as components in the frame, for a perturbed Lagrangian.
+    pub multiplier: [f64; 3],
+}
+
+/// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
+fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
+    let g11 = dot(e[0], e[0]);
+    let b1 = dot(v, e[0]);
+    if dim == 2 {
+        return [b1 / g11, 0.0];
+    }
+    let (g12, g22, b2) = (dot(e[0], e[1]), dot(e[1], e[1]), dot(v, e[1]));
+    let det = g11 * g22 - g12 * g12;
+    if det == 0.0 {
+        return [0.0; 2];
+    }
+    [(g22 * b1 - g12 * b2) / det, (g11 * b2 - g12 * b1) / det]
+}
+
+/// The positive semi-definite part of a symmetric 2×2 matrix given as `[a11, a22, a12]`.
+fn positive_part([a, b, c]: [f64; 3]) -> [f64; 3] {
+    let mean = 0.5 * (a + b);
+    let radius = (0.5 * (a - b)).hypot(c);
+    let (high, low) = (mean + radius, mean - radius);
+    if low >= 0.0 {
+        return [a, b, c];
+    }
+    if high <= 0.0 {
+        return [0.0; 3];
+    }
+    // high · v vᵀ with v vᵀ = (A - low I) / (high - low)
+    let s = high / (high - low);
+    [s * (a - low), s * (b - low), s * c]
+}
+
+impl Interface {
+    /// A length of a facet, for tolerances.
+    fn facet_size(facet: &Facet, p: &FacetPoint) -> f64 {
+        match facet.kind.dim() {
+            1 => 2.0 * norm(p.a[0]),
+            _ => norm(cross(p.a[0], p.a[1])).sqrt(),
+        }
+    }
+
+    /// The facet a point belongs to and its projection there; the distance to the surface if it belongs to none.
+    ///
+    /// The nearest facet wins; between equally near ones the one it was on. Beyond an edge where the surface goes on the facet is
+    /// extended, so that a point in a re-entrant corner is not lost; beyond an outer edge the point is free.
+    pub(super) fn closest(
+        &self,
+        i: usize,
+        x: &[Vec3],
+        previous: Option<usize>,
+    ) -> Result<(usize, FacetPoint), f64> {
+        let Primary::Facets(facets) = &self.primary else {
+            return Err(f64::INFINITY);
+        };
+        let point = &self.points[i];
+        let position = point.position(x);
+        let mut best: Option<(f64, usize, FacetPoint, bool)> = None;
+        let mut nearest = f64::INFINITY;
+        let mut nodes = [[0.0; 3]; crate::contact::pairing::FACET_NODES];
+        for &f in &self.memory.candidates[i] {
+            let facet = &facets[f];
+            for (c, &n) in nodes.iter_mut().zip(&facet.nodes) {
+                *c = x[n];
+            }
+            let nodes = &nodes[..facet.nodes.len()];
+            let Some(p) = project(facet.kind, nodes, position) else {
+                continue;
+            };
+            if dot(p.normal, point.normal) >= 0.0 {
+                continue;
+            }
+            let size = Self::facet_size(facet, &p);
+            let over = beyond(facet.kind, nodes, &p);
+            let away = facet_distance(position, &p, over);
+            nearest = nearest.min(away);
+            let carried = over.distance <= self.edge_tolerance * size || facet.continues[over.edge];
+            let better = match &best {
+                None => true,
+                Some((d, b, _, was_carried)) => {
+                    // Distances equal but for rounding: an edge both facets share.
+                    let tie = (away - d).abs() <= 1e-9 * size;
+                    match (carried, was_carried, tie) {
+                        (true, false, true) => true,
+                        (false, true, true) => false,
+                        (_, _, true) => previous == Some(f) && previous != Some(*b),
+                        _ => away < *d,
+                    }
+                }
+            };
+            if better {
+                best = Some((away, f, p, carried));
+            }
+        }
+        match best {
+            Some((_, f, p, true)) => Ok((f, p)),
+            _ => Err(nearest),
+        }
+    }
+
+    pub(super) fn evaluate(&self, i: usize, scene: &Scene) -> Evaluation {
+        match &self.primary {
+            Primary::Rigid(..) => self.evaluate_rigid(i, scene),
+            Primary::Facets(facets) => self.evaluate_facet(i, facets, scene),
+        }
+    }
+
+    fn evaluate_facet(&self, i: usize, facets: &[Facet], scene: &Scene) -> Evaluation {
+        let point = &self.points[i];
+        let frozen = self.kinematics.as_dyn().frozen();
+        let found = if frozen {
+            self.memory.frozen[i].ok_or(f64::INFINITY)
+        } else {
+            let previous = self.memory.last.get(i).and_then(|e| e.facet);
+            let previous = previous.or(self.memory.committed[i].facet);
+            self.closest(i, scene.x, previous)
+        };
+        let (f, foot) = match found {
+            Ok(found) => found,
+            Err(distance) => return Evaluation::open(distance),
+        };
+        let facet = &facets[f];
+        let at = |x: &[Vec3]| -> Vec<Vec3> { facet.nodes.iter().map(|&n| x[n]).collect() };
+        let (now, then) = (at(scene.x), at(scene.before));
+        let mut position = point.position(scene.x);
+        let mut position_before = point.position(scene.before);
+        let anchor = if frozen {
+            // relative to the material place of the frozen foot
+            let place = |nodes: &[Vec3]| {
+                nodes
+                    .iter()
+                    .zip(&foot.n)
+                    .fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x))
+            };
+            position = add(foot.x, sub(position, place(&now)));
+            position_before = add(foot.x, sub(position_before, place(&then)));
+            foot
+        } else {
+            match project(facet.kind, &then, position_before) {
+                Some(anchor) => anchor,
+                None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
+            }
+        };
+        let pair = Pair {
+            dim: self.dofs.dim,
+            weights: &point.weights,
+            point: position,
+            kind: facet.kind,
+            facet: &now,
+            foot: &foot,
+            anchor: &anchor,
+            point_before: position_before,
+        };
+        let kinematics = self.kinematics.as_dyn();
+        let mut stencil = Stencil::default();
+        kinematics.stencil(&pair, &mut stencil);
+        let mut e = self.respond(i, &stencil, scene);
+        e.facet = Some(f);
+        e.facet_weights = facet
+            .nodes
+            .iter()
+            .copied()
+            .zip(foot.n[..facet.nodes.len()].iter().copied())
+            .collect();
+        let nodes = point.nodes.iter().chain(&facet.nodes);
+        self.finish(i, &stencil, nodes, scene, &mut e, |weights, out| {
+            kinematics.add_hessian(&pair, &stencil, weights, out);
+        });
+        e
+    }
+
+    fn evaluate_rigid(&self, i: usize, scene: &Scene) -> Evaluation {
+        let (Primary::Rigid(shape, _), Some(poses)) = (&self.primary, scene.poses) else {
+            return Evaluation::open(f64::INFINITY);
+        };
+        let point = &self.points[i];
+        let (x, before) = (point.position(scene.x), point.position(scene.before));
+        let dim = self.dofs.dim;
+        let mut stencil = Stencil::default();
+        let Some(feet) = rigid_stencil(
+            shape.as_dyn(),
+            (&poses.0, &poses.1),
+            point,
+            (x, before),
+            dim,
+            &mut stencil,
+        ) else {
+            return Evaluation::open(f64::INFINITY);
+        };
+        let mut e = self.respond(i, &stencil, scene);
+        self.finish(
+            i,
+            &stencil,
+            point.nodes.iter(),
+            scene,
+            &mut e,
+            |weights, out| {
+                add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out);
+            },
+        );
+        e
+    }
+
+    /// Laws at a stencil.
+    fn respond(&self, i: usize, stencil: &Stencil, scene: &Scene) -> Evaluation {
+        let dim = self.dofs.dim;
+        let point = &self.points[i];
+        let enforcement = self.laws.enforcement.as_dyn();
+        let normal_stiffness = if self.laws.needs_normal_stiffness() {
+            enforcement.normal().resolve(point.stiffness)
+        } else {
+            f64::INFINITY
+        };
+        let tangential_stiffness = if self.laws.needs_tangential_stiffness() {
+            enforcement.tangential().resolve(point.stiffness)
+        } else {
+            f64::INFINITY
+        };
+        let multiplier = &self.memory.multipliers[i];
+        let shear = components(multiplier.shear, &stencil.frame_before, dim);
+        let at = Circumstances {
+            dt: scene.dt,
+            normal_stiffness,
+            tangential_stiffness,
+            multiplier: [multiplier.pressure, shear[0], shear[1]],
+            carried: components(self.memory.committed[i].shear, &stencil.frame_before, dim),
+            belt: stencil.frame_before.map(|e| dot(e, scene.belt)),
+        };
+        let response = self.laws.respond(stencil, &at);
+        let slid = [stencil.slip[0] - at.belt[0], stencil.slip[1] - at.belt[1]];
+        Evaluation {
+            response,
+            gap: stencil.gap,
+            normal: stencil.normal,
+            frame: stencil.frame,
+            frame_before: stencil.frame_before,
+            moved: add_scaled(
+                scale(slid[0], stencil.frame_before[0]),
+                slid[1],
+                stencil.frame_before[1],
+            ),
+            normal_stiffness,
+            tangential_stiffness,
+            multiplier: at.multiplier,
+            ..Evaluation::default()
+        }
+    }
+
+    /// Residual and tangent from stencil and response.
+    fn finish<'a>(
+        &self,
+        i: usize,
+        stencil: &Stencil,
+        nodes: impl Iterator<Item = &'a usize>,
+        scene: &Scene,
+        e: &mut Evaluation,
+        hessian: impl FnOnce([f64; 3], &mut [f64]),
+    ) {
+        let r = &e.response;
+        let unknown = self.unknown_multipliers();
+        let traction = if unknown { e.multiplier } else { r.traction };
+        if traction == [0.0; 3] && r.traction == [0.0; 3] {
+            return;
+        }
+        let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
+        for &node in nodes {
+            for c in 0..dim {
+                e.dofs.push(self.dofs.of(self.nodes[node], c));
+            }
+        }
+        e.residual = (0..n)
+            .map(|k| {
+                -area
+                    * (0..3)
+                        .map(|q| traction[q] * stencil.rows[q][k])
+                        .sum::<f64>()
+            })
+            .collect();
+        let rows = &stencil.rows;
+        // d_gap · B (+ the skew), shape (3, n)
+        let change = |q: usize, k: usize| -> f64 {
+            let mut c: f64 = (0..3).map(|p| r.d_gap[q][p] * rows[p][k]).sum();
+            if !stencil.skew_row.is_empty() {
+                c += r.d_skew[q] * stencil.skew_row[k];
+            }
+            c
+        };
+        if unknown {
+            e.saddle = Some(saddle(r, e.multiplier, area, rows, n, change));
+        }
+        if !scene.tangent {
+            return;
+        }
+        let mut tangent = vec![0.0; n * n];
+        hessian(traction.map(|t| -area * t), &mut tangent);
+        if !unknown {
+            for k in 0..n {
+                for q in 0..3 {
+                    let row = -area * rows[q][k];
+                    if row != 0.0 {
+                        for l in 0..n {
+                            tangent[k * n + l] += row * change(q, l);
+                        }
+                    }
+                }
+            }
+        }
+        let d = &r.d_gap;
+        let [t11, t22, t12] = positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]);
+        let normal = (-d[0][0]).max(0.0);
+        let mut surrogate = vec![0.0; n * n];
+        for k in 0..n {
+            let left = [
+                area * normal * rows[0][k],
+                area * (t11 * rows[1][k] + t12 * rows[2][k]),
+                area * (t12 * rows[1][k] + t22 * rows[2][k]),
+            ];
+            for l in 0..n {
+                surrogate[k * n + l] =
+                    left[0] * rows[0][l] + left[1] * rows[1][l] + left[2] * rows[2][l];
+            }
+        }
+        e.tangent = tangent;
+        e.surrogate = surrogate;
+    }
+}
+
+/// The multiplier rows `λ - T(gap, λ) = 0` of a perturbed Lagrangian.
+///
+/// For a linear law the first row is `λ + ω g = 0`, the paper's `G - Σ/ω = 0` (its `Σ_n` is `-λ`) times `-ω`.
+fn saddle(
+    r: &Response,
+    multiplier: [f64; 3],
+    area: f64,
+    rows: &[Vec<f64>; 3],
+    n: usize,
+    change: impl Fn(usize, usize) -> f64,
+) -> SaddleRows {
+    let mut k_ul = vec![0.0; n * 3];
+    let mut k_lu = vec![0.0; 3 * n];
+    for k in 0..n {
+        for q in 0..3 {
+            k_ul[k * 3 + q] = -area * rows[q][k];
+            k_lu[q * n + k] = -change(q, k);
+        }
+    }
+    // K_ll = I - ∂T/∂λ, whose only entries off the diagonal are those of the limit: its inverse flips their sign.
+    let p = r.d_pressure;
+    SaddleRows {
+        k_ul,
+        k_lu,
+        k_ll_inverse: vec![1.0, 0.0, 0.0, p[0], 1.0, 0.0, p[1], 0.0, 1.0],
+        r_l: (0..3).map(|q| multiplier[q] - r.traction[q]).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_positive_part_is_a_projection() {
+        assert_eq!(positive_part([2.0, 1.0, 0.5]), [2.0, 1.0, 0.5]);
+        assert_eq!(positive_part([-2.0, -1.0, 0.5]), [0.0; 3]);
+        let [a, b, c] = positive_part([1.0, -1.0, 0.0]);
+        assert!((a - 1.0).abs() < 1e-15 && b.abs() < 1e-15 && c == 0.0);
+    }
+}

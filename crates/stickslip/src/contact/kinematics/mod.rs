@@ -1,0 +1,121 @@
+//! Kinematics: gap and slip of a contact point with their first and second derivatives.
+//!
+//! The only place where a contact normal is made. A [`Stencil`] says by how much gap and slip change when its dofs move; the
+//! response of the interface is written in its frame, so that force and tangent are
+//! `Bᵀ t` and `Bᵀ D B + Σ tᵢ kᵢ` whatever law made `t` and `D`.
+
+mod convective;
+mod facet;
+mod pop;
+mod rigid;
+mod small_sliding;
+
+pub use convective::Convective;
+pub use pop::Pop1995;
+pub use rigid::{add_rigid_hessian, rigid_stencil};
+pub use small_sliding::SmallSliding;
+
+use super::pairing::FacetPoint;
+use crate::math::Vec3;
+use crate::shape::ElementKind;
+
+/// Gap and slip of one contact point, with their gradients over its dofs (secondary nodes first, then facet nodes; `dim` a node).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Stencil {
+    /// Number of dofs.
+    pub n: usize,
+    /// Gap, positive if open [m].
+    pub gap: f64,
+    /// Unit normal out of the primary.
+    pub normal: Vec3,
+    /// Slip of the secondary over the primary since the last accepted state, in the two directions of the frame [m].
+    pub slip: [f64; 2],
+    /// The two directions, now: the shear traction on the secondary is `t₁ frame₁ + t₂ frame₂`.
+    pub frame: [Vec3; 2],
+    /// The same at the last accepted state, in which tractions carried over are expressed.
+    pub frame_before: [Vec3; 2],
+    /// Cosine of the angle between the directions.
+    pub skew: f64,
+    /// Gradients of gap and slips, each of length `n`.
+    pub rows: [Vec<f64>; 3],
+    /// Gradient of the skew; empty where it is zero.
+    pub skew_row: Vec<f64>,
+}
+
+impl Stencil {
+    /// Empties the stencil for `n` dofs; buffers keep their memory.
+    pub fn reset(&mut self, n: usize) {
+        self.n = n;
+        for row in &mut self.rows {
+            row.clear();
+            row.resize(n, 0.0);
+        }
+        self.skew_row.clear();
+        self.skew = 0.0;
+    }
+}
+
+/// A contact point on a facet, at the state of evaluation and at the last accepted one.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// 2 or 3.
+    pub dim: usize,
+    /// Weights of the secondary nodes.
+    pub weights: &'a [f64],
+    /// Position of the secondary point.
+    pub point: Vec3,
+    /// Kind of the facet.
+    pub kind: ElementKind,
+    /// Coordinates of the facet's nodes.
+    pub facet: &'a [Vec3],
+    /// Projection of the point on the facet.
+    pub foot: &'a FacetPoint,
+    /// Projection of the point on the same facet, both at the last accepted state.
+    pub anchor: &'a FacetPoint,
+    /// The point at the last accepted state.
+    pub point_before: Vec3,
+}
+
+impl Pair<'_> {
+    /// Number of dofs of the stencil.
+    pub fn dofs(&self) -> usize {
+        (self.weights.len() + self.facet.len()) * self.dim
+    }
+}
+
+/// A way to measure gap and slip.
+pub trait Kinematics: Send + Sync {
+    /// `true` if pairs, normals and weights are those of the reference configuration.
+    fn frozen(&self) -> bool {
+        false
+    }
+
+    /// `true` if facets must be lines or triangles.
+    fn triangles(&self) -> bool {
+        false
+    }
+
+    /// Fills `out`.
+    fn stencil(&self, pair: &Pair, out: &mut Stencil);
+
+    /// Adds `Σ wᵢ kᵢ` to `out`, shape `(n, n)`: the second derivatives of gap and slips, weighted.
+    fn add_hessian(&self, pair: &Pair, stencil: &Stencil, weights: [f64; 3], out: &mut [f64]);
+}
+
+crate::family! {
+    /// How gap and slip are measured.
+    KinematicsModel: "kinematics", dyn Kinematics {
+        /// Convective coordinates.
+        Convective(Convective) = "convective",
+        /// Small sliding.
+        SmallSliding(SmallSliding) = "small-sliding",
+        /// The paper's.
+        Pop1995(Pop1995) = "pop-1995",
+    }
+}
+
+impl Default for KinematicsModel {
+    fn default() -> Self {
+        KinematicsModel::Convective(Convective {})
+    }
+}

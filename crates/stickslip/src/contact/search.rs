@@ -1,0 +1,203 @@
+//! Which facets a point may meet: a tree of boxes over the facets, asked for the facets near a point.
+
+use crate::math::Vec3;
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Box3 {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Box3 {
+    const EMPTY: Box3 = Box3 {
+        low: [f64::INFINITY; 3],
+        high: [f64::NEG_INFINITY; 3],
+    };
+
+    fn include(&mut self, other: &Box3) {
+        for i in 0..3 {
+            self.low[i] = self.low[i].min(other.low[i]);
+            self.high[i] = self.high[i].max(other.high[i]);
+        }
+    }
+
+    fn of(points: impl Iterator<Item = Vec3>) -> Box3 {
+        points.fold(Box3::EMPTY, |mut b, p| {
+            b.include(&Box3 { low: p, high: p });
+            b
+        })
+    }
+
+    /// Squared distance from a point to the box.
+    fn distance2(&self, p: Vec3) -> f64 {
+        (0..3)
+            .map(|i| {
+                (self.low[i] - p[i])
+                    .max(p[i] - self.high[i])
+                    .max(0.0)
+                    .powi(2)
+            })
+            .sum()
+    }
+
+    fn centre(&self, axis: usize) -> f64 {
+        0.5 * (self.low[axis] + self.high[axis])
+    }
+
+    /// Squared distance from a point to the farthest corner.
+    fn farthest2(&self, p: Vec3) -> f64 {
+        (0..3)
+            .map(|i| {
+                (p[i] - self.low[i])
+                    .abs()
+                    .max((self.high[i] - p[i]).abs())
+                    .powi(2)
+            })
+            .sum()
+    }
+}
+
+#[derive(Debug, Clone)]
+struct Node {
+    bounds: Box3,
+    /// Leaves: first item and count. Inner nodes: the second child and 0; the first child follows the node.
+    index: usize,
+    count: usize,
+}
+
+/// A tree of boxes over facets. It is a value: built from coordinates, asked, thrown away.
+#[derive(Debug, Clone, Default)]
+pub struct Tree {
+    nodes: Vec<Node>,
+    items: Vec<usize>,
+    boxes: Vec<Box3>,
+}
+
+const LEAF: usize = 4;
+
+impl Tree {
+    /// Builds the tree over facets given by their node coordinates. A curved facet may bulge out of the box of its nodes by
+    /// less than its size; queries with a margin of that order find it all the same.
+    pub fn build<I: Iterator<Item = Vec3>>(facets: impl Iterator<Item = I>) -> Tree {
+        let boxes: Vec<Box3> = facets.map(Box3::of).collect();
+        let mut tree = Tree {
+            nodes: Vec::with_capacity(boxes.len()),
+            items: (0..boxes.len()).collect(),
+            boxes,
+        };
+        if !tree.items.is_empty() {
+            tree.split(0, tree.items.len());
+        }
+        tree
+    }
+
+    fn split(&mut self, start: usize, end: usize) {
+        let mut bounds = Box3::EMPTY;
+        for &i in &self.items[start..end] {
+            bounds.include(&self.boxes[i]);
+        }
+        let me = self.nodes.len();
+        self.nodes.push(Node {
+            bounds,
+            index: start,
+            count: end - start,
+        });
+        if end - start <= LEAF {
+            return;
+        }
+        let extent = |a: usize| bounds.high[a] - bounds.low[a];
+        let axis = (0..3).fold(0, |b, a| if extent(a) > extent(b) { a } else { b });
+        let middle = start + (end - start) / 2;
+        let boxes = &self.boxes;
+        // Ties are broken by index, so that the tree depends on nothing but the facets.
+        self.items[start..end].select_nth_unstable_by(middle - start, |&i, &j| {
+            boxes[i]
+                .centre(axis)
+                .total_cmp(&boxes[j].centre(axis))
+                .then(i.cmp(&j))
+        });
+        self.split(start, middle);
+        let second = self.nodes.len();
+        self.split(middle, end);
+        self.nodes[me].index = second;
+        self.nodes[me].count = 0;
+    }
+
+    /// All facets whose boxes come as near to `point` as the nearest facet can be, plus `margin`; sorted by index.
+    pub fn near(&self, point: Vec3, margin: f64, out: &mut Vec<usize>) {
+        out.clear();
+        if self.nodes.is_empty() {
+            return;
+        }
+        // The nearest facet is not farther than the farthest corner of any one box.
+        let mut bound = f64::INFINITY;
+        let mut stack = vec![0];
+        while let Some(i) = stack.pop() {
+            let node = &self.nodes[i];
+            if node.bounds.distance2(point) > bound {
+                continue;
+            }
+            if node.count == 0 {
+                let (a, b) = (i + 1, node.index);
+                let near = |i: usize| self.nodes[i].bounds.distance2(point);
+                // the nearer child is looked at first
+                stack.extend(if near(a) <= near(b) { [b, a] } else { [a, b] });
+            } else {
+                for &item in &self.items[node.index..node.index + node.count] {
+                    bound = bound.min(self.boxes[item].farthest2(point));
+                }
+            }
+        }
+        let reach = (bound.sqrt() + margin).powi(2);
+        stack.push(0);
+        while let Some(i) = stack.pop() {
+            let node = &self.nodes[i];
+            if node.bounds.distance2(point) > reach {
+                continue;
+            }
+            if node.count == 0 {
+                stack.extend([i + 1, node.index]);
+            } else {
+                let items = &self.items[node.index..node.index + node.count];
+                out.extend(
+                    items
+                        .iter()
+                        .filter(|&&item| self.boxes[item].distance2(point) <= reach),
+                );
+            }
+        }
+        out.sort_unstable();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_what_a_scan_finds() {
+        // segments along a wavy line
+        let facet = |i: usize| {
+            let p = |k: usize| [k as f64 * 0.1, (k as f64 * 0.7).sin(), 0.0];
+            [p(i), p(i + 1)]
+        };
+        let tree = Tree::build((0..200).map(|i| facet(i).into_iter()));
+        let mut found = Vec::new();
+        for k in 0..50 {
+            let point = [k as f64 * 0.41, (k as f64).cos() * 1.5, 0.0];
+            tree.near(point, 0.05, &mut found);
+            let boxes: Vec<Box3> = (0..200).map(|i| Box3::of(facet(i).into_iter())).collect();
+            let bound = boxes
+                .iter()
+                .map(|b| b.farthest2(point))
+                .fold(f64::INFINITY, f64::min)
+                .sqrt()
+                + 0.05;
+            let scan: Vec<usize> = (0..200)
+                .filter(|&i| boxes[i].distance2(point) <= bound * bound)
+                .collect();
+            assert_eq!(found, scan);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The two sides of an interface as the contact pipeline sees them.
+
+use std::collections::BTreeMap;
+
+use crate::math::Vec3;
+use crate::shape::ElementKind;
+
+/// A point of the secondary surface at which contact is checked: a node, or a quadrature point of a face.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactPoint {
+    /// Mesh points it hangs on.
+    pub nodes: Vec<usize>,
+    /// Their weights, adding up to one.
+    pub weights: Vec<f64>,
+    /// Area of the surface it stands for [m²] (thickness or 2πr included).
+    pub area: f64,
+    /// Stiffness of the body beneath, constrained modulus over cell height [Pa/m].
+    pub stiffness: f64,
+    /// Outward normal of the secondary surface in the reference configuration.
+    pub normal: Vec3,
+    /// Height of the cell beneath [m], for reports.
+    pub size: f64,
+}
+
+impl ContactPoint {
+    /// Its position, given those of all mesh points.
+    pub fn position(&self, x: &[Vec3]) -> Vec3 {
+        let mut p = [0.0; 3];
+        for (&node, &w) in self.nodes.iter().zip(&self.weights) {
+            p = crate::math::add_scaled(p, w, x[node]);
+        }
+        p
+    }
+}
+
+/// A facet of the primary surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Facet {
+    /// Line, triangle or quadrilateral, linear or quadratic.
+    pub kind: ElementKind,
+    /// Mesh points, oriented so that the normal points out of the body.
+    pub nodes: Vec<usize>,
+    /// For each edge (3D) or end (2D), whether the surface goes on beyond it.
+    pub continues: Vec<bool>,
+    /// Constrained modulus of the cell beneath [Pa].
+    pub modulus: f64,
+    /// User's number of the cell beneath.
+    pub cell: u64,
+}
+
+/// Corner indices of the edges (3D) or ends (2D) of a facet kind, in the order of [`Facet::continues`].
+pub fn edges(kind: ElementKind) -> &'static [&'static [usize]] {
+    match kind {
+        ElementKind::Line2 | ElementKind::Line3 => &[&[0], &[1]],
+        ElementKind::Tri3 | ElementKind::Tri6 => &[&[0, 1], &[1, 2], &[2, 0]],
+        _ => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+    }
+}
+
+/// Finds out which edges are shared with another facet.
+pub fn connect(facets: &mut [Facet]) {
+    let mut count: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    let key = |facet: &Facet, edge: &[usize]| {
+        let mut key: Vec<usize> = edge.iter().map(|&i| facet.nodes[i]).collect();
+        key.sort_unstable();
+        key
+    };
+    for facet in facets.iter() {
+        for edge in edges(facet.kind) {
+            *count.entry(key(facet, edge)).or_default() += 1;
+        }
+    }
+    for facet in facets.iter_mut() {
+        facet.continues = edges(facet.kind)
+            .iter()
+            .map(|edge| count[&key(facet, edge)] > 1)
+            .collect();
+    }
+}
+
+/// Splits quadrilaterals into triangles along their first diagonal, for the paper's 3 + 1 node element.
+pub fn triangulate(facets: Vec<Facet>) -> Vec<Facet> {
+    let mut out = Vec::with_capacity(2 * facets.len());
+    for facet in facets {
+        let split: &[&[usize]] = match facet.kind {
+            ElementKind::Quad4 => &[&[0, 1, 2], &[0, 2, 3]],
+            ElementKind::Tri6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
+            ElementKind::Quad8 => &[
+                &[0, 4, 7],
+                &[4, 1, 5],
+                &[5, 2, 6],
+                &[6, 3, 7],
+                &[4, 5, 6],
+                &[4, 6, 7],
+            ],
+            ElementKind::Line3 => &[&[0, 2], &[2, 1]],
+            _ => {
+                out.push(facet);
+                continue;
+            }
+        };
+        for piece in split {
+            out.push(Facet {
+                kind: if piece.len() == 2 {
+                    ElementKind::Line2
+                } else {
+                    ElementKind::Tri3
+                },
+                nodes: piece.iter().map(|&i| facet.nodes[i]).collect(),
+                continues: Vec::new(),
+                ..facet.clone()
+            });
+        }
+    }
+    out
+}

@@ -1,0 +1,316 @@
+//! Fields for ParaView: VTK XML unstructured grids.
+//!
+//! Arrays are appended raw and compressed by zlib in blocks (*VTK XML formats*, `vtkZLibDataCompressor`), with 64-bit
+//! headers in little-endian order.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::error::{Error, IoError};
+use crate::mesh::Mesh;
+use crate::shape::ElementKind;
+use crate::system::{Fields, Location};
+
+use super::write_atomically;
+
+/// Bytes compressed at a time. Blocks are compressed in parallel, and are the same for any number of threads.
+const BLOCK: usize = 1 << 18;
+
+/// Writes a mesh at its reference coordinates with the fields on it.
+///
+/// Point data are `NODE_ID` (the user's numbers) and the point fields; cell data are `ELEMENT_ID`, `BODY` if `bodies` gives
+/// a number for every cell (blocks in order), and the cell fields. Six components are named `XX YY ZZ XY YZ XZ`.
+///
+/// # Errors
+/// [`Error::Io`] if the file cannot be written or the length of a field does not fit the mesh.
+pub fn write(
+    path: &Path,
+    mesh: &Mesh,
+    fields: &Fields,
+    bodies: Option<&[usize]>,
+) -> Result<(), Error> {
+    let points = mesh.points.len();
+    let cells: usize = mesh.blocks.iter().map(|block| block.cell_ids.len()).sum();
+    let mut file = Writer::default();
+    let fits = |name: &str, found: usize, wanted: usize| {
+        if found == wanted {
+            return Ok(());
+        }
+        Err(Error::Io(IoError {
+            file: path.to_path_buf(),
+            message: format!("{name} has {found} values where the mesh has {wanted}"),
+        }))
+    };
+
+    file.text += &format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+         compressor=\"vtkZLibDataCompressor\">\n\
+         <UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
+    );
+    for (location, element) in [(Location::Point, "PointData"), (Location::Cell, "CellData")] {
+        file.text += &format!("<{element}>\n");
+        let count = match location {
+            Location::Point => {
+                fits("the list of node numbers", mesh.point_ids.len(), points)?;
+                file.integers("NODE_ID", mesh.point_ids.iter().map(|&id| id as i64));
+                points
+            }
+            Location::Cell => {
+                let ids = mesh.blocks.iter().flat_map(|block| &block.cell_ids);
+                file.integers("ELEMENT_ID", ids.map(|&id| id as i64));
+                if let Some(bodies) = bodies {
+                    fits("the list of bodies", bodies.len(), cells)?;
+                    file.integers("BODY", bodies.iter().map(|&body| body as i64));
+                }
+                cells
+            }
+        };
+        for field in fields.all.iter().filter(|f| f.location == location) {
+            let wanted = count * field.components;
+            fits(&format!("field {}", field.name), field.values.len(), wanted)?;
+            file.floats(&field.name, field.components, &field.values);
+        }
+        file.text += &format!("</{element}>\n");
+    }
+    file.text += "<Points>\n";
+    file.floats("Points", 3, mesh.points.as_flattened());
+    file.text += "</Points>\n<Cells>\n";
+    file.cells(mesh);
+    file.text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+
+    let mut bytes = file.text.into_bytes();
+    bytes.append(&mut file.appended);
+    bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    write_atomically(path, &bytes)
+}
+
+/// The header of the file and the data that follow it.
+#[derive(Default)]
+struct Writer {
+    text: String,
+    appended: Vec<u8>,
+}
+
+impl Writer {
+    fn floats(&mut self, name: &str, components: usize, values: &[f64]) {
+        let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        self.array("Float64", name, components, bytes);
+    }
+
+    fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) {
+        let bytes = values.flat_map(i64::to_le_bytes).collect();
+        self.array("Int64", name, 1, bytes);
+    }
+
+    fn array(&mut self, kind: &str, name: &str, components: usize, bytes: Vec<u8>) {
+        let mut names = String::new();
+        if components == 6 {
+            for (i, component) in ["XX", "YY", "ZZ", "XY", "YZ", "XZ"].iter().enumerate() {
+                names += &format!(" ComponentName{i}=\"{component}\"");
+            }
+        }
+        self.text += &format!(
+            "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\"{names} format=\"appended\" offset=\"{}\"/>\n",
+            escape(name),
+            self.appended.len()
+        );
+        compress(&bytes, &mut self.appended);
+    }
+
+    fn cells(&mut self, mesh: &Mesh) {
+        let connectivity = mesh.blocks.iter().flat_map(|block| &block.connectivity);
+        self.integers("connectivity", connectivity.map(|&point| point as i64));
+        let mut end = 0;
+        let mut offsets = Vec::new();
+        let mut types = Vec::new();
+        for block in &mesh.blocks {
+            for _ in &block.cell_ids {
+                end += block.kind.node_count() as i64;
+                offsets.push(end);
+                types.push(vtk_type(block.kind));
+            }
+        }
+        self.integers("offsets", offsets.into_iter());
+        self.array("UInt8", "types", 1, types);
+    }
+}
+
+/// Appends the blocks of an array behind their header: number of blocks, size of a block and of an incomplete last one
+/// (zero if there is none), compressed sizes.
+fn compress(bytes: &[u8], out: &mut Vec<u8>) {
+    let blocks: Vec<Vec<u8>> = bytes
+        .par_chunks(BLOCK)
+        .map(|block| {
+            let level = flate2::Compression::fast();
+            let mut encoder = flate2::bufread::ZlibEncoder::new(block, level);
+            let mut packed = Vec::with_capacity(block.len() / 2);
+            std::io::Read::read_to_end(&mut encoder, &mut packed)
+                .expect("reading from memory does not fail");
+            packed
+        })
+        .collect();
+    let mut header = vec![blocks.len(), BLOCK, bytes.len() % BLOCK];
+    header.extend(blocks.iter().map(Vec::len));
+    out.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
+    out.extend(blocks.iter().flatten());
+}
+
+fn vtk_type(kind: ElementKind) -> u8 {
+    match kind {
+        ElementKind::Line2 => 3,
+        ElementKind::Line3 => 21,
+        ElementKind::Tri3 => 5,
+        ElementKind::Tri6 => 22,
+        ElementKind::Quad4 => 9,
+        ElementKind::Quad8 => 23,
+        ElementKind::Tet4 => 10,
+        ElementKind::Tet10 => 24,
+        ElementKind::Hex8 => 12,
+        ElementKind::Hex20 => 25,
+    }
+}
+
+/// A text as the value of an XML attribute.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Block;
+    use crate::system::Field;
+    use std::io::Read;
+
+    /// Many points, so that arrays take several blocks, and one cell of two kinds.
+    fn mesh() -> Mesh {
+        let points: Vec<_> = (0..20_000)
+            .map(|i| {
+                let t = i as f64;
+                [t.sin(), 1.0 / (t + 0.1), -t]
+            })
+            .collect();
+        let block = |kind: ElementKind, id| Block {
+            kind,
+            connectivity: (0..kind.node_count()).rev().collect(),
+            cell_ids: vec![id],
+        };
+        Mesh {
+            dim: 3,
+            point_ids: (0..20_000).map(|i| 3 * i + 5).collect(),
+            points,
+            blocks: vec![block(ElementKind::Tet10, 70), block(ElementKind::Hex20, 7)],
+            ..Mesh::default()
+        }
+    }
+
+    fn fields() -> Fields {
+        let field = |name: &str, location, components, count: usize| Field {
+            name: name.to_string(),
+            location,
+            components,
+            values: (0..count * components)
+                .map(|i| (i as f64).cos() / 3.0)
+                .collect(),
+        };
+        let mut all = vec![
+            field("U", Location::Point, 3, 20_000),
+            field("S", Location::Cell, 6, 2),
+            field("a<\"b\"&c", Location::Point, 1, 20_000),
+        ];
+        all[0].values[4] = f64::NAN;
+        Fields { all }
+    }
+
+    /// The bytes of the array of this name, decoded as VTK does.
+    fn array(file: &[u8], name: &str) -> (String, Vec<u8>) {
+        let marker = b"<AppendedData encoding=\"raw\">\n_";
+        let start = file
+            .windows(marker.len())
+            .position(|w| w == marker)
+            .unwrap();
+        let text = std::str::from_utf8(&file[..start]).unwrap();
+        let wanted = format!("Name=\"{name}\"");
+        let line = text.lines().find(|l| l.contains(&wanted)).unwrap();
+        let (_, offset) = line.split_once("offset=\"").unwrap();
+        let offset: usize = offset.split_once('"').unwrap().0.parse().unwrap();
+        let mut at = start + marker.len() + offset;
+        let mut word = || {
+            let value = u64::from_le_bytes(*file[at..].first_chunk().unwrap()) as usize;
+            at += 8;
+            value
+        };
+        let (blocks, size, last) = (word(), word(), word());
+        let packed: Vec<usize> = (0..blocks).map(|_| word()).collect();
+        let mut bytes = Vec::new();
+        for (i, length) in packed.into_iter().enumerate() {
+            let before = bytes.len();
+            flate2::read::ZlibDecoder::new(&file[at..at + length])
+                .read_to_end(&mut bytes)
+                .unwrap();
+            at += length;
+            let full = i + 1 < blocks || last == 0;
+            assert_eq!(bytes.len() - before, if full { size } else { last });
+        }
+        (line.to_string(), bytes)
+    }
+
+    fn floats(bytes: &[u8]) -> Vec<u64> {
+        let words = bytes.chunks_exact(8);
+        words
+            .map(|w| u64::from_le_bytes(*w.first_chunk().unwrap()))
+            .collect()
+    }
+
+    #[test]
+    fn arrays_read_back_to_the_bit() {
+        let path = std::env::temp_dir().join(format!("stickslip-{}.vtu", std::process::id()));
+        let (mesh, fields) = (mesh(), fields());
+        write(&path, &mesh, &fields, Some(&[1, 2])).unwrap();
+        let file = std::fs::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        assert!(file.ends_with(b"\n</AppendedData>\n</VTKFile>\n"));
+        for (name, values) in [
+            ("U", fields.all[0].values.as_slice()),
+            ("S", &fields.all[1].values),
+            ("a&lt;&quot;b&quot;&amp;c", &fields.all[2].values),
+            ("Points", mesh.points.as_flattened()),
+        ] {
+            let expected: Vec<u64> = values.iter().map(|v| v.to_bits()).collect();
+            assert_eq!(floats(&array(&file, name).1), expected, "{name}");
+        }
+        assert_eq!(floats(&array(&file, "NODE_ID").1), mesh.point_ids);
+        assert_eq!(floats(&array(&file, "ELEMENT_ID").1), [70, 7]);
+        assert_eq!(floats(&array(&file, "BODY").1), [1, 2]);
+        assert_eq!(floats(&array(&file, "offsets").1), [10, 30]);
+        assert_eq!(array(&file, "types").1, [24, 25]);
+        let connectivity: Vec<u64> = (0..10).rev().chain((0..20).rev()).collect();
+        assert_eq!(floats(&array(&file, "connectivity").1), connectivity);
+        assert!(array(&file, "S").0.contains("ComponentName3=\"XY\""));
+    }
+
+    #[test]
+    fn a_field_that_does_not_fit_is_refused() {
+        let path = std::env::temp_dir().join("stickslip-never-written.vtu");
+        let (mesh, mut fields) = (mesh(), fields());
+        assert!(write(&path, &mesh, &fields, Some(&[1])).is_err());
+        fields.all[1].values.pop();
+        let error = write(&path, &mesh, &fields, None).unwrap_err();
+        assert!(error.to_string().contains("field S has 11"), "{error}");
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn an_empty_mesh_is_written() {
+        let path = std::env::temp_dir().join(format!("stickslip-e-{}.vtu", std::process::id()));
+        write(&path, &Mesh::default(), &Fields::default(), None).unwrap();
+        let file = std::fs::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        assert!(array(&file, "connectivity").1.is_empty());
+    }
+}

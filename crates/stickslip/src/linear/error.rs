@@ -1,0 +1,79 @@
+use std::fmt;
+
+/// Why a linear system could not be analysed, factored or solved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LinearError {
+    /// A value is NaN or infinite in the row of this dof.
+    NotFinite {
+        /// The dof.
+        dof: usize,
+    },
+    /// The pivot of this dof is zero or negative: the matrix is singular or indefinite.
+    NotPositive {
+        /// The dof.
+        dof: usize,
+    },
+    /// Next to nothing is left of the diagonal of this dof: the matrix is singular up to rounding.
+    /// A body that nothing holds in place ends here or in [`NotPositive`](LinearError::NotPositive).
+    Singular {
+        /// The dof.
+        dof: usize,
+        /// What elimination leaves of the diagonal, relative to it [1].
+        ratio: f64,
+    },
+    /// An extra block couples these two dofs, which the symbolic analysis did not foresee: analyse again.
+    NotAnalysed {
+        /// The two dofs.
+        dofs: [usize; 2],
+    },
+    /// The factor does not fit into memory.
+    OutOfMemory {
+        /// Its size [bytes], zero if not known.
+        bytes: u64,
+    },
+}
+
+impl LinearError {
+    /// The dof to look at, if there is one.
+    pub fn dof(&self) -> Option<usize> {
+        match *self {
+            LinearError::NotFinite { dof }
+            | LinearError::NotPositive { dof }
+            | LinearError::Singular { dof, .. } => Some(dof),
+            LinearError::NotAnalysed { dofs } => Some(dofs[0]),
+            LinearError::OutOfMemory { .. } => None,
+        }
+    }
+}
+
+impl fmt::Display for LinearError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LinearError::NotFinite { dof } => {
+                write!(f, "the stiffness is not a finite number at dof {dof}")
+            }
+            LinearError::NotPositive { dof } => write!(
+                f,
+                "the stiffness is singular or not positive definite at dof {dof}"
+            ),
+            LinearError::Singular { dof, ratio } => write!(
+                f,
+                "the stiffness is singular: elimination leaves {ratio:.1e} of the diagonal at dof {dof}"
+            ),
+            LinearError::NotAnalysed { dofs: [i, j] } => write!(
+                f,
+                "dofs {i} and {j} are coupled outside the analysed pattern"
+            ),
+            LinearError::OutOfMemory { bytes: 0 } => {
+                write!(f, "the factorisation does not fit into memory")
+            }
+            LinearError::OutOfMemory { bytes } => write!(
+                f,
+                "the factor of {:.1} GB does not fit into memory",
+                *bytes as f64 * 1e-9
+            ),
+        }
+    }
+}
+
+impl std::error::Error for LinearError {}

@@ -1,0 +1,58 @@
+//! Built-in meshes, so that the common cases need no mesh file.
+//!
+//! All of them are made on an integer lattice that is mapped into space (`lattice.rs`): a grid for the rectangle and
+//! the box, a core with layers around it for the round bodies (`round.rs`).
+
+mod cuboid;
+mod disc;
+mod grading;
+mod half_ball;
+mod half_disc;
+mod lattice;
+mod rectangle;
+mod round;
+mod round_options;
+mod solid_ball;
+
+#[cfg(test)]
+mod tests;
+
+use super::Mesh;
+use crate::error::MeshError;
+
+pub use cuboid::Cuboid;
+pub use disc::Disc;
+pub use grading::{Grading, Stretch};
+pub use half_ball::HalfBall;
+pub use half_disc::HalfDisc;
+pub use lattice::Diagonal;
+pub use rectangle::Rectangle;
+pub use round_options::{Refinement, Sector};
+pub use solid_ball::Ball;
+
+/// Makes a mesh from a few numbers. Points and cells are numbered from 1 in the order in which they are stored.
+pub trait Generate {
+    /// The mesh; it passes [`Mesh::check`].
+    ///
+    /// # Errors
+    /// If the numbers make no sense, with what they should be.
+    fn generate(&self) -> Result<Mesh, MeshError>;
+}
+
+crate::family! {
+    /// The built-in meshes.
+    Generator: "generate", dyn Generate {
+        /// A rectangle with sides parallel to the axes.
+        Rectangle(Rectangle) = "rectangle",
+        /// A box with faces parallel to the axes.
+        Box(Cuboid) = "box",
+        /// A disc, or half of one cut along the line of contact.
+        Disc(Disc) = "disc",
+        /// A half-disc that touches with the middle of its arc.
+        HalfDisc(HalfDisc) = "half-disc",
+        /// A ball, or a half or quarter of one cut along the line of contact.
+        Ball(Ball) = "ball",
+        /// A half-ball that touches with its pole, or a half or quarter of one.
+        HalfBall(HalfBall) = "half-ball",
+    }
+}

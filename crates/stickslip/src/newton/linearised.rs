@@ -1,0 +1,175 @@
+//! The linear system of one Newton iteration: the constant bulk plus contact blocks, solved by GMRES with a frozen factor.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::settings::{Settings, Statistics};
+use crate::linear::{BlockCsr, Factor, GmresSettings, LinearError, Symbolic, gmres};
+use crate::system::{Cause, ContactBlock, StepFailure};
+
+/// A symmetric positive definite factor that outlives the state it was made at.
+///
+/// It is made of the bulk and the symmetric part of the interface at some iteration; GMRES makes up for what has changed since
+/// and for the unsymmetry of slip. When that takes too many iterations, a fresh factor is made.
+#[derive(Debug, Default)]
+pub struct Linearised {
+    fixed: Vec<bool>,
+    symbolic: Option<Arc<Symbolic>>,
+    factor: Option<Factor>,
+    stale: bool,
+}
+
+impl Linearised {
+    fn matches(&self, fixed: &[bool]) -> bool {
+        self.symbolic.is_some() && self.fixed == fixed
+    }
+
+    fn refactor(
+        &mut self,
+        matrix: &BlockCsr,
+        fixed: &[bool],
+        blocks: &[ContactBlock],
+        statistics: &mut Statistics,
+    ) -> Result<(), LinearError> {
+        let started = Instant::now();
+        let covered = self.matches(fixed)
+            && self
+                .symbolic
+                .as_ref()
+                .is_some_and(|s| blocks.iter().all(|b| s.covers(&b.dofs)));
+        if !covered {
+            let extra: Vec<Vec<usize>> = blocks.iter().map(|b| b.dofs.clone()).collect();
+            let symbolic = Symbolic::analyze(matrix, fixed, &extra)?;
+            statistics.analyses += 1;
+            statistics.factor_nonzeros = symbolic.factor_nonzeros();
+            self.symbolic = Some(Arc::new(symbolic));
+            self.fixed = fixed.to_vec();
+        }
+        statistics.seconds_order += started.elapsed().as_secs_f64();
+        let started = Instant::now();
+        let dense: Vec<(&[usize], &[f64])> = blocks
+            .iter()
+            .map(|b| (b.dofs.as_slice(), b.surrogate.as_slice()))
+            .collect();
+        self.factor = None;
+        if let Some(symbolic) = &self.symbolic {
+            self.factor = Some(Factor::new(symbolic, matrix, &dense)?);
+            statistics.factorisations += 1;
+        }
+        self.stale = false;
+        statistics.seconds_factor += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Solves `(bulk + blocks) x = b` on the free dofs; `x` is zero where fixed. Returns `x` and the Krylov iterations.
+    pub fn solve(
+        &mut self,
+        matrix: &BlockCsr,
+        fixed: &[bool],
+        blocks: &[ContactBlock],
+        b: &[f64],
+        tolerance: f64,
+        settings: &Settings,
+        statistics: &mut Statistics,
+    ) -> Result<(Vec<f64>, usize), StepFailure> {
+        if !self.matches(fixed) {
+            self.factor = None;
+        }
+        let mut spent = 0;
+        if self.factor.is_some() && !self.stale {
+            let patience = 2 * settings.krylov_patience;
+            let (x, its, done) =
+                self.krylov(matrix, fixed, blocks, b, tolerance, patience, statistics)?;
+            spent += its;
+            if done {
+                self.stale = its > settings.krylov_patience;
+                return Ok((x, spent));
+            }
+        }
+        self.refactor(matrix, fixed, blocks, statistics)
+            .map_err(describe)?;
+        let (x, its, done) = self.krylov(matrix, fixed, blocks, b, tolerance, 200, statistics)?;
+        spent += its;
+        if !done {
+            return Err(StepFailure::new(
+                Cause::LinearSolver,
+                format!("the linear solver did not reach its tolerance in {its} iterations"),
+            )
+            .help(
+                "a body may be nearly free to move; `stickslip check` lists free rigid-body modes",
+            ));
+        }
+        self.stale = its > settings.krylov_patience;
+        Ok((x, spent))
+    }
+
+    fn krylov(
+        &self,
+        matrix: &BlockCsr,
+        fixed: &[bool],
+        blocks: &[ContactBlock],
+        b: &[f64],
+        tolerance: f64,
+        most: usize,
+        statistics: &mut Statistics,
+    ) -> Result<(Vec<f64>, usize, bool), StepFailure> {
+        let started = Instant::now();
+        let Some(factor) = &self.factor else {
+            return Ok((vec![0.0; b.len()], 0, false));
+        };
+        let mut x = vec![0.0; b.len()];
+        let report = gmres(
+            &mut |v, out| apply(matrix, fixed, blocks, v, out),
+            &mut |v| factor.solve(v),
+            b,
+            &mut x,
+            GmresSettings {
+                tolerance,
+                max_iterations: most,
+                restart: most.min(60),
+            },
+        );
+        statistics.krylov += report.iterations;
+        statistics.seconds_solve += started.elapsed().as_secs_f64();
+        if !report.relative_residual.is_finite() {
+            return Err(StepFailure::new(
+                Cause::NotFinite,
+                "the linear solution is not finite",
+            ));
+        }
+        Ok((x, report.iterations, report.converged))
+    }
+}
+
+/// `out = (bulk + blocks) v` on the free dofs.
+fn apply(matrix: &BlockCsr, fixed: &[bool], blocks: &[ContactBlock], v: &[f64], out: &mut [f64]) {
+    matrix.mul(v, out);
+    for block in blocks {
+        let n = block.dofs.len();
+        for (i, &dof) in block.dofs.iter().enumerate() {
+            let row = &block.tangent[i * n..(i + 1) * n];
+            out[dof] += row
+                .iter()
+                .zip(&block.dofs)
+                .map(|(k, &d)| k * v[d])
+                .sum::<f64>();
+        }
+    }
+    for (o, &fixed) in out.iter_mut().zip(fixed) {
+        if fixed {
+            *o = 0.0;
+        }
+    }
+}
+
+fn describe(error: LinearError) -> StepFailure {
+    let cause = match error {
+        LinearError::Singular { .. } | LinearError::NotPositive { .. } => Cause::Singular,
+        LinearError::NotFinite { .. } => Cause::NotFinite,
+        _ => Cause::LinearSolver,
+    };
+    StepFailure {
+        dof: error.dof(),
+        ..StepFailure::new(cause, error.to_string())
+    }
+}

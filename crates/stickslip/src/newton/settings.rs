@@ -1,0 +1,70 @@
+use crate::system::Tally;
+
+/// Dimensionless settings of the iteration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Largest out-of-balance force relative to the forces in play.
+    pub tolerance: f64,
+    /// Most iterations for one equilibrium.
+    pub max_iterations: usize,
+    /// Most halvings of a Newton step.
+    pub line_search: usize,
+    /// Most iterations of the Krylov solver with one factor before a fresh factor is made.
+    pub krylov_patience: usize,
+    /// Relative residual to which a linear system is solved at least.
+    pub linear_tolerance: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            tolerance: 1e-8,
+            max_iterations: 30,
+            line_search: 5,
+            krylov_patience: 12,
+            linear_tolerance: 1e-6,
+        }
+    }
+}
+
+/// Counts over an analysis.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct Statistics {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Multiplier updates.
+    pub augmentations: usize,
+    /// Symbolic factorisations.
+    pub analyses: usize,
+    /// Numeric factorisations.
+    pub factorisations: usize,
+    /// Krylov iterations.
+    pub krylov: usize,
+    /// Seconds in symbolic factorisation.
+    pub seconds_order: f64,
+    /// Seconds in numeric factorisation.
+    pub seconds_factor: f64,
+    /// Seconds in solves.
+    pub seconds_solve: f64,
+    /// Seconds in search, pairing and assembly of interfaces.
+    pub seconds_contact: f64,
+    /// Nonzeros of the last factor.
+    pub factor_nonzeros: usize,
+}
+
+/// One Newton iteration, for the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Iteration, from 0; restarts with every multiplier update.
+    pub iteration: usize,
+    /// Multiplier update, from 0.
+    pub round: usize,
+    /// Out-of-balance force relative to the forces in play, before the step.
+    pub residual: f64,
+    /// Step length taken.
+    pub step: f64,
+    /// Krylov iterations.
+    pub krylov: usize,
+    /// Points by status.
+    pub tally: Tally,
+}

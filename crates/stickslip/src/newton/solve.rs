@@ -1,0 +1,319 @@
+use std::time::Instant;
+
+use super::linearised::Linearised;
+use super::settings::{Progress, Settings, Statistics};
+use crate::linear::BlockCsr;
+use crate::system::{
+    Assembler, Augmentation, Cause, Constraints, Dofs, Force, Stage, State, StepFailure, Tally,
+};
+
+/// What is solved: `K u + contact(u) = external` with prescribed displacements.
+pub struct System<'a> {
+    /// Numbering.
+    pub dofs: Dofs,
+    /// The bulk, over all dofs.
+    pub matrix: &'a BlockCsr,
+    /// The interfaces.
+    pub contact: Vec<&'a mut dyn Force>,
+    /// External forces at the time of evaluation.
+    pub external: Vec<f64>,
+    /// Prescribed displacements at the time of evaluation.
+    pub constraints: Constraints,
+    /// Largest coordinate of the model [m]: what the rounding of a gap is relative to.
+    pub length: f64,
+}
+
+/// An equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Converged {
+    /// Newton iterations, over all multiplier updates.
+    pub iterations: usize,
+    /// Multiplier updates.
+    pub rounds: usize,
+    /// Out-of-balance force relative to the forces in play.
+    pub residual: f64,
+    /// Internal minus external forces: reactions at the fixed dofs.
+    pub forces: Vec<f64>,
+    /// Points by status.
+    pub tally: Tally,
+}
+
+/// Newton's method with a line search and multiplier updates. Keeps its factor from one increment to the next.
+#[derive(Debug, Default)]
+pub struct Newton {
+    /// Settings.
+    pub settings: Settings,
+    /// Counts since the start.
+    pub statistics: Statistics,
+    linearised: Linearised,
+}
+
+/// A residual and what it is compared with.
+struct Balance {
+    /// `K u + contact - external`, by dof.
+    forces: Vec<f64>,
+    /// Norm over the free dofs.
+    norm: f64,
+    /// Size of the forces in play.
+    scale: f64,
+    /// What rounding leaves of the contact forces.
+    floor: f64,
+}
+
+impl Balance {
+    fn relative(&self) -> f64 {
+        if self.norm == 0.0 {
+            0.0
+        } else {
+            self.norm / self.scale.max(f64::MIN_POSITIVE)
+        }
+    }
+}
+
+impl Newton {
+    /// A solver with these settings.
+    pub fn new(settings: Settings) -> Self {
+        Newton {
+            settings,
+            ..Newton::default()
+        }
+    }
+
+    /// Finds equilibrium at `at.t` from the guess `at.u`; every interface starts from its committed history.
+    pub fn solve(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
+        system.constraints.impose(&mut at.u);
+        for force in &mut system.contact {
+            force.begin();
+        }
+        let mut total = 0;
+        let mut round = 0;
+        loop {
+            let mut converged = self.equilibrium(system, from, at, round, log)?;
+            total += converged.iterations;
+            let stage = Stage {
+                from,
+                at,
+                dt: at.t - from.t,
+            };
+            let mut worst: f64 = 0.0;
+            for force in &mut system.contact {
+                if let Augmentation::Again(error) = force.augment(&stage) {
+                    worst = worst.max(error);
+                }
+            }
+            if worst == 0.0 {
+                converged.iterations = total;
+                converged.rounds = round;
+                return Ok(converged);
+            }
+            round += 1;
+            self.statistics.augmentations += 1;
+            if round > MOST_ROUNDS {
+                return Err(StepFailure {
+                    culprits: diagnose(system),
+                    ..StepFailure::new(
+                        Cause::NotConverged,
+                        format!("the multipliers did not settle in {MOST_ROUNDS} updates; the gap error is still {worst:.1e} times its limit"),
+                    )
+                }
+                .help("allow a larger `error` or a larger `factor` in the augmented Lagrangian, or smaller increments"));
+            }
+        }
+    }
+
+    fn equilibrium(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        round: usize,
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
+        let settings = self.settings;
+        let mut out = Assembler::new(system.dofs.count());
+        let mut balance = self.evaluate(system, from, at, &mut out, true)?;
+        let mut residuals = Vec::new();
+        for iteration in 0..=settings.max_iterations {
+            let relative = balance.relative();
+            residuals.push(relative);
+            let multipliers = out.multiplier_residual;
+            let target = (settings.tolerance * balance.scale).max(balance.floor);
+            if balance.norm <= target && multipliers <= target {
+                return Ok(Converged {
+                    iterations: iteration,
+                    rounds: round,
+                    residual: relative,
+                    tally: tally(system),
+                    forces: balance.forces,
+                });
+            }
+            if iteration == settings.max_iterations {
+                break;
+            }
+            let b: Vec<f64> = balance
+                .forces
+                .iter()
+                .zip(&out.condensed)
+                .zip(&system.constraints.fixed)
+                .map(|((f, c), &fixed)| if fixed { 0.0 } else { -(f + c) })
+                .collect();
+            let wanted = 0.1 * target / balance.norm.max(f64::MIN_POSITIVE);
+            let (du, krylov) = self.linearised.solve(
+                system.matrix,
+                &system.constraints.fixed,
+                &out.blocks,
+                &b,
+                wanted.clamp(1e-13, settings.linear_tolerance),
+                &settings,
+                &mut self.statistics,
+            )?;
+            self.statistics.iterations += 1;
+            let before = balance.norm.max(multipliers);
+            let start = at.u.clone();
+            let mut step = 1.0;
+            let mut best: Option<(f64, f64)> = None;
+            let mut halvings = 0;
+            loop {
+                for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
+                    *u = s + step * d;
+                }
+                for force in &mut system.contact {
+                    force.update_internal(&du, step);
+                }
+                balance = self.evaluate(system, from, at, &mut out, false)?;
+                let now = balance.norm.max(out.multiplier_residual);
+                if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
+                    best = Some((now, step));
+                }
+                // The active set may have to change against the residual: only a step that makes it much worse is shortened.
+                let patience = if iteration < 4 { 1e3 } else { 10.0 };
+                if now <= patience * before || halvings == settings.line_search {
+                    break;
+                }
+                halvings += 1;
+                step *= 0.5;
+            }
+            let Some((_, chosen)) = best else {
+                return Err(StepFailure {
+                    culprits: diagnose(system),
+                    ..StepFailure::new(Cause::NotFinite, "the forces are not finite")
+                });
+            };
+            let step = if halvings == settings.line_search {
+                chosen
+            } else {
+                step
+            };
+            for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
+                *u = s + step * d;
+            }
+            for force in &mut system.contact {
+                force.update_internal(&du, step);
+            }
+            balance = self.evaluate(system, from, at, &mut out, true)?;
+            log(&Progress {
+                iteration,
+                round,
+                residual: relative,
+                step,
+                krylov,
+                tally: tally(system),
+            });
+        }
+        let last: Vec<String> = residuals
+            .iter()
+            .rev()
+            .take(5)
+            .rev()
+            .map(|r| format!("{r:.1e}"))
+            .collect();
+        Err(StepFailure {
+            culprits: diagnose(system),
+            ..StepFailure::new(
+                Cause::NotConverged,
+                format!(
+                    "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",
+                    settings.max_iterations,
+                    last.join(", ")
+                ),
+            )
+        }
+        .help("smaller increments; if the same points keep changing status, a larger `epsilon` or a smaller enforcement `factor`; if a body can slide off as a whole, no equilibrium exists"))
+    }
+
+    fn evaluate(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &State,
+        out: &mut Assembler,
+        tangent: bool,
+    ) -> Result<Balance, StepFailure> {
+        let started = Instant::now();
+        let stage = Stage {
+            from,
+            at,
+            dt: at.t - from.t,
+        };
+        out.reset(tangent);
+        for force in &mut system.contact {
+            force.prepare(&stage)?;
+            force.assemble(&stage, out)?;
+        }
+        self.statistics.seconds_contact += started.elapsed().as_secs_f64();
+        let mut forces = vec![0.0; at.u.len()];
+        system.matrix.mul(&at.u, &mut forces);
+        let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
+        for (i, f) in forces.iter_mut().enumerate() {
+            if system.constraints.fixed[i] {
+                internal += *f * *f;
+            }
+            *f += out.residual[i] - system.external[i];
+            external += system.external[i] * system.external[i];
+            contact += out.residual[i] * out.residual[i];
+            if !system.constraints.fixed[i] {
+                norm += *f * *f;
+            }
+        }
+        let scale = f64::max(internal, f64::max(external, contact)).sqrt();
+        let mut stiffness = 0.0;
+        for block in &out.blocks {
+            let n = block.dofs.len();
+            stiffness += (0..n)
+                .map(|i| block.surrogate[i * n + i].powi(2))
+                .sum::<f64>();
+        }
+        Ok(Balance {
+            forces,
+            norm: norm.sqrt(),
+            scale,
+            floor: 4.0 * f64::EPSILON * system.length * stiffness.sqrt(),
+        })
+    }
+}
+
+/// Most multiplier updates in one increment.
+const MOST_ROUNDS: usize = 25;
+
+fn tally(system: &System) -> Tally {
+    let mut all = Tally::default();
+    for t in system.contact.iter().filter_map(|f| f.tally()) {
+        all.open += t.open;
+        all.stick += t.stick;
+        all.slip += t.slip;
+        all.changed += t.changed;
+    }
+    all
+}
+
+fn diagnose(system: &System) -> Vec<crate::system::Culprit> {
+    let mut all: Vec<_> = system.contact.iter().flat_map(|f| f.diagnose()).collect();
+    all.truncate(10);
+    all
+}

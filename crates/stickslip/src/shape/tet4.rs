@@ -1,0 +1,70 @@
+use super::simplex::barycentric;
+use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+
+/// The 4-node tetrahedron.
+pub(super) struct Tet4;
+
+static NODES: [[f64; 3]; 4] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+static FACES: [Face; 4] = [
+    Face {
+        kind: ElementKind::Tri3,
+        nodes: &[0, 2, 1],
+    },
+    Face {
+        kind: ElementKind::Tri3,
+        nodes: &[0, 1, 3],
+    },
+    Face {
+        kind: ElementKind::Tri3,
+        nodes: &[1, 2, 3],
+    },
+    Face {
+        kind: ElementKind::Tri3,
+        nodes: &[2, 0, 3],
+    },
+];
+
+/// Gradients of the barycentric coordinates.
+pub(super) static BARYCENTRIC: [[f64; 3]; 4] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+static RULE: [QuadraturePoint; 1] = [QuadraturePoint {
+    xi: [0.25; 3],
+    weight: 1.0 / 6.0,
+}];
+
+impl ReferenceElement for Tet4 {
+    fn nodes(&self) -> &'static [[f64; 3]] {
+        &NODES
+    }
+
+    fn values(&self, xi: [f64; 3], n: &mut [f64]) {
+        n.copy_from_slice(&barycentric(xi));
+    }
+
+    fn gradients(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
+        d.copy_from_slice(&BARYCENTRIC);
+    }
+
+    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
+        d.fill([0.0; 3]);
+    }
+
+    fn faces(&self) -> &'static [Face] {
+        &FACES
+    }
+
+    fn quadrature(&self) -> &'static [QuadraturePoint] {
+        &RULE
+    }
+}

@@ -1,0 +1,340 @@
+//! What can be said of a model before it runs, and of a body that nothing holds.
+
+use std::fmt;
+
+use super::run::Simulation;
+use crate::body::rigid_modes;
+use crate::contact::interface::Interface;
+use crate::error::RunError;
+use crate::math::symmetric_eigen;
+use crate::system::{Stage, State, StepFailure};
+
+/// A rigid-body mode that neither supports nor springs hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeMode {
+    /// The body.
+    pub body: String,
+    /// What the motion is: `translation x`, or a mixture.
+    pub motion: String,
+}
+
+/// What `stickslip check` says.
+#[derive(Debug, Clone, Default)]
+pub struct CheckReport {
+    /// The bodies.
+    pub bodies: Vec<BodyReport>,
+    /// The interfaces.
+    pub interfaces: Vec<InterfaceReport>,
+    /// Motions that only contact can hold, at the start.
+    pub free: Vec<FreeMode>,
+    /// Steps, in words.
+    pub steps: Vec<String>,
+}
+
+/// A body in numbers.
+#[derive(Debug, Clone, Default)]
+pub struct BodyReport {
+    /// Name.
+    pub name: String,
+    /// Points.
+    pub points: usize,
+    /// Cells.
+    pub cells: usize,
+    /// Kinds of cells.
+    pub kinds: String,
+    /// Corners of its box.
+    pub low: [f64; 3],
+    /// Corners of its box.
+    pub high: [f64; 3],
+    /// Its sets.
+    pub sets: Vec<String>,
+}
+
+/// An interface in numbers.
+#[derive(Debug, Clone, Default)]
+pub struct InterfaceReport {
+    /// Name.
+    pub name: String,
+    /// Points of the secondary.
+    pub points: usize,
+    /// Area of the secondary.
+    pub area: f64,
+    /// Points with something opposite.
+    pub paired: usize,
+    /// Smallest gap.
+    pub smallest: f64,
+    /// Largest gap of paired points.
+    pub largest: f64,
+    /// Points that overlap at the start.
+    pub overlapping: usize,
+    /// Its laws in words.
+    pub laws: String,
+}
+
+/// Motions of each body that the supports and springs acting at `t` do not hold.
+pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
+    let model = &simulation.model;
+    let mut held = simulation.constraints(t).fixed;
+    for spring in &model.springs {
+        for &(dof, stiffness) in spring.entries() {
+            held[dof] |= stiffness > 0.0;
+        }
+    }
+    let mut out = Vec::new();
+    for body in &model.bodies {
+        let points: Vec<usize> = body.points.clone().collect();
+        let modes = rigid_modes(&model.mesh, &points, model.space);
+        // Rotations count by the displacement they make at the rim of the body, like translations.
+        let modes: Vec<_> = modes
+            .into_iter()
+            .map(|m| {
+                let largest = m.vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+                (m.name, m.vector, 1.0 / largest.max(f64::MIN_POSITIVE))
+            })
+            .collect();
+        let gram: Vec<Vec<f64>> = modes
+            .iter()
+            .map(|(_, a, sa)| {
+                modes
+                    .iter()
+                    .map(|(_, b, sb)| {
+                        let sum: f64 = a
+                            .iter()
+                            .zip(b)
+                            .zip(&held)
+                            .filter(|(_, held)| **held)
+                            .map(|((a, b), _)| a * b)
+                            .sum();
+                        sum * sa * sb
+                    })
+                    .collect()
+            })
+            .collect();
+        let (values, vectors) = symmetric_eigen(&gram);
+        let largest = values.last().copied().unwrap_or(0.0);
+        for (k, value) in values.iter().enumerate() {
+            if *value > 1e-10 * largest.max(f64::MIN_POSITIVE) {
+                continue;
+            }
+            let parts: Vec<&str> = modes
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| vectors[*i][k].abs() > 0.1)
+                .map(|(_, (name, _, _))| name.as_str())
+                .collect();
+            out.push(FreeMode {
+                body: body.name.clone(),
+                motion: parts.join(" with "),
+            });
+        }
+    }
+    out
+}
+
+/// The error for a singular system: names the body and the motions that nothing holds.
+pub(super) fn explain_singular(
+    simulation: &Simulation,
+    failure: &StepFailure,
+    free: &[FreeMode],
+) -> RunError {
+    let model = &simulation.model;
+    let place = failure.dof.map(|dof| {
+        let (point, component) = model.dofs.locate(dof);
+        let body = model
+            .bodies
+            .iter()
+            .find(|b| b.points.contains(&point))
+            .map_or("?", |b| b.name.as_str());
+        (
+            body,
+            format!(
+                "found at node {} of body {body}, direction {}",
+                model.mesh.point_ids[point],
+                ["x", "y", "z"][component]
+            ),
+        )
+    });
+    let mut culprits: Vec<String> = free
+        .iter()
+        .map(|m| {
+            format!(
+                "body {}: {} is held neither by supports nor by springs",
+                m.body, m.motion
+            )
+        })
+        .collect();
+    culprits.extend(place.map(|(_, text)| text));
+    let message = if free.is_empty() {
+        "the system is singular although supports hold every body".to_string()
+    } else {
+        "a body is free to move as a rigid body: no contact holds it yet".to_string()
+    };
+    let gaps: Vec<String> = model
+        .interfaces
+        .iter()
+        .map(|i| {
+            let smallest = i.initial_gaps().into_iter().fold(f64::INFINITY, f64::min);
+            format!("{}: {smallest:.3e}", i.name)
+        })
+        .collect();
+    RunError {
+        message,
+        time: simulation.state.t,
+        culprits,
+        help: Some(format!(
+            "support these motions, hold them by weak springs (`[load.NAME] spring = {{ stiffness = [...] }}`), move the bodies \
+             until they touch, or prescribe a displacement instead of a force (smallest gaps at the last state: {})",
+            if gaps.is_empty() {
+                "no interfaces".into()
+            } else {
+                gaps.join(", ")
+            }
+        )),
+    }
+}
+
+impl Simulation {
+    /// Looks at the model without running it.
+    pub fn check(&mut self) -> CheckReport {
+        let start = self.state.clone();
+        let end = State {
+            t: start.t
+                + self
+                    .model
+                    .steps
+                    .first()
+                    .map_or(1.0, |s| 1e-9 * (s.end - s.start)),
+            ..start.clone()
+        };
+        let stage = Stage {
+            from: &start,
+            at: &end,
+            dt: end.t - start.t,
+        };
+        let interfaces = self
+            .model
+            .interfaces
+            .iter_mut()
+            .map(|i| inspect(i, &stage))
+            .collect();
+        let mesh = &self.model.mesh;
+        let bodies = self
+            .model
+            .bodies
+            .iter()
+            .map(|b| {
+                let blocks = &mesh.blocks[b.blocks.clone()];
+                let mut kinds: Vec<&str> = blocks.iter().map(|x| x.kind.name()).collect();
+                kinds.dedup();
+                let mut low = [f64::INFINITY; 3];
+                let mut high = [f64::NEG_INFINITY; 3];
+                for p in &mesh.points[b.points.clone()] {
+                    for c in 0..3 {
+                        low[c] = low[c].min(p[c]);
+                        high[c] = high[c].max(p[c]);
+                    }
+                }
+                let prefix = format!("{}.", b.name);
+                let mut sets: Vec<String> = mesh
+                    .point_sets
+                    .keys()
+                    .chain(mesh.facet_sets.keys())
+                    .chain(mesh.cell_sets.keys())
+                    .filter_map(|k| k.strip_prefix(&prefix).map(str::to_string))
+                    .collect();
+                sets.sort();
+                sets.dedup();
+                BodyReport {
+                    name: b.name.clone(),
+                    points: b.points.len(),
+                    cells: blocks.iter().map(|x| x.cell_ids.len()).sum(),
+                    kinds: kinds.join(", "),
+                    low,
+                    high,
+                    sets,
+                }
+            })
+            .collect();
+        CheckReport {
+            bodies,
+            interfaces,
+            free: free_modes(self, end.t),
+            steps: self
+                .model
+                .steps
+                .iter()
+                .map(|s| format!("{}: {} to {}", s.name, s.start, s.end))
+                .collect(),
+        }
+    }
+}
+
+fn inspect(interface: &mut Interface, stage: &Stage) -> InterfaceReport {
+    let gaps = interface.gaps_at(stage);
+    let finite: Vec<f64> = gaps.iter().copied().filter(|g| g.is_finite()).collect();
+    InterfaceReport {
+        name: interface.name.clone(),
+        points: interface.points.len(),
+        area: interface.points.iter().map(|p| p.area).sum(),
+        paired: finite.len(),
+        smallest: finite.iter().copied().fold(f64::INFINITY, f64::min),
+        largest: finite.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        overlapping: finite.iter().filter(|&&g| g < 0.0).count(),
+        laws: interface.laws.describe(),
+    }
+}
+
+impl fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "bodies")?;
+        for b in &self.bodies {
+            writeln!(
+                f,
+                "  {}: {} points, {} cells ({}), from ({}, {}, {}) to ({}, {}, {})",
+                b.name,
+                b.points,
+                b.cells,
+                b.kinds,
+                b.low[0],
+                b.low[1],
+                b.low[2],
+                b.high[0],
+                b.high[1],
+                b.high[2]
+            )?;
+            writeln!(f, "    sets: {}", b.sets.join(", "))?;
+        }
+        writeln!(f, "interfaces")?;
+        for i in &self.interfaces {
+            writeln!(
+                f,
+                "  {}: {} points, area {:.6e}, {}",
+                i.name, i.points, i.area, i.laws
+            )?;
+            if i.paired == 0 {
+                writeln!(
+                    f,
+                    "    nothing lies opposite: the interface cannot close from here"
+                )?;
+            } else {
+                writeln!(
+                    f,
+                    "    gaps {:.6e} to {:.6e}, {} of {} points have something opposite, {} overlap",
+                    i.smallest, i.largest, i.paired, i.points, i.overlapping
+                )?;
+            }
+        }
+        writeln!(f, "free rigid-body modes (held by contact alone)")?;
+        if self.free.is_empty() {
+            writeln!(f, "  none")?;
+        }
+        for m in &self.free {
+            writeln!(f, "  {}: {}", m.body, m.motion)?;
+        }
+        writeln!(f, "steps")?;
+        for s in &self.steps {
+            writeln!(f, "  {s}")?;
+        }
+        Ok(())
+    }
+}

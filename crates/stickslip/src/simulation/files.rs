@@ -1,0 +1,140 @@
+//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::run::{Event, Observer, Simulation};
+use crate::error::Error;
+use crate::io::{csv, pvd, vtu, write_atomically};
+use crate::system::{Field, Fields, Force, Location};
+
+/// Writes results into a directory as the run goes on; what is there at any time is complete.
+pub struct ResultFiles {
+    directory: PathBuf,
+    pvd: pvd::Collection,
+    history: Option<csv::History>,
+    count: usize,
+    seconds: f64,
+}
+
+impl ResultFiles {
+    /// Makes the directory. Results of an earlier run in it are replaced as new ones come.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn new(directory: &Path) -> Result<Self, Error> {
+        std::fs::create_dir_all(directory).map_err(|e| Error::io(directory, e))?;
+        Ok(ResultFiles {
+            directory: directory.to_path_buf(),
+            pvd: pvd::Collection::new(&directory.join("fields.pvd")),
+            history: None,
+            count: 0,
+            seconds: 0.0,
+        })
+    }
+
+    fn output(&mut self, simulation: &Simulation) -> Result<(), Error> {
+        let fields = fields(simulation);
+        let name = format!("fields_{:05}.vtu", self.count);
+        self.count += 1;
+        let path = self.directory.join(&name);
+        vtu::write(
+            &path,
+            &simulation.model.mesh,
+            &fields,
+            Some(&owners(simulation)),
+        )?;
+        self.pvd.push(simulation.state.t, &name)?;
+        let folder = self.directory.join("interfaces");
+        if !simulation.model.interfaces.is_empty() {
+            std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+        }
+        for interface in &simulation.model.interfaces {
+            let (names, columns) = interface.table(&simulation.state.u);
+            let path = folder.join(format!("{}.csv", interface.name));
+            csv::write(&path, &csv::Table { names, columns })?;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, simulation: &Simulation) -> Result<(), Error> {
+        let mut summary = simulation.summary.clone();
+        summary.phases.write = self.seconds;
+        let text = serde_json::to_string_pretty(&summary)
+            .map_err(|e| Error::io(&self.directory, std::io::Error::other(e)))?;
+        write_atomically(&self.directory.join("summary.json"), text.as_bytes())
+    }
+}
+
+/// All fields of the last accepted state.
+pub fn fields(simulation: &Simulation) -> Fields {
+    let model = &simulation.model;
+    let mut fields = Fields::default();
+    let dofs = model.dofs;
+    let vectors = |values: &[f64]| -> Vec<f64> {
+        (0..dofs.points)
+            .flat_map(|p| dofs.vector(values, p))
+            .collect()
+    };
+    fields.all.push(Field {
+        name: "U".into(),
+        location: Location::Point,
+        components: 3,
+        values: vectors(&simulation.state.u),
+    });
+    let fixed = simulation.constraints(simulation.state.t).fixed;
+    let reactions: Vec<f64> = simulation
+        .forces
+        .iter()
+        .zip(&fixed)
+        .map(|(f, &fixed)| if fixed { *f } else { 0.0 })
+        .collect();
+    fields.all.push(Field {
+        name: "RF".into(),
+        location: Location::Point,
+        components: 3,
+        values: vectors(&reactions),
+    });
+    for body in &model.bodies {
+        body.elastic.fields(&simulation.state, &mut fields);
+    }
+    for interface in &model.interfaces {
+        interface.fields(&simulation.state, &mut fields);
+    }
+    fields
+}
+
+/// The number of its body for every cell.
+fn owners(simulation: &Simulation) -> Vec<usize> {
+    let model = &simulation.model;
+    let bodies = model.bodies.iter().enumerate();
+    bodies
+        .flat_map(|(i, body)| {
+            let blocks = &model.mesh.blocks[body.blocks.clone()];
+            let cells = blocks.iter().map(|b| b.cell_ids.len()).sum();
+            std::iter::repeat_n(i, cells)
+        })
+        .collect()
+}
+
+impl Observer for ResultFiles {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        let started = Instant::now();
+        match event {
+            Event::Increment(row) => {
+                if self.history.is_none() {
+                    let path = self.directory.join("history.csv");
+                    self.history = Some(csv::History::create(&path, &row.names)?);
+                }
+                if let Some(history) = &mut self.history {
+                    history.row(&row.values)?;
+                }
+            }
+            Event::Output => self.output(simulation)?,
+            Event::End => self.end(simulation)?,
+            Event::Iteration(_) | Event::Cutback(..) => {}
+        }
+        self.seconds += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+}

@@ -1,0 +1,169 @@
+//! One row of numbers an increment: what happened, energies, interfaces, supports, probes.
+
+use super::model::ProbeKind;
+use super::run::Simulation;
+use super::summary::InterfaceSummary;
+use crate::contact::interface::Resultant;
+use crate::math::{add, norm};
+use crate::system::{Fields, Force, Tally};
+use crate::time::Trial;
+
+/// A row of the history: names and values.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Row {
+    /// Column names.
+    pub names: Vec<String>,
+    /// Values.
+    pub values: Vec<f64>,
+}
+
+impl Row {
+    fn push(&mut self, name: impl Into<String>, value: f64) {
+        self.names.push(name.into());
+        self.values.push(value);
+    }
+
+    /// The value of a column.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        let i = self.names.iter().position(|n| n == name)?;
+        Some(self.values[i])
+    }
+}
+
+/// What an increment took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Multiplier updates.
+    pub rounds: usize,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
+}
+
+pub(super) fn row(
+    simulation: &Simulation,
+    trial: Trial,
+    effort: Effort,
+    (increment, attempt): (usize, usize),
+) -> Row {
+    let mut row = Row::default();
+    // the first columns as in the .sta file of Abaqus and CalculiX
+    row.push("STEP", simulation.step_index() as f64 + 1.0);
+    row.push("INC", increment as f64);
+    row.push("ATT", attempt as f64);
+    row.push("ITRS", effort.iterations as f64);
+    row.push("TIME", trial.to);
+    row.push("DT", trial.to - trial.from);
+    row.push("AUGMENTATIONS", effort.rounds as f64);
+    row.push("RESIDUAL", effort.residual);
+    row.push("OPEN", effort.tally.open as f64);
+    row.push("STICK", effort.tally.stick as f64);
+    row.push("SLIP", effort.tally.slip as f64);
+    let e = &simulation.summary.energy;
+    row.push("ALLSE", e.strain);
+    row.push("ALLCE", e.contact);
+    row.push("ALLFD", e.friction);
+    row.push("ALLWK", e.external_work + e.belt_work);
+    let left = e.external_work + e.belt_work - e.strain - e.contact - e.friction;
+    row.push("ERESIDUAL", left);
+    let dim = simulation.model.dofs.dim;
+    for interface in &simulation.model.interfaces {
+        let r = interface.resultant(&simulation.state.u);
+        push_resultant(&mut row, &interface.name, &r, dim);
+        row.push(
+            format!("{}.ALLFD", interface.name),
+            interface.energy().dissipated,
+        );
+    }
+    for support in &simulation.model.supports {
+        let active = support.schedule.active(trial.to);
+        let mut sum = [0.0; 3];
+        for e in &support.entries {
+            let (_, c) = simulation.model.dofs.locate(e.dof);
+            sum[c] += simulation.forces[e.dof];
+        }
+        for (c, s) in sum.iter().enumerate().take(dim) {
+            let value = if active { *s } else { 0.0 };
+            row.push(format!("{}.RF{}", support.name, c + 1), value);
+        }
+    }
+    push_probes(&mut row, simulation);
+    row
+}
+
+fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
+    for c in 0..dim {
+        row.push(format!("{name}.CFN{}", c + 1), r.normal[c]);
+    }
+    for c in 0..dim {
+        row.push(format!("{name}.CFS{}", c + 1), r.shear[c]);
+    }
+    for c in 0..dim {
+        row.push(format!("{name}.XN{}", c + 1), r.centre[c]);
+    }
+    row.push(format!("{name}.CAREA"), r.area);
+    row.push(format!("{name}.CPRESSMAX"), r.peak);
+}
+
+fn push_probes(row: &mut Row, simulation: &Simulation) {
+    let model = &simulation.model;
+    let dim = model.dofs.dim;
+    if model.probes.is_empty() {
+        return;
+    }
+    let mut fields = Fields::default();
+    for body in &model.bodies {
+        body.elastic.fields(&simulation.state, &mut fields);
+    }
+    for probe in &model.probes {
+        let ProbeKind::Point(point) = probe.kind;
+        let u = model.dofs.vector(&simulation.state.u, point);
+        for (c, u) in u.iter().enumerate().take(dim) {
+            row.push(format!("{}.U{}", probe.name, c + 1), *u);
+        }
+        if let Some(s) = fields.get("S") {
+            for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
+                if dim == 2 && k >= 4 {
+                    continue;
+                }
+                row.push(format!("{}.S{name}", probe.name), s.values[6 * point + k]);
+            }
+        }
+    }
+}
+
+/// Quality of the interfaces at the last accepted state.
+pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
+    simulation
+        .model
+        .interfaces
+        .iter()
+        .map(|interface| {
+            let quality = interface.quality();
+            let r = interface.resultant(&simulation.state.u);
+            let force = norm(r.normal);
+            let approach = 2.0 * simulation.summary.energy.strain / force.max(f64::MIN_POSITIVE);
+            let mut fields = Fields::default();
+            interface.fields(&simulation.state, &mut fields);
+            let mut sum = [0.0; 3];
+            if let Some(f) = fields.get("CFORCE").filter(|_| !interface.rigid()) {
+                for v in f.values.chunks(3) {
+                    sum = add(sum, [v[0], v[1], v[2]]);
+                }
+            }
+            InterfaceSummary {
+                name: interface.name.clone(),
+                quality,
+                relative_to_approach: if force > 0.0 && approach > 0.0 {
+                    quality.penetration / approach
+                } else {
+                    0.0
+                },
+                action_reaction: if force > 0.0 { norm(sum) / force } else { 0.0 },
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,151 @@
+use serde::Serialize;
+
+use super::model::Model;
+use crate::contact::interface::Quality;
+use crate::error::Error;
+use crate::newton::Statistics;
+
+/// What `summary.json` holds.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Summary {
+    /// Title of the problem.
+    pub title: String,
+    /// Version of stickslip.
+    pub version: &'static str,
+    /// `done`, or why not.
+    pub outcome: String,
+    /// Whether the run reached its end.
+    pub completed: bool,
+    /// Size of the problem.
+    pub size: Size,
+    /// Accepted increments.
+    pub increments: usize,
+    /// Newton iterations of accepted increments.
+    pub iterations: usize,
+    /// Rejected attempts.
+    pub cutbacks: usize,
+    /// Why, one line each.
+    pub cutback_reasons: Vec<String>,
+    /// Counts and times of the solver.
+    pub solver: Statistics,
+    /// Seconds by phase.
+    pub phases: Phases,
+    /// Largest memory of the process [bytes]; 0 if the system does not tell.
+    pub peak_memory: u64,
+    /// Threads used.
+    pub threads: usize,
+    /// Energies at the end.
+    pub energy: EnergyLedger,
+    /// Interfaces at the end.
+    pub interfaces: Vec<InterfaceSummary>,
+    /// Last row of the history.
+    pub last: std::collections::BTreeMap<String, f64>,
+}
+
+/// Size of a problem.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Size {
+    /// Points.
+    pub points: usize,
+    /// Cells.
+    pub cells: usize,
+    /// Displacement dofs.
+    pub dofs: usize,
+    /// Points of secondary surfaces.
+    pub contact_points: usize,
+}
+
+/// Seconds by phase.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Phases {
+    /// Reading and meshing.
+    pub read: f64,
+    /// Assembly of the bulk.
+    pub assemble: f64,
+    /// Ordering and symbolic factorisation.
+    pub order: f64,
+    /// Numeric factorisation.
+    pub factor: f64,
+    /// Krylov iterations with the factor.
+    pub solve: f64,
+    /// Search, pairing and assembly of interfaces.
+    pub contact: f64,
+    /// Writing results.
+    pub write: f64,
+    /// Wall time of the run.
+    pub total: f64,
+}
+
+/// Energies [J] (per unit of thickness or over 2π as the model has it).
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergyLedger {
+    /// Elastic energy of the bodies and springs.
+    pub strain: f64,
+    /// Recoverable energy of the interfaces.
+    pub contact: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Work of loads and supports.
+    pub external_work: f64,
+    /// Work of moving primary surfaces.
+    pub belt_work: f64,
+}
+
+/// An interface at the end of a run.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct InterfaceSummary {
+    /// Name.
+    pub name: String,
+    /// Largest unwanted penetration and false slip.
+    pub quality: Quality,
+    /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
+    /// force.
+    pub relative_to_approach: f64,
+    /// Largest out-of-balance between what the two sides receive, relative to the force.
+    pub action_reaction: f64,
+}
+
+impl Summary {
+    /// An empty summary of this model.
+    pub fn new(model: &Model) -> Self {
+        Summary {
+            title: model.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            size: Size {
+                points: model.mesh.points.len(),
+                cells: model.mesh.blocks.iter().map(|b| b.cell_ids.len()).sum(),
+                dofs: model.dofs.count(),
+                contact_points: model.interfaces.iter().map(|i| i.points.len()).sum(),
+            },
+            threads: rayon::current_num_threads(),
+            ..Summary::default()
+        }
+    }
+
+    pub(super) fn finish(&mut self, solver: &Statistics, total: f64, error: Option<&Error>) {
+        self.solver = *solver;
+        self.phases.order = solver.seconds_order;
+        self.phases.factor = solver.seconds_factor;
+        self.phases.solve = solver.seconds_solve;
+        self.phases.contact = solver.seconds_contact;
+        self.phases.total = total;
+        self.completed = error.is_none();
+        self.outcome = error.map_or("done".into(), Error::to_string);
+        self.peak_memory = peak_memory();
+    }
+}
+
+/// Peak resident memory of this process, from `/proc` where there is one.
+fn peak_memory() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))
+        .and_then(|rest| rest.split_whitespace().next()?.parse::<u64>().ok())
+        .map_or(0, |kib| kib * 1024)
+}

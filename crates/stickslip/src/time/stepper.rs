@@ -1,0 +1,137 @@
+//! The size of increments: halved on failure, grown when easy, landing on the times that matter.
+
+/// Increments of one step, as times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Increments {
+    /// First increment.
+    pub initial: f64,
+    /// Below this the analysis gives up.
+    pub smallest: f64,
+    /// Largest increment.
+    pub largest: f64,
+}
+
+/// An increment to try.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// Start.
+    pub from: f64,
+    /// End.
+    pub to: f64,
+}
+
+/// Controls the increments of one step.
+#[derive(Debug, Clone)]
+pub struct Stepper {
+    increments: Increments,
+    milestones: Vec<f64>,
+    now: f64,
+    wish: f64,
+    easy: usize,
+}
+
+/// Newton iterations up to which an increment counts as easy.
+const EASY: usize = 8;
+/// Growth after two easy increments in a row.
+const GROWTH: f64 = 1.5;
+
+impl Stepper {
+    /// From `start` to the last of the `milestones`, none of which is stepped over. They are sorted; those not after
+    /// `start` are dropped.
+    pub fn new(start: f64, mut milestones: Vec<f64>, increments: Increments) -> Self {
+        milestones.retain(|&t| t > start);
+        milestones.sort_by(f64::total_cmp);
+        milestones.dedup();
+        Stepper {
+            increments,
+            milestones,
+            now: start,
+            wish: increments.initial,
+            easy: 0,
+        }
+    }
+
+    /// The next increment to try; `None` at the end.
+    pub fn next(&self) -> Option<Trial> {
+        let target = *self.milestones.iter().find(|&&t| t > self.now)?;
+        let left = target - self.now;
+        // Equal parts up to the milestone, so that no sliver is left before it.
+        let parts = (left / self.wish - 1e-6).ceil().max(1.0);
+        let to = if parts == 1.0 {
+            target
+        } else {
+            self.now + left / parts
+        };
+        Some(Trial { from: self.now, to })
+    }
+
+    /// The increment was accepted after `iterations`.
+    pub fn accept(&mut self, trial: Trial, iterations: usize) {
+        self.now = trial.to;
+        self.easy = if iterations <= EASY { self.easy + 1 } else { 0 };
+        if self.easy >= 2 {
+            self.wish = (self.wish * GROWTH).min(self.increments.largest);
+            self.easy = 0;
+        }
+    }
+
+    /// The increment failed: halves it. `false` if it is as small as it may be.
+    pub fn reject(&mut self, trial: Trial) -> bool {
+        self.wish = 0.5 * (trial.to - trial.from);
+        self.easy = 0;
+        self.wish >= self.increments.smallest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn increments(initial: f64, largest: f64) -> Increments {
+        Increments {
+            initial,
+            smallest: 1e-3,
+            largest,
+        }
+    }
+
+    #[test]
+    fn lands_on_milestones_and_grows() {
+        let mut s = Stepper::new(1.0, vec![2.0, 1.25, 0.5], increments(0.1, 0.4));
+        let mut ends = Vec::new();
+        while let Some(trial) = s.next() {
+            s.accept(trial, 3);
+            ends.push(trial.to);
+        }
+        assert!(ends.contains(&1.25));
+        assert_eq!(ends.last(), Some(&2.0));
+        let steps: Vec<f64> = ends.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(steps.iter().all(|&d| d < 0.4 + 1e-12));
+        assert!(steps.iter().any(|&d| d > 0.2));
+    }
+
+    #[test]
+    fn fixed_increments_stay_equal() {
+        let mut s = Stepper::new(0.0, vec![1.0], increments(0.1, 0.1));
+        let mut count = 0;
+        while let Some(trial) = s.next() {
+            s.accept(trial, 2);
+            count += 1;
+            assert!((trial.to - 0.1 * count as f64).abs() < 1e-12);
+        }
+        assert_eq!(count, 10);
+    }
+
+    #[test]
+    fn gives_up_below_the_smallest() {
+        let mut s = Stepper::new(0.0, vec![1.0], increments(0.01, 0.1));
+        let mut halvings = 0;
+        while let Some(trial) = s.next() {
+            if !s.reject(trial) {
+                break;
+            }
+            halvings += 1;
+        }
+        assert_eq!(halvings, 3);
+    }
+}
