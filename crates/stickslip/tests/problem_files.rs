@@ -123,7 +123,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "gmsh.file = \"block.msh\"\n",
         "",
-        &["7:7 the key `gmsh` is missing"],
+        &["7:7 one of these keys is missing: generate, gmsh"],
     ),
     (
         "[[step]]\nname = \"press\"\ninterfaces = [\"base\"]\n",
@@ -292,6 +292,44 @@ const WRONG: &[(&str, &str, &[&str])] = &[
         "x = 0.0\n",
         "",
         &["28:10 the support `left` holds no component"],
+    ),
+    // loads, generators
+    (
+        "[probe.A]",
+        "[load.p]\nset = \"block.top\"\npresure = { value = 1e6 }\n\n[probe.A]",
+        &["42:1 unknown key `presure`"],
+    ),
+    (
+        "[probe.A]",
+        "[load.p]\nset = \"top\"\npressure = { value = 1e6 }\n\n[probe.A]",
+        &["41:7 there is no set or body `top`"],
+    ),
+    (
+        "[probe.A]",
+        "[load.p]\nset = \"A\"\n\n[probe.A]",
+        &[
+            "40:7 one of these keys is missing: traction, pressure, body-force, gravity, nodal-force, spring",
+        ],
+    ),
+    (
+        "gmsh.file = \"block.msh\"",
+        "generate.rectangle = { to = [1, 2], cels = [4, 4] }",
+        &["8:37 unknown key `cels`"],
+    ),
+    (
+        "gmsh.file = \"block.msh\"",
+        "generate.rectangle = { to = [1, 2, 3], cells = [4, 4] }",
+        &["8:29 expected 2 entries, found 3"],
+    ),
+    (
+        "gmsh.file = \"block.msh\"",
+        "generate.rectangle = { to = [1, 2], element = \"quad5\" }",
+        &["8:47 `quad5` is not known here"],
+    ),
+    (
+        "friction.coulomb",
+        "kinematics.pop-1995 = {}\nfacets = \"bilinear\"\nfriction.coulomb",
+        &["27:10 kinematics `pop-1995` needs triangles"],
     ),
     // time
     (

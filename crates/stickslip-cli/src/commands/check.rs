@@ -36,6 +36,7 @@ fn summary(problem: &Problem) -> String {
         ("materials", names(&problem.material)),
         ("obstacles", names(&problem.obstacle)),
         ("sets", names(&problem.set)),
+        ("loads", names(&problem.load)),
         ("supports", names(&problem.support)),
         ("probes", names(&problem.probe)),
     ] {
@@ -46,13 +47,14 @@ fn summary(problem: &Problem) -> String {
     for (name, interface) in &problem.interface {
         use stickslip::registry::Family;
         lines.push(format!(
-            "interface {name}: {} on {}; {}, {}, {}, {}",
+            "interface {name}: {} on {}; {}, {}, {}, {}, {}",
             interface.secondary,
             interface.primary,
             interface.normal.kind(),
             interface.friction.kind(),
             interface.slip.kind(),
             interface.enforcement.kind(),
+            interface.kinematics.kind(),
         ));
     }
     let mut start = 0.0;
