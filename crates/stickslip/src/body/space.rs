@@ -23,7 +23,18 @@ pub enum Space {
 }
 
 /// What the elements do with the change of volume.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
 pub enum Formulation {
     /// Strains as the displacements give them.
     #[default]

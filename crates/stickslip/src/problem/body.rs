@@ -4,6 +4,9 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::body::Formulation;
+use crate::mesh::generators::Generator;
+
 /// `[body.NAME]`: an elastic body: its mesh and what it is made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -14,7 +17,7 @@ pub struct Body {
     /// Materials by cell set of the mesh: `regions.coat = "bronze"`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub regions: BTreeMap<String, String>,
-    /// How strains are taken in a cell.
+    /// What the elements do with the change of volume.
     #[serde(default)]
     pub formulation: Formulation,
     /// Factor on the coordinates of the mesh, applied before `translate`: 1e-3 for a mesh in mm and a problem in m.
@@ -33,21 +36,12 @@ fn one() -> f64 {
     1.0
 }
 
-/// How strains are taken in a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Formulation {
-    /// Point by point.
-    #[default]
-    Standard,
-    /// The change of volume is averaged over the cell (B-bar), which keeps nearly incompressible bodies from locking.
-    MeanDilatation,
-}
-
 /// Where the mesh of a body comes from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeshSource {
+    /// Built in: `generate.rectangle = { to = [0.04, 0.02], cells = [20, 10] }`.
+    Generate(Generator),
     /// From a file of Gmsh: `.msh`, format 2.2 or 4.1, ASCII or binary.
     Gmsh(GmshFile),
 }

@@ -2,6 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::enforcement::EnforcementModel;
+use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
@@ -27,6 +28,9 @@ pub struct Interface {
     /// How contact and stick are enforced.
     #[serde(default)]
     pub enforcement: EnforcementModel,
+    /// How gap and slip are measured.
+    #[serde(default)]
+    pub kinematics: KinematicsModel,
     /// Velocity of the material of the primary surface beyond the motion of its body, such as a belt [length/time],
     /// constant. Its normal component has no effect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -35,17 +39,17 @@ pub struct Interface {
     /// `[time, vx, vy, vz]`, linear in between, constant outside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary_velocity_table: Option<Vec<Vec<f64>>>,
-    /// How quadrilateral facets of the primary are taken.
-    #[serde(default)]
-    pub facets: FacetShape,
+    /// How quadrilateral facets of the primary are taken; as they are if not given, unless the kinematics needs
+    /// triangles. Without meaning in 2D and on obstacles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub facets: Option<FacetShape>,
 }
 
 /// How quadrilateral facets of a primary surface are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FacetShape {
     /// As the bilinear (for quadratic cells: quadratic) surfaces that they are.
-    #[default]
     Bilinear,
     /// Split into plane triangles.
     Triangles,

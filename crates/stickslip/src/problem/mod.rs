@@ -9,10 +9,13 @@
 
 mod amplitude;
 mod body;
+mod build;
 mod check;
 mod document;
+mod families;
 mod interface;
 mod key;
+mod load;
 mod model;
 mod nearest;
 mod obstacle;
@@ -37,13 +40,15 @@ use crate::error::{Diagnostic, Error, ProblemError};
 use crate::material::Material;
 
 pub use amplitude::AmplitudeTable;
-pub use body::{Body, Formulation, GmshFile, MeshSource};
+pub use body::{Body, GmshFile, MeshSource};
 pub use document::Document;
+pub use families::{FamilyListing, families};
 pub use interface::{FacetShape, Interface};
-pub use model::{Model, Space};
+pub use load::Load;
+pub use model::{Model, SpaceKind};
 pub use obstacle::Obstacle;
 pub use output::Output;
-pub use probe::{Probe, Probed};
+pub use probe::Probe;
 pub use schema::schema;
 pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
@@ -84,6 +89,9 @@ pub struct Problem {
     /// Prescribed displacements, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub support: BTreeMap<String, Support>,
+    /// Forces and springs, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub load: BTreeMap<String, Load>,
     /// Factors over time, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub amplitude: BTreeMap<String, AmplitudeTable>,

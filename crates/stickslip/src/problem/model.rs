@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Model {
     /// Plane strain, plane stress, axisymmetric or solid (3D).
-    pub space: Space,
+    pub space: SpaceKind,
     /// Thickness [length] of a plane problem, 1 if not given. Forces are those of this thickness.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -16,7 +16,7 @@ pub struct Model {
 /// The space in which the bodies live.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Space {
+pub enum SpaceKind {
     /// In the plane x, y; no strain along z.
     PlaneStrain,
     /// In the plane x, y; no stress along z.
@@ -27,11 +27,11 @@ pub enum Space {
     Solid,
 }
 
-impl Space {
+impl SpaceKind {
     /// Displacement components a point: 2 or 3.
     pub fn dim(self) -> usize {
         match self {
-            Space::Solid => 3,
+            SpaceKind::Solid => 3,
             _ => 2,
         }
     }
@@ -39,10 +39,10 @@ impl Space {
     /// As written in the problem file.
     pub fn name(self) -> &'static str {
         match self {
-            Space::PlaneStrain => "plane-strain",
-            Space::PlaneStress => "plane-stress",
-            Space::Axisymmetric => "axisymmetric",
-            Space::Solid => "solid",
+            SpaceKind::PlaneStrain => "plane-strain",
+            SpaceKind::PlaneStress => "plane-stress",
+            SpaceKind::Axisymmetric => "axisymmetric",
+            SpaceKind::Solid => "solid",
         }
     }
 }

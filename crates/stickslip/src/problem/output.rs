@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// `[output]`: which fields are written to `fields.pvd`, and when. Histories and the summary cover every increment.
+/// `[output]`: when fields are written to `fields.pvd`. Histories and the summary cover every increment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Output {
@@ -9,8 +9,6 @@ pub struct Output {
     pub every: usize,
     /// Further times [time] at which fields are written, increasing. Increments land on them.
     pub times: Vec<f64>,
-    /// Names of the fields written, as in the results (`U`, `S`, `CPRESS`, …); all if empty.
-    pub fields: Vec<String>,
 }
 
 impl Default for Output {
@@ -18,7 +16,6 @@ impl Default for Output {
         Output {
             every: 1,
             times: Vec::new(),
-            fields: Vec::new(),
         }
     }
 }

@@ -2,7 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[set.NAME]`: a set of points chosen by geometry, before any deformation. Where facets are wanted (pressure,
-/// interfaces), it stands for the boundary facets all of whose points are in the set.
+/// interfaces), it stands for the boundary facets, and where cells are wanted (weight) for the cells, all of whose points are in
+/// the set.
 ///
 /// Meshes bring sets of their own, `body.set`; the name of a body alone stands for all of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Solver {
-    /// Largest out-of-balance force, as a fraction of the largest forces in the model.
+    /// Largest out-of-balance force, as a fraction of the forces in play.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub tolerance: f64,
     /// Newton iterations after which an increment is cut.
     #[schemars(range(min = 1))]
     pub max_iterations: usize,
-    /// Shorten Newton steps that do not reduce the residual.
-    pub line_search: bool,
+    /// Halvings of a Newton step that does not reduce the out-of-balance forces; 0 takes every step in full.
+    pub line_search: usize,
     /// Largest change of displacement over one increment, as a fraction of the size of the model; an increment that
     /// changes more is cut. No limit if not given.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -24,36 +24,35 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
+        let settings = crate::newton::Settings::default();
         Solver {
-            tolerance: 1e-8,
-            max_iterations: 30,
-            line_search: true,
+            tolerance: settings.tolerance,
+            max_iterations: settings.max_iterations,
+            line_search: settings.line_search,
             largest_change: None,
             linear: Linear::default(),
         }
     }
 }
 
-/// How systems of linear equations are solved.
+/// `[solver.linear]`: how systems of linear equations are solved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Linear {
-    /// The factorisation of the matrix is used up to this many unknowns, conjugate gradients above.
-    pub direct_below: usize,
-    /// Largest residual of an iterative solution, as a fraction of the right-hand side.
+    /// Largest residual of a linear system, as a fraction of its right-hand side.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub tolerance: f64,
-    /// Iterations after which an iterative solution is given up.
+    /// Krylov iterations with one factorisation after which the matrix is factored anew.
     #[schemars(range(min = 1))]
-    pub max_iterations: usize,
+    pub patience: usize,
 }
 
 impl Default for Linear {
     fn default() -> Self {
+        let settings = crate::newton::Settings::default();
         Linear {
-            direct_below: 1_000_000,
-            tolerance: 1e-10,
-            max_iterations: 2000,
+            tolerance: settings.linear_tolerance,
+            patience: settings.krylov_patience,
         }
     }
 }

@@ -41,6 +41,8 @@ pub(super) struct Evaluation {
     pub facet_weights: Vec<(usize, f64)>,
     pub normal_stiffness: f64,
     pub tangential_stiffness: f64,
+    /// Shear traction at the last accepted state, in the frame.
+    pub carried: [f64; 2],
     /// Multipliers as components in the frame, for a perturbed Lagrangian.
     pub multiplier: [f64; 3],
 }
@@ -287,6 +289,7 @@ impl Interface {
             normal_stiffness,
             tangential_stiffness,
             multiplier: at.multiplier,
+            carried: at.carried,
             ..Evaluation::default()
         }
     }

@@ -398,9 +398,12 @@ impl Force for Interface {
         {
             let r = &e.response;
             let shear = e.along(&e.frame);
-            let work = r.traction[1] * r.sliding_path[0] + r.traction[2] * r.sliding_path[1];
+            // By the trapezoidal rule, like the work of the loads: exact where the traction grows in proportion.
+            let carried = e.carried;
+            let mean = [0, 1].map(|i| 0.5 * (carried[i] + r.traction[i + 1]));
+            let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
             memory.dissipated += (-work * point.area).max(0.0);
-            memory.belt_work += dot(shear, belt) * point.area;
+            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * point.area;
             let slid = if r.status == Status::Open {
                 [0.0; 3]
             } else {

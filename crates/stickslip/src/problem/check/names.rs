@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
-use super::super::{Probed, Problem, Select};
+use super::super::{Problem, Select};
 use super::Findings;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
@@ -18,6 +18,17 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             findings,
             &key,
             support.amplitude.as_deref(),
+            "amplitudes",
+            &problem.amplitude,
+        );
+    }
+    for (name, load) in &problem.load {
+        set(problem, findings, &["load", name, "set"], &load.set);
+        let key = ["load", name, "amplitude"];
+        one_of(
+            findings,
+            &key,
+            load.amplitude.as_deref(),
             "amplitudes",
             &problem.amplitude,
         );
@@ -181,47 +192,15 @@ fn interfaces(problem: &Problem, findings: &mut Findings) {
 
 fn probes(problem: &Problem, findings: &mut Findings) {
     for (name, probe) in &problem.probe {
-        let key = |last| ["probe", name.as_str(), last];
-        match &probe.what {
-            Probed::Point(_) => {
-                one_of(
-                    findings,
-                    &key("of"),
-                    probe.of.as_deref(),
-                    "bodies",
-                    &problem.body,
-                );
-                if probe.of.is_none() && problem.body.len() > 1 {
-                    let bodies: Vec<&str> = problem.body.keys().map(String::as_str).collect();
-                    findings.add(
-                        &["probe", name],
-                        format!("the probe `{name}` does not say of which body its point is"),
-                        format!("add `of`, one of: {}", bodies.join(", ")),
-                    );
-                }
-                continue;
-            }
-            Probed::Interface(i) => {
-                one_of(
-                    findings,
-                    &key("interface"),
-                    Some(i),
-                    "interfaces",
-                    &problem.interface,
-                );
-            }
-            Probed::Support(s) => {
-                one_of(
-                    findings,
-                    &key("support"),
-                    Some(s),
-                    "supports",
-                    &problem.support,
-                );
-            }
-        }
-        if probe.of.is_some() {
-            findings.add(&key("of"), "only a point has an `of`", "remove the key");
+        let key = ["probe", name, "of"];
+        one_of(findings, &key, probe.of.as_deref(), "bodies", &problem.body);
+        if probe.of.is_none() && problem.body.len() > 1 {
+            let bodies: Vec<&str> = problem.body.keys().map(String::as_str).collect();
+            findings.add(
+                &["probe", name],
+                format!("the probe `{name}` does not say of which body its point is"),
+                format!("add `of`, one of: {}", bodies.join(", ")),
+            );
         }
     }
 }

@@ -22,6 +22,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         }
         let p = problem;
         listed(findings, &at("supports"), &step.supports, &p.support);
+        listed(findings, &at("loads"), &step.loads, &p.load);
         listed(findings, &at("interfaces"), &step.interfaces, &p.interface);
         if idle(problem, step) {
             findings.add(
@@ -61,7 +62,9 @@ fn idle(problem: &Problem, step: &Step) -> bool {
     fn count<T>(list: &Option<Vec<String>>, table: &BTreeMap<String, T>) -> usize {
         list.as_ref().map_or(table.len(), Vec::len)
     }
-    count(&step.supports, &problem.support) == 0 && count(&step.interfaces, &problem.interface) == 0
+    count(&step.supports, &problem.support) == 0
+        && count(&step.loads, &problem.load) == 0
+        && count(&step.interfaces, &problem.interface) == 0
 }
 
 fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {

@@ -1,14 +1,17 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
-use super::super::{Interface, Probed, Problem, Select, Space};
+use super::super::{FacetShape, Interface, Problem, Select, SpaceKind};
 use super::Findings;
+use crate::body::Formulation;
 use crate::math::normalize;
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError};
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     let space = problem.model.space;
-    if problem.model.thickness.is_some() && matches!(space, Space::Axisymmetric | Space::Solid) {
+    if problem.model.thickness.is_some()
+        && matches!(space, SpaceKind::Axisymmetric | SpaceKind::Solid)
+    {
         findings.add(
             &["model", "thickness"],
             format!(
@@ -21,6 +24,13 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     for (name, body) in &problem.body {
         if let Some(shift) = &body.translate {
             findings.vector(problem, &["body", name, "translate"], shift);
+        }
+        if body.formulation == Formulation::MeanDilatation && space == SpaceKind::PlaneStress {
+            findings.add(
+                &["body", name, "formulation"],
+                "mean-dilatation has no meaning in plane stress",
+                "remove the key: where the strain across the plane is free, nothing locks",
+            );
         }
     }
     materials(problem, findings);
@@ -41,9 +51,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         );
     }
     for (name, probe) in &problem.probe {
-        if let Probed::Point(point) = &probe.what {
-            findings.vector(problem, &["probe", name, "point"], point);
-        }
+        findings.vector(problem, &["probe", name, "point"], &probe.point);
     }
 }
 
@@ -125,6 +133,17 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         enforcement.kind(),
         enforcement.as_dyn().faults(),
     );
+    let triangles = interface.kinematics.as_dyn().triangles();
+    if triangles && interface.facets == Some(FacetShape::Bilinear) {
+        findings.add(
+            &["interface", name, "facets"],
+            format!(
+                "kinematics `{}` needs triangles",
+                interface.kinematics.kind()
+            ),
+            "write facets = \"triangles\", or remove the key",
+        );
+    }
     // An exact law has no penetration of its own: what there is comes from the enforcement and means nothing.
     if friction.as_dyn().needs_penetration() && normal.as_dyn().pressure(0.0).is_none() {
         findings.add(

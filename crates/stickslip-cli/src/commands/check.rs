@@ -1,0 +1,78 @@
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stickslip::problem::{Document, Problem};
+
+use super::Outcome;
+use crate::print;
+
+/// Read a problem file and report what is wrong with it, or what was understood.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The problem file.
+    file: PathBuf,
+    /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+}
+
+/// Checks the file.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
+    let problem = document.problem()?;
+    print::out(&summary(&problem))?;
+    let model = problem
+        .build(&document.folder())
+        .map_err(|e| super::located(&document, e))?;
+    let mut simulation = stickslip::simulation::Simulation::new(model)?;
+    print::out(&simulation.check().to_string())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What was understood, a line a table.
+fn summary(problem: &Problem) -> String {
+    let mut lines = Vec::new();
+    if let Some(title) = &problem.title {
+        lines.push(title.clone());
+    }
+    lines.push(format!("model: {}", problem.model.space.name()));
+    for (table, names) in [
+        ("bodies", names(&problem.body)),
+        ("materials", names(&problem.material)),
+        ("obstacles", names(&problem.obstacle)),
+        ("sets", names(&problem.set)),
+        ("loads", names(&problem.load)),
+        ("supports", names(&problem.support)),
+        ("probes", names(&problem.probe)),
+    ] {
+        if !names.is_empty() {
+            lines.push(format!("{table}: {names}"));
+        }
+    }
+    for (name, interface) in &problem.interface {
+        use stickslip::registry::Family;
+        lines.push(format!(
+            "interface {name}: {} on {}; {}, {}, {}, {}, {}",
+            interface.secondary,
+            interface.primary,
+            interface.normal.kind(),
+            interface.friction.kind(),
+            interface.slip.kind(),
+            interface.enforcement.kind(),
+            interface.kinematics.kind(),
+        ));
+    }
+    let mut start = 0.0;
+    for (i, step) in problem.step.iter().enumerate() {
+        let name = step.name.clone().unwrap_or(format!("step {}", i + 1));
+        let end = start + step.duration;
+        lines.push(format!("step {}: {name}, time {start} to {end}", i + 1));
+        start = end;
+    }
+    lines.join("\n") + "\n"
+}
+
+fn names<T>(table: &std::collections::BTreeMap<String, T>) -> String {
+    let names: Vec<&str> = table.keys().map(String::as_str).collect();
+    names.join(", ")
+}

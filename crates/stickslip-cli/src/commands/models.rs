@@ -1,0 +1,157 @@
+use std::process::ExitCode;
+
+use serde_json::Value;
+use stickslip::problem::{FamilyListing, families};
+
+use super::{Failure, Outcome};
+use crate::print;
+
+/// Width of the printed text [characters].
+const WIDTH: usize = 100;
+
+/// List the model families and their entries, or the parameters of one.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// A family (`friction`), an entry (`coulomb`), or both (`friction.coulomb`).
+    name: Option<String>,
+}
+
+/// Prints the listing.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let families = families();
+    let Some(name) = &arguments.name else {
+        let text: Vec<String> = families.iter().map(family).collect();
+        print::out(
+            &(text.join("\n") + "\n`stickslip models NAME` prints the parameters of one.\n"),
+        )?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let (wanted_family, wanted_entry) = match name.split_once('.') {
+        Some((family, entry)) => (Some(family), entry),
+        None => (None, name.as_str()),
+    };
+    let mut text = Vec::new();
+    for listing in &families {
+        if wanted_family.is_none() && listing.key == name {
+            text.push(family(listing));
+        }
+        for entry in &listing.entries {
+            let here = wanted_family.is_none_or(|f| f == listing.key);
+            let all = wanted_family.is_none() && listing.key == name;
+            if all || here && entry.name == wanted_entry {
+                let schema = (entry.schema)().to_value();
+                text.push(parameters(
+                    &format!("{}.{}", listing.key, entry.name),
+                    &schema,
+                ));
+            }
+        }
+    }
+    if text.is_empty() {
+        let known: Vec<&str> = families.iter().map(|f| f.key).collect();
+        return Err(Failure::Arguments(
+            format!("there is no model or family `{name}`"),
+            format!(
+                "families: {}; `stickslip models` lists all entries",
+                known.join(", ")
+            ),
+        ));
+    }
+    print::out(&text.join("\n"))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn family(family: &FamilyListing) -> String {
+    let mut text = format!("{}  ({})\n", family.key, family.place);
+    let width = family
+        .entries
+        .iter()
+        .map(|e| e.name.len())
+        .max()
+        .unwrap_or(0);
+    for entry in &family.entries {
+        let schema = (entry.schema)().to_value();
+        let first = paragraphs(&schema).next().unwrap_or_default();
+        let first = first.split(". ").next().unwrap_or_default();
+        text += &format!("  {:width$}  {}\n", entry.name, first.trim_end_matches('.'));
+    }
+    text
+}
+
+fn paragraphs(schema: &Value) -> impl Iterator<Item = String> {
+    let description = schema["description"].as_str().unwrap_or_default();
+    description
+        .split("\n\n")
+        .map(|p| p.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+fn parameters(name: &str, schema: &Value) -> String {
+    let mut text = format!("{name}\n");
+    for paragraph in paragraphs(schema) {
+        text += &print::wrap(&paragraph, 2, WIDTH);
+    }
+    let required: Vec<&str> = schema["required"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect();
+    let properties = schema["properties"].as_object();
+    for (key, property) in properties.into_iter().flatten() {
+        let default = match property.get("default") {
+            Some(default) => format!("default {default}"),
+            None if required.contains(&key.as_str()) => "required".to_string(),
+            None => "optional".to_string(),
+        };
+        text += &format!("  {key}: {} ({default})\n", kind(schema, property));
+        text += &print::wrap(
+            &paragraphs(property).collect::<Vec<_>>().join(" "),
+            6,
+            WIDTH,
+        );
+    }
+    if properties.is_none_or(|p| p.is_empty()) {
+        text += "  no parameters\n";
+    }
+    text
+}
+
+/// The type of a parameter in words.
+fn kind(root: &Value, property: &Value) -> String {
+    if let Some(target) = property["$ref"]
+        .as_str()
+        .and_then(|r| root.pointer(r.strip_prefix('#')?))
+    {
+        return kind(root, target);
+    }
+    if let Some(all) = property["anyOf"]
+        .as_array()
+        .or(property["oneOf"].as_array())
+    {
+        let constant = |v: &Value| v["const"].as_str().map(|s| format!("\"{s}\""));
+        let names: Vec<String> = all
+            .iter()
+            .filter(|v| v["type"] != "null")
+            .map(|v| constant(v).unwrap_or_else(|| kind(root, v)))
+            .collect();
+        return names.join(" | ");
+    }
+    let name = match &property["type"] {
+        Value::Array(all) => all.iter().filter_map(Value::as_str).find(|t| *t != "null"),
+        other => other.as_str(),
+    };
+    match name {
+        Some("array") => match property["minItems"]
+            .as_u64()
+            .filter(|n| Some(*n) == property["maxItems"].as_u64())
+        {
+            Some(n) => format!("list of {n} × {}", kind(root, &property["items"])),
+            None => format!("list of {}", kind(root, &property["items"])),
+        },
+        Some("integer") => "whole number".into(),
+        Some("boolean") => "true or false".into(),
+        Some("object") => "table".into(),
+        Some(other) => other.into(),
+        None => "value".into(),
+    }
+}

@@ -1,0 +1,44 @@
+use crate::body::loads::LoadKind;
+use crate::contact::enforcement::EnforcementModel;
+use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::friction::FrictionModel;
+use crate::contact::law::normal::NormalModel;
+use crate::contact::law::slip::SlipModel;
+use crate::contact::obstacle::ObstacleShape;
+use crate::material::Material;
+use crate::mesh::generators::Generator;
+use crate::registry::{Entry, Family};
+
+/// A model family as the problem file sees it.
+#[derive(Debug, Clone)]
+pub struct FamilyListing {
+    /// Its key.
+    pub key: &'static str,
+    /// Where it stands in the problem file.
+    pub place: &'static str,
+    /// Its entries.
+    pub entries: Vec<Entry>,
+}
+
+fn listing<F: Family>(place: &'static str) -> FamilyListing {
+    FamilyListing {
+        key: F::KEY,
+        place,
+        entries: F::entries(),
+    }
+}
+
+/// All model families of the problem file, in the order of its tables.
+pub fn families() -> Vec<FamilyListing> {
+    vec![
+        listing::<Generator>("[body.NAME] generate.KIND"),
+        listing::<Material>("[material.NAME.KIND]"),
+        listing::<ObstacleShape>("[obstacle.NAME.KIND]"),
+        listing::<NormalModel>("[interface.NAME] normal.KIND"),
+        listing::<FrictionModel>("[interface.NAME] friction.KIND"),
+        listing::<SlipModel>("[interface.NAME] slip.KIND"),
+        listing::<EnforcementModel>("[interface.NAME] enforcement.KIND"),
+        listing::<KinematicsModel>("[interface.NAME] kinematics.KIND"),
+        listing::<LoadKind>("[load.NAME.KIND]"),
+    ]
+}

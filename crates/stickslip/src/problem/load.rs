@@ -1,0 +1,20 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::body::loads::LoadKind;
+
+/// `[load.NAME]`: a force or springs on a set.
+///
+/// Over the step in which it becomes active, a load grows linearly from zero, unless an amplitude says otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Load {
+    /// Where it acts: `body.set`, a `[set.NAME]`, or a body.
+    pub set: String,
+    /// An `[amplitude.NAME]` over the time of the analysis, by which the load is multiplied.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<String>,
+    /// What acts.
+    #[serde(flatten)]
+    pub kind: LoadKind,
+}
