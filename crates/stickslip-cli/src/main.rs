@@ -5,6 +5,7 @@
 
 mod commands;
 mod print;
+mod progress;
 mod render;
 
 use std::process::ExitCode;
@@ -21,13 +22,18 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(commands::run::Arguments),
     Check(commands::check::Arguments),
+    Compare(commands::compare::Arguments),
+    Curve(commands::curve::Arguments),
     Models(commands::models::Arguments),
     Schema(commands::schema::Arguments),
 }
 
 /// The input is wrong; also the code of a wrong command line.
 const INPUT: u8 = 1;
+/// Results fail a check.
+const CHECK: u8 = 2;
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -39,7 +45,10 @@ fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
+        Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Compare(arguments) => commands::compare::run(&arguments),
+        Command::Curve(arguments) => commands::curve::run(&arguments),
         Command::Models(arguments) => commands::models::run(&arguments),
         Command::Schema(arguments) => commands::schema::run(&arguments),
     };

@@ -21,6 +21,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
     let problem = document.problem()?;
     print::out(&summary(&problem))?;
+    let model = problem
+        .build(&document.folder())
+        .map_err(|e| super::located(&document, e))?;
+    let mut simulation = stickslip::simulation::Simulation::new(model)?;
+    print::out(&simulation.check().to_string())?;
     Ok(ExitCode::SUCCESS)
 }
 

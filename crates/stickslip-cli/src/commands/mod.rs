@@ -1,12 +1,23 @@
 //! The subcommands, one file each: its arguments, and `run`.
 
 pub mod check;
+pub mod compare;
+pub mod curve;
 pub mod models;
+pub mod run;
 pub mod schema;
 
 use std::process::ExitCode;
 
 use stickslip::Error;
+
+/// Gives findings about a problem their places in its file.
+pub fn located(document: &stickslip::problem::Document, error: Error) -> Error {
+    match error {
+        Error::Problem(e) if e.source.is_empty() => Error::Problem(document.error(e.findings)),
+        other => other,
+    }
+}
 
 /// What a command ends with.
 pub type Outcome = Result<ExitCode, Failure>;

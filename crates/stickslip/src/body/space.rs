@@ -45,6 +45,10 @@ pub enum Formulation {
     /// Works with any material and with axial symmetry (the mean is weighted by the radius). Not for plane stress,
     /// where the strain across the plane is free and nothing locks. Cells with constant strain (tri3, tet4) are not
     /// changed by it.
+    ///
+    /// Meant for quad4 and hex8. A single quadratic cell in space or around an axis has motions without energy besides
+    /// its rigid ones (conformal maps such as `(a·x) x - |x|² a / 2`: no shear, and a dilatation of zero mean);
+    /// neighbours stop them, as they do not fit together.
     MeanDilatation,
 }
 

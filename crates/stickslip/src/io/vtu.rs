@@ -105,14 +105,18 @@ impl Writer {
     }
 
     fn array(&mut self, kind: &str, name: &str, components: usize, bytes: Vec<u8>) {
-        let mut names = String::new();
+        // One is what readers assume; some make a matrix of a column where it is written.
+        let mut names = match components {
+            1 => String::new(),
+            n => format!(" NumberOfComponents=\"{n}\""),
+        };
         if components == 6 {
             for (i, component) in ["XX", "YY", "ZZ", "XY", "YZ", "XZ"].iter().enumerate() {
                 names += &format!(" ComponentName{i}=\"{component}\"");
             }
         }
         self.text += &format!(
-            "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\"{names} format=\"appended\" offset=\"{}\"/>\n",
+            "<DataArray type=\"{kind}\" Name=\"{}\"{names} format=\"appended\" offset=\"{}\"/>\n",
             escape(name),
             self.appended.len()
         );

@@ -18,7 +18,7 @@ pub enum LinearError {
     Singular {
         /// The dof.
         dof: usize,
-        /// What elimination leaves of the diagonal, relative to it [1].
+        /// What elimination leaves of the diagonal, relative to it \[1\].
         ratio: f64,
     },
     /// An extra block couples these two dofs, which the symbolic analysis did not foresee: analyse again.
@@ -28,7 +28,7 @@ pub enum LinearError {
     },
     /// The factor does not fit into memory.
     OutOfMemory {
-        /// Its size [bytes], zero if not known.
+        /// Its size \[bytes\], zero if not known.
         bytes: u64,
     },
 }

@@ -9,7 +9,7 @@ use faer::{Conj, MatMut, Par, Spec};
 use super::symbolic::{FIXED, Symbolic};
 use super::{BlockCsr, LinearError};
 
-/// A pivot counts as zero below this many roundings (2.2e-16) per free dof, relative to its diagonal [1].
+/// A pivot counts as zero below this many roundings (2.2e-16) per free dof, relative to its diagonal \[1\].
 ///
 /// Where the exact pivot is zero, rounding leaves up to one of these per dof, since on a regular mesh all cells round
 /// the same way (measured on bodies that nothing holds: 0.1 to 0.6, at 264 to 59 049 dofs). A sound structure that
@@ -94,7 +94,7 @@ impl Factor {
         &self.symbolic
     }
 
-    /// The dof with the smallest pivot relative to its diagonal, and that ratio [1]. Near the limit of
+    /// The dof with the smallest pivot relative to its diagonal, and that ratio \[1\]. Near the limit of
     /// [`SINGULAR_ROUNDINGS`] the structure is almost a mechanism.
     pub fn smallest_pivot(&self) -> (usize, f64) {
         self.smallest_pivot

@@ -6,7 +6,7 @@ const CHUNK: usize = 8192;
 /// When [`gmres`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GmresSettings {
-    /// Residual to reach, relative to the right-hand side [1].
+    /// Residual to reach, relative to the right-hand side \[1\].
     pub tolerance: f64,
     /// Products with the matrix before the basis is dropped; two vectors a step are kept.
     pub restart: usize,
@@ -29,7 +29,7 @@ impl Default for GmresSettings {
 pub struct GmresReport {
     /// Products with the matrix, without those of the residual checks.
     pub iterations: usize,
-    /// `‖b - A x‖ / ‖b‖`, computed from the solution and not from the recurrence [1].
+    /// `‖b - A x‖ / ‖b‖`, computed from the solution and not from the recurrence \[1\].
     pub relative_residual: f64,
     /// Whether the residual is below the tolerance.
     pub converged: bool,

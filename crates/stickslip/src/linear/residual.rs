@@ -1,6 +1,6 @@
 use super::BlockCsr;
 
-/// The relative residual `‖b - A x‖ / (‖A‖ ‖x‖ + ‖b‖)` in the maximum norm, over the dofs that are not `fixed` [1].
+/// The relative residual `‖b - A x‖ / (‖A‖ ‖x‖ + ‖b‖)` in the maximum norm, over the dofs that are not `fixed` \[1\].
 ///
 /// A direct solution stays near the rounding of a number (1e-16 to 1e-13); more means that the solver failed,
 /// whatever it said. Not a number if any of `a`, `x` and `b` is not; zero for a zero system.

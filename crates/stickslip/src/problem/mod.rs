@@ -9,6 +9,7 @@
 
 mod amplitude;
 mod body;
+mod build;
 mod check;
 mod document;
 mod families;

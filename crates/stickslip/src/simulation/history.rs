@@ -1,6 +1,6 @@
 //! One row of numbers an increment: what happened, energies, interfaces, supports, probes.
 
-use super::model::ProbeKind;
+use super::model::Support;
 use super::run::Simulation;
 use super::summary::InterfaceSummary;
 use crate::contact::interface::Resultant;
@@ -79,19 +79,23 @@ pub(super) fn row(
         );
     }
     for support in &simulation.model.supports {
-        let active = support.schedule.active(trial.to);
-        let mut sum = [0.0; 3];
-        for e in &support.entries {
-            let (_, c) = simulation.model.dofs.locate(e.dof);
-            sum[c] += simulation.forces[e.dof];
-        }
-        for (c, s) in sum.iter().enumerate().take(dim) {
-            let value = if active { *s } else { 0.0 };
-            row.push(format!("{}.RF{}", support.name, c + 1), value);
-        }
+        push_reaction(&mut row, &support.name, simulation, support);
     }
     push_probes(&mut row, simulation);
     row
+}
+
+fn push_reaction(row: &mut Row, name: &str, simulation: &Simulation, support: &Support) {
+    let dofs = simulation.model.dofs;
+    let mut sum = [0.0; 3];
+    if support.schedule.active(simulation.state.t) {
+        for e in &support.entries {
+            sum[dofs.locate(e.dof).1] += simulation.forces[e.dof];
+        }
+    }
+    for (c, s) in sum.iter().enumerate().take(dofs.dim) {
+        row.push(format!("{name}.RF{}", c + 1), *s);
+    }
 }
 
 fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
@@ -119,7 +123,7 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
         body.elastic.fields(&simulation.state, &mut fields);
     }
     for probe in &model.probes {
-        let ProbeKind::Point(point) = probe.kind;
+        let point = probe.point;
         let u = model.dofs.vector(&simulation.state.u, point);
         for (c, u) in u.iter().enumerate().take(dim) {
             row.push(format!("{}.U{}", probe.name, c + 1), *u);

@@ -1,5 +1,6 @@
 //! A model and its run: the step loop, observers, reports.
 
+pub mod compare;
 mod diagnosis;
 mod files;
 mod history;
@@ -8,8 +9,8 @@ mod run;
 mod summary;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
-pub use files::ResultFiles;
+pub use files::{ResultFiles, fields};
 pub use history::Row;
-pub use model::{Body, Model, OutputPlan, Prescribed, Probe, ProbeKind, Step, Support};
+pub use model::{Body, Model, OutputPlan, Prescribed, Probe, Step, Support};
 pub use run::{Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

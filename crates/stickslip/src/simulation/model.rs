@@ -91,20 +91,13 @@ pub struct Step {
     pub milestones: Vec<f64>,
 }
 
-/// A quantity for the history.
+/// A point whose displacement and stress go into the history.
 #[derive(Debug, Clone)]
 pub struct Probe {
     /// Name: the columns are `name.U1`, …
     pub name: String,
-    /// What it is.
-    pub kind: ProbeKind,
-}
-
-/// What a probe reads.
-#[derive(Debug, Clone)]
-pub enum ProbeKind {
-    /// Displacement and stress at a mesh point.
-    Point(usize),
+    /// The mesh point.
+    pub point: usize,
 }
 
 /// What is written when.

@@ -10,6 +10,9 @@ mod pop;
 mod rigid;
 mod small_sliding;
 
+#[cfg(test)]
+mod tests;
+
 pub use convective::Convective;
 pub use pop::Pop1995;
 pub use rigid::{add_rigid_hessian, rigid_stencil};

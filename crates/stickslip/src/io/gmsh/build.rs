@@ -84,11 +84,8 @@ fn used(raw: &Raw, nodes: &[usize], dim: usize) -> Vec<usize> {
             index[node] = 0;
         }
     }
-    let mut next = 0;
-    for i in index.iter_mut().filter(|i| **i != UNUSED) {
-        *i = next;
-        next += 1;
-    }
+    let in_use = index.iter_mut().filter(|i| **i != UNUSED);
+    in_use.enumerate().for_each(|(next, i)| *i = next);
     index
 }
 
@@ -184,18 +181,11 @@ fn clockwise_surfaces(raw: &Raw, nodes: &[usize], mesh: &Mesh) -> HashMap<i64, b
     }
     for element in raw.elements.iter().filter(|e| e.dim() == 2) {
         let own = element_nodes(element, nodes);
-        let corners = &own[..corners(element.kind)];
+        let corners = &own[..element.kind.map_or(1, ElementKind::corner_count)];
         let turned = twice_area(corners, mesh) < 0.0;
         *clockwise.entry(element.entity).or_insert(true) &= turned;
     }
     clockwise
-}
-
-fn corners(kind: Option<ElementKind>) -> usize {
-    match kind {
-        Some(ElementKind::Tri3 | ElementKind::Tri6) => 3,
-        _ => 4,
-    }
 }
 
 fn twice_area(corners: &[usize], mesh: &Mesh) -> f64 {

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use crate::mesh::{CellRef, FacetRef, Mesh};
-use crate::shape::Face;
 
 /// The nodes of a face, sorted; the rest is filled up.
 type Key = [usize; 8];
@@ -67,25 +66,11 @@ impl Faces {
     }
 }
 
-fn face(mesh: &Mesh, facet: &FacetRef) -> Option<(&'static Face, usize)> {
-    let kind = mesh.blocks[facet.cell.block].kind;
-    let face = kind.reference().faces().get(facet.face)?;
-    Some((face, facet.cell.cell * kind.node_count()))
-}
-
 /// Whether the facet runs around its corners as the face does.
 fn same_side(mesh: &Mesh, owner: &FacetRef, facet: &[usize]) -> bool {
-    let Some((face, first)) = face(mesh, owner) else {
-        return false;
-    };
-    let nodes = &mesh.blocks[owner.cell.block].connectivity[first..];
-    // Lines have two corners, then middle nodes follow; 3 and 6 are triangles, 4 and 8 quadrilaterals.
-    let corners = match (mesh.dim, face.nodes.len()) {
-        (2, _) => 2,
-        (_, 3 | 6) => 3,
-        _ => 4,
-    };
-    let at = |i: usize| nodes[face.nodes[i % corners]];
+    let (kind, face) = mesh.facet_points(*owner);
+    let corners = kind.corner_count();
+    let at = |i: usize| face[i % corners];
     match (0..corners).find(|&i| at(i) == facet[0]) {
         Some(i) if mesh.dim == 2 => i == 0,
         Some(i) => at(i + 1) == facet[1],

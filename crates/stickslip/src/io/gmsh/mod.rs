@@ -20,7 +20,8 @@
 //!   One that mixes both is left for the check of Jacobians.
 //!
 //! Elements saved several times because they are in several groups (which 2.2 does) are read once, under their first
-//! number. Sections other than the mesh are skipped.
+//! number. Sections other than the mesh are skipped. Note that Gmsh itself leaves the groups out of a 2.2 file when
+//! `Mesh.SaveAll` is set, and that partitioning adds groups without a name to a 4.1 file.
 
 mod build;
 mod cursor;
@@ -81,6 +82,11 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Mesh, MeshError> {
             ("PartitionedEntities", Version::V4) => v4::partitioned(&mut cursor, &mut raw)?,
             ("Nodes", Version::V4) => v4::nodes(&mut cursor, &mut raw)?,
             ("Elements", Version::V4) => v4::elements(&mut cursor, &mut raw)?,
+            ("ParametricNodes", Version::V2) => {
+                return Err(cursor
+                    .error("nodes with parameters ($ParametricNodes) are not read in version 2.2")
+                    .help("set Mesh.SaveParametric = 0, or save with -format msh41"));
+            }
             _ => {
                 cursor.skip_section(section)?;
                 continue;

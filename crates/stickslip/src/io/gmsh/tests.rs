@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use super::{parse, read};
 use crate::error::MeshError;
+use crate::math::{add, norm, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
 use crate::shape::ElementKind;
 
@@ -20,13 +21,7 @@ fn refused(text: &str) -> MeshError {
 }
 
 fn facet_points(mesh: &Mesh, facet: FacetRef) -> Vec<usize> {
-    let block = &mesh.blocks[facet.cell.block];
-    let first = facet.cell.cell * block.kind.node_count();
-    let face = &block.kind.reference().faces()[facet.face];
-    face.nodes
-        .iter()
-        .map(|&i| block.connectivity[first + i])
-        .collect()
+    mesh.facet_points(facet).1
 }
 
 /// Middle nodes, as pairs of corners, in our order.
@@ -60,34 +55,10 @@ fn assert_middle_nodes(mesh: &Mesh) {
         for cell in block.connectivity.chunks_exact(n) {
             for (i, &[a, b]) in edges(block.kind).iter().enumerate() {
                 let middle = mesh.points[cell[corners + i]];
-                for k in 0..3 {
-                    let mean = 0.5 * (mesh.points[cell[a]][k] + mesh.points[cell[b]][k]);
-                    assert!(
-                        (middle[k] - mean).abs() < 1e-9,
-                        "{:?} node {}",
-                        block.kind,
-                        corners + i
-                    );
-                }
+                let ends = add(mesh.points[cell[a]], mesh.points[cell[b]]);
+                let error = norm(sub(middle, scale(0.5, ends)));
+                assert!(error < 1e-9, "{:?} node {}", block.kind, corners + i);
             }
-        }
-    }
-}
-
-/// Plane cells run counter-clockwise; the fourth corner of a tetrahedron and the top of a hexahedron lie on the side
-/// that the right-hand rule of the first three corners points to.
-fn assert_orientation(mesh: &Mesh) {
-    use crate::math::{cross, dot, sub};
-    for block in &mesh.blocks {
-        for cell in block.connectivity.chunks_exact(block.kind.node_count()) {
-            let p = |i: usize| mesh.points[cell[i]];
-            let normal = cross(sub(p(1), p(0)), sub(p(2), p(0)));
-            let up = match block.kind {
-                ElementKind::Tet4 | ElementKind::Tet10 => sub(p(3), p(0)),
-                ElementKind::Hex8 | ElementKind::Hex20 => sub(p(4), p(0)),
-                _ => [0.0, 0.0, 1.0],
-            };
-            assert!(dot(normal, up) > 0.0, "{:?}", block.kind);
         }
     }
 }
@@ -95,11 +66,7 @@ fn assert_orientation(mesh: &Mesh) {
 /// The mesh without what version 2.2 does differently: it sorts cells by kind and numbers them anew, because it repeats
 /// those in several groups. Cells and facets are told by their points.
 fn canonical(mesh: &Mesh) -> Vec<(String, Vec<Vec<usize>>)> {
-    let cell_points = |cell: crate::mesh::CellRef| {
-        let block = &mesh.blocks[cell.block];
-        let n = block.kind.node_count();
-        block.connectivity[cell.cell * n..(cell.cell + 1) * n].to_vec()
-    };
+    let cell_points = |cell| mesh.cell_points(cell).to_vec();
     let mut parts = Vec::new();
     for block in &mesh.blocks {
         let cells = block.connectivity.chunks_exact(block.kind.node_count());
@@ -131,7 +98,7 @@ fn canonical(mesh: &Mesh) -> Vec<(String, Vec<Vec<usize>>)> {
 fn formats_agree() {
     for case in ["plate-1", "plate-2", "blocks-1", "blocks-2"] {
         let reference = load(case, "msh41-bin");
-        assert_orientation(&reference);
+        assert_eq!(reference.check().map_err(|e| e.to_string()), Ok(()));
         assert_middle_nodes(&reference);
         for format in FORMATS {
             let mesh = load(case, format);
@@ -432,6 +399,9 @@ fn errors_name_the_line_and_the_remedy() {
         assert_eq!(error.line, Some(line), "{error}");
         assert_eq!(error.file.as_deref(), Some(Path::new("a.msh")));
     }
+    let parametric = triangle(NODES, "1 2 2 0 1 1 2 3").replace("Nodes\n", "ParametricNodes\n");
+    let error = refused(&parametric).to_string();
+    assert!(error.contains("Mesh.SaveParametric = 0"), "{error}");
     let error = read(Path::new("no/such/file.msh")).unwrap_err();
     assert!(error.message.contains("cannot be read"));
 }

@@ -1,0 +1,29 @@
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::Outcome;
+use crate::print;
+
+/// Compare the results in a directory with expected values.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Directory of results, as written by `run`.
+    directory: PathBuf,
+    /// What is expected; `expected.toml` beside the directory if not given.
+    expected: Option<PathBuf>,
+}
+
+/// Prints a line a check; exit code 2 if one fails.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let expected = arguments.expected.clone().unwrap_or_else(|| {
+        let parent = arguments.directory.parent().unwrap_or(&arguments.directory);
+        parent.join("expected.toml")
+    });
+    let report = stickslip::simulation::compare::compare(&arguments.directory, &expected)?;
+    print::out(&report.to_string())?;
+    Ok(if report.passes() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(crate::CHECK)
+    })
+}

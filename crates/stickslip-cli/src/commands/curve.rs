@@ -1,0 +1,90 @@
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stickslip::contact::law::friction::FrictionPoint;
+use stickslip::contact::law::slip::Tangential;
+use stickslip::problem::Document;
+
+use super::{Failure, Outcome};
+use crate::print;
+
+/// Tabulate the laws of an interface alone, as CSV: pressure and shear limit against gap, shear against slip.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The problem file.
+    file: PathBuf,
+    /// The interface; may be left out if there is only one.
+    interface: Option<String>,
+    /// Largest pressure of the table [stress].
+    #[arg(long, default_value_t = 1e8)]
+    pressure: f64,
+    /// Rows of the table.
+    #[arg(long, default_value_t = 21)]
+    rows: usize,
+    /// Change a value: path=value.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+}
+
+/// Prints the table.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
+    let problem = document.problem()?;
+    let known = || {
+        problem
+            .interface
+            .keys()
+            .cloned()
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let interface = match &arguments.interface {
+        Some(name) => problem.interface.get(name),
+        None if problem.interface.len() == 1 => problem.interface.values().next(),
+        None => None,
+    };
+    let Some(interface) = interface else {
+        return Err(Failure::Arguments(
+            "say which interface".into(),
+            format!("interfaces: {}", known()),
+        ));
+    };
+    let (normal, friction, slip) = (
+        interface.normal.as_dyn(),
+        interface.friction.as_dyn(),
+        interface.slip.as_dyn(),
+    );
+    let mut text = String::from("gap,pressure,slope,energy,limit,shear_at_slip_speed_1\n");
+    let rows = arguments.rows.max(2);
+    for i in 0..rows {
+        let p = arguments.pressure * i as f64 / (rows - 1) as f64;
+        let gap = if p > 0.0 {
+            normal.gap(p).value
+        } else {
+            normal.gap(f64::MIN_POSITIVE).value
+        };
+        let slope = normal.pressure(gap).map_or(f64::NEG_INFINITY, |s| s.slope);
+        let limit = friction
+            .limit(&FrictionPoint {
+                pressure: p,
+                penetration: (-gap).max(0.0),
+                speed: 1.0,
+            })
+            .value;
+        // far beyond stick for any stiffness: the full shear of the slip rule at unit speed
+        let motion = Tangential {
+            slip: [1.0, 0.0],
+            dt: 1.0,
+            stiffness: 1e6 * arguments.pressure,
+            base: [0.0; 2],
+            skew: 0.0,
+        };
+        let shear = -slip.traction(limit, &motion).traction[0];
+        text += &format!(
+            "{gap:?},{p:?},{slope:?},{:?},{limit:?},{shear:?}\n",
+            normal.energy(gap)
+        );
+    }
+    print::out(&text)?;
+    Ok(ExitCode::SUCCESS)
+}

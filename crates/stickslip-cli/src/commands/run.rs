@@ -1,0 +1,65 @@
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use stickslip::problem::Document;
+use stickslip::simulation::{Observer, ResultFiles, Simulation};
+
+use super::{Outcome, located};
+use crate::progress::Progress;
+
+/// Run an analysis and write its results.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The problem file.
+    file: PathBuf,
+    /// Directory of the results; `<file>.out` beside the problem file if not given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Threads; all processors if not given. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// No progress on standard error.
+    #[arg(short, long)]
+    quiet: bool,
+    /// Show every Newton iteration.
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+/// Runs the analysis.
+pub fn run(arguments: &Arguments) -> Outcome {
+    if let Some(threads) = arguments.threads {
+        // Fails only if a pool exists already, which cannot be: this is the first use.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global();
+    }
+    let started = Instant::now();
+    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
+    let problem = document.problem()?;
+    let model = problem
+        .build(&document.folder())
+        .map_err(|e| located(&document, e))?;
+    let directory = arguments
+        .output
+        .clone()
+        .unwrap_or_else(|| arguments.file.with_extension("out"));
+    let read = started.elapsed().as_secs_f64();
+    let mut simulation = Simulation::new(model)?;
+    simulation.summary.phases.read = read;
+    let mut files = ResultFiles::new(&directory)?;
+    let mut progress = Progress::new(arguments.verbose);
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
+    if !arguments.quiet {
+        observers.push(&mut progress);
+    }
+    simulation.run(&mut observers)?;
+    if !arguments.quiet {
+        crate::progress::closing(&simulation, &directory);
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,97 @@
+//! Progress on standard error: a line an increment.
+
+use std::io::Write;
+use std::path::Path;
+
+use stickslip::Error;
+use stickslip::simulation::{Event, Observer, Simulation};
+
+/// Prints what happens.
+pub struct Progress {
+    verbose: bool,
+    headed: bool,
+}
+
+impl Progress {
+    /// `verbose` shows every Newton iteration.
+    pub fn new(verbose: bool) -> Self {
+        Progress {
+            verbose,
+            headed: false,
+        }
+    }
+}
+
+/// A closed standard error is no reason to stop.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+impl Observer for Progress {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        match event {
+            Event::Increment(row) => {
+                if !self.headed {
+                    say(
+                        "step                inc att its        time    residual     open  stick   slip",
+                    );
+                    self.headed = true;
+                }
+                let get = |name: &str| row.get(name).unwrap_or(f64::NAN);
+                say(&format!(
+                    "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>11.2e} {:>8} {:>6} {:>6}",
+                    simulation.step_name(),
+                    get("INC"),
+                    get("ATT"),
+                    get("ITRS"),
+                    get("TIME"),
+                    get("RESIDUAL"),
+                    get("OPEN"),
+                    get("STICK"),
+                    get("SLIP")
+                ));
+            }
+            Event::Iteration(p) if self.verbose => {
+                say(&format!(
+                    "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}",
+                    p.round,
+                    p.iteration,
+                    p.residual,
+                    p.step,
+                    p.krylov,
+                    p.tally.open,
+                    p.tally.stick,
+                    p.tally.slip,
+                    p.tally.changed
+                ));
+            }
+            Event::Cutback(trial, failure) => {
+                say(&format!(
+                    "  cut back: {:.5e} to {:.5e}: {}",
+                    trial.from, trial.to, failure.message
+                ));
+                for culprit in failure.culprits.iter().take(3) {
+                    say(&format!("    {culprit}"));
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// What a user wants to know at the end.
+pub fn closing(simulation: &Simulation, directory: &Path) {
+    let s = &simulation.summary;
+    say(&format!(
+        "done: {} increments, {} iterations, {} cut-backs, {} factorisations, {:.2} s",
+        s.increments, s.iterations, s.cutbacks, s.solver.factorisations, s.phases.total
+    ));
+    for i in &s.interfaces {
+        say(&format!(
+            "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",
+            i.name, i.quality.relative_to_size, i.relative_to_approach
+        ));
+    }
+    say(&format!("results in {}", directory.display()));
+}

@@ -1,0 +1,207 @@
+//! The meshes of all bodies, joined into one.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::super::{Body, MeshSource, Problem};
+use super::problem_error;
+use crate::body::Part;
+use crate::error::{Diagnostic, Error, MeshError};
+use crate::io::gmsh;
+use crate::material::Stiffness;
+use crate::math::{add, scale};
+use crate::mesh::{Block, CellRef, Mesh};
+
+/// All bodies in one mesh.
+pub(super) struct Built {
+    pub mesh: Mesh,
+    pub bodies: Vec<BuiltBody>,
+}
+
+/// One of them.
+pub(super) struct BuiltBody {
+    pub name: String,
+    pub points: Range<usize>,
+    pub blocks: Range<usize>,
+    pub parts: Vec<Part>,
+}
+
+pub(super) fn build(problem: &Problem, folder: &Path) -> Result<Built, Error> {
+    let mut materials: BTreeMap<&str, (Stiffness, f64)> = BTreeMap::new();
+    for (name, material) in &problem.material {
+        let model = material.as_dyn();
+        let stiffness = model.stiffness().map_err(|e| {
+            let key = format!("material.{name}");
+            problem_error(vec![Diagnostic::new(key, e.to_string())])
+        })?;
+        materials.insert(name, (stiffness, model.density()));
+    }
+    let mut files = BTreeMap::new();
+    let mut mesh = Mesh::default();
+    let mut bodies = Vec::new();
+    for (name, body) in &problem.body {
+        let mut own = source(name, body, folder, &mut files)?;
+        place(body, &mut own);
+        if own.dim != problem.model.space.dim() {
+            return Err(problem_error(vec![
+                Diagnostic::new(
+                    format!("body.{name}"),
+                    format!(
+                        "the mesh has {} dimensions, but `model.space` is {}",
+                        own.dim,
+                        problem.model.space.name()
+                    ),
+                )
+                .help("change `model.space` or the mesh"),
+            ]));
+        }
+        own.check().map_err(|mut e| {
+            e.message = format!("body {name}: {}", e.message);
+            e
+        })?;
+        let assigned = split(name, body, &mut own)?;
+        let at = mesh.append(&own, name)?;
+        let parts = assigned
+            .iter()
+            .zip(at.blocks.clone())
+            .map(|(material, block)| {
+                let (stiffness, density) = materials[material.as_str()];
+                Part {
+                    block,
+                    stiffness,
+                    density,
+                }
+            })
+            .collect();
+        bodies.push(BuiltBody {
+            name: name.clone(),
+            points: at.points,
+            blocks: at.blocks,
+            parts,
+        });
+    }
+    Ok(Built { mesh, bodies })
+}
+
+fn source(
+    name: &str,
+    body: &Body,
+    folder: &Path,
+    files: &mut BTreeMap<PathBuf, Mesh>,
+) -> Result<Mesh, Error> {
+    match &body.mesh {
+        MeshSource::Generate(generator) => Ok(generator.as_dyn().generate().map_err(|e| {
+            let key = format!("body.{name}.generate");
+            let mut finding = Diagnostic::new(key, e.message);
+            finding.help = e.help;
+            problem_error(vec![finding])
+        })?),
+        MeshSource::Gmsh(file) => {
+            let path = folder.join(&file.file);
+            if !files.contains_key(&path) {
+                files.insert(path.clone(), gmsh::read(&path)?);
+            }
+            let mesh = &files[&path];
+            let Some(group) = &file.group else {
+                return Ok(mesh.clone());
+            };
+            let Some(cells) = mesh.cell_sets.get(group) else {
+                let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();
+                return Err(problem_error(vec![
+                    Diagnostic::new(
+                        format!("body.{name}.gmsh.group"),
+                        format!(
+                            "{} has no physical group of cells `{group}`",
+                            path.display()
+                        ),
+                    )
+                    .help(format!("its groups of cells are: {}", known.join(", "))),
+                ]));
+            };
+            Ok(mesh.extract(cells))
+        }
+    }
+}
+
+/// Scale, then shift.
+fn place(body: &Body, mesh: &mut Mesh) {
+    let shift = body.translate.as_deref().unwrap_or_default();
+    let shift: [f64; 3] = std::array::from_fn(|i| shift.get(i).copied().unwrap_or(0.0));
+    for x in &mut mesh.points {
+        *x = add(scale(body.scale, *x), shift);
+    }
+}
+
+/// Splits blocks so that each has one material; the material of each block.
+fn split(name: &str, body: &Body, mesh: &mut Mesh) -> Result<Vec<String>, Error> {
+    let fallback = body.material.clone();
+    let mut of: Vec<Vec<Option<String>>> = mesh
+        .blocks
+        .iter()
+        .map(|b| vec![fallback.clone(); b.cell_ids.len()])
+        .collect();
+    for (set, material) in &body.regions {
+        let Some(cells) = mesh.cell_sets.get(set) else {
+            let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();
+            return Err(problem_error(vec![
+                Diagnostic::new(
+                    format!("body.{name}.regions.{set}"),
+                    format!("the mesh has no cell set `{set}`"),
+                )
+                .help(format!("its cell sets are: {}", known.join(", "))),
+            ]));
+        };
+        for c in cells {
+            of[c.block][c.cell] = Some(material.clone());
+        }
+    }
+    let mut materials = Vec::new();
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut moved: BTreeMap<CellRef, CellRef> = BTreeMap::new();
+    for (b, block) in mesh.blocks.iter().enumerate() {
+        let n = block.kind.node_count();
+        let mut here: BTreeMap<String, usize> = BTreeMap::new();
+        for (cell, id) in block.cell_ids.iter().enumerate() {
+            let Some(material) = of[b][cell].clone() else {
+                return Err(
+                    MeshError::new(format!("cell {id} of body {name} has no material"))
+                        .help(format!(
+                            "give `body.{name}.material`, or cover all cells by `regions`"
+                        ))
+                        .into(),
+                );
+            };
+            let target = *here.entry(material.clone()).or_insert_with(|| {
+                materials.push(material);
+                blocks.push(Block {
+                    kind: block.kind,
+                    connectivity: Vec::new(),
+                    cell_ids: Vec::new(),
+                });
+                blocks.len() - 1
+            });
+            let to = CellRef {
+                block: target,
+                cell: blocks[target].cell_ids.len(),
+            };
+            moved.insert(CellRef { block: b, cell }, to);
+            blocks[target].cell_ids.push(*id);
+            blocks[target]
+                .connectivity
+                .extend_from_slice(&block.connectivity[cell * n..(cell + 1) * n]);
+        }
+    }
+    mesh.blocks = blocks;
+    for cells in mesh.cell_sets.values_mut() {
+        for c in cells.iter_mut() {
+            *c = moved[c];
+        }
+    }
+    for facets in mesh.facet_sets.values_mut() {
+        for f in facets.iter_mut() {
+            f.cell = moved[&f.cell];
+        }
+    }
+    Ok(materials)
+}

@@ -1,0 +1,207 @@
+//! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
+
+mod contact;
+mod meshes;
+mod schedules;
+mod sets;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Problem, SpaceKind};
+use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
+use crate::body::{Elastic, Space};
+use crate::error::{Diagnostic, Error, ProblemError};
+use crate::newton::Settings;
+use crate::simulation::{Body, Model, OutputPlan, Prescribed, Probe, Support};
+use crate::system::Dofs;
+use schedules::Timeline;
+use sets::Sets;
+
+impl Problem {
+    /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
+    ///
+    /// # Errors
+    /// [`Error::Problem`] with findings that carry keys but no places (see [`Document::error`](super::Document::error)),
+    /// [`Error::Mesh`] for a mesh that cannot be used, [`Error::Io`] for a file that cannot be read.
+    pub fn build(&self, folder: &Path) -> Result<Model, Error> {
+        let findings = self.check();
+        if !findings.is_empty() {
+            return Err(problem_error(findings));
+        }
+        let space = space(self);
+        let built = meshes::build(self, folder)?;
+        let mesh = Arc::new(built.mesh);
+        let dofs = Dofs {
+            dim: space.dim(),
+            points: mesh.points.len(),
+        };
+        let mut bodies = Vec::new();
+        let mut densities = vec![0.0; mesh.blocks.len()];
+        for part in built.bodies {
+            let formulation = self.body[&part.name].formulation;
+            for p in &part.parts {
+                densities[p.block] = p.density;
+            }
+            let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
+                .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+            bodies.push(Body {
+                name: part.name,
+                points: part.points,
+                blocks: part.blocks,
+                elastic,
+            });
+        }
+        let sets = Sets::new(self, &mesh, &bodies)?;
+        let timeline = Timeline::new(self);
+        let domain = Domain {
+            mesh: &mesh,
+            space,
+            densities: &densities,
+        };
+        let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
+        let supports = supports(self, &sets, dofs, &timeline)?;
+        let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
+        let probes = probes(self, &sets, &bodies)?;
+        Ok(Model {
+            title: self.title.clone().unwrap_or_default(),
+            space,
+            dofs,
+            bodies,
+            loads,
+            springs,
+            supports,
+            interfaces,
+            steps: timeline.steps(self),
+            probes,
+            output: OutputPlan {
+                every: self.output.every,
+                times: self.output.times.clone(),
+            },
+            settings: Settings {
+                tolerance: self.solver.tolerance,
+                max_iterations: self.solver.max_iterations,
+                line_search: self.solver.line_search,
+                krylov_patience: self.solver.linear.patience,
+                linear_tolerance: self.solver.linear.tolerance,
+            },
+            largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
+            mesh,
+        })
+    }
+}
+
+impl Diagnostic {
+    /// The same with its key below `parent`.
+    pub(crate) fn under(mut self, parent: &str) -> Self {
+        self.key = match self.key.as_str() {
+            "" => parent.to_string(),
+            key => format!("{parent}.{key}"),
+        };
+        self
+    }
+}
+
+fn problem_error(findings: Vec<Diagnostic>) -> Error {
+    Error::Problem(ProblemError {
+        file: None,
+        source: String::new(),
+        findings,
+    })
+}
+
+fn space(problem: &Problem) -> Space {
+    let thickness = problem.model.thickness.unwrap_or(1.0);
+    match problem.model.space {
+        SpaceKind::PlaneStrain => Space::PlaneStrain { thickness },
+        SpaceKind::PlaneStress => Space::PlaneStress { thickness },
+        SpaceKind::Axisymmetric => Space::Axisymmetric,
+        SpaceKind::Solid => Space::Solid,
+    }
+}
+
+fn loads(
+    problem: &Problem,
+    sets: &Sets,
+    domain: &Domain,
+    timeline: &Timeline,
+) -> Result<(Vec<Load>, Vec<Spring>), Error> {
+    let (mut loads, mut springs) = (Vec::new(), Vec::new());
+    for (name, load) in &problem.load {
+        let key = format!("load.{name}");
+        let model = LoadKind::as_dyn(&load.kind);
+        let set = format!("{key}.set");
+        let (points, facets, cells);
+        let target = match model.region() {
+            Region::Points => {
+                points = sets.points(&load.set, &set)?;
+                Target::Points(&points)
+            }
+            Region::Facets => {
+                facets = sets.facets(&load.set, &set)?;
+                Target::Facets(&facets)
+            }
+            Region::Cells => {
+                cells = sets.cells(&load.set, &set)?;
+                Target::Cells(&cells)
+            }
+        };
+        let action = model.action(&target, domain);
+        match action.map_err(|e| problem_error(vec![e.under(&key)]))? {
+            Action::Forces(entries) => loads.push(Load {
+                name: name.clone(),
+                entries,
+                schedule: timeline.load(problem, name, load.amplitude.as_deref()),
+            }),
+            Action::Springs(entries) => springs.push(Spring::new(name, entries)),
+        }
+    }
+    Ok((loads, springs))
+}
+
+fn supports(
+    problem: &Problem,
+    sets: &Sets,
+    dofs: Dofs,
+    timeline: &Timeline,
+) -> Result<Vec<Support>, Error> {
+    let mut out = Vec::new();
+    for (name, support) in &problem.support {
+        let points = sets.points(&support.set, &format!("support.{name}.set"))?;
+        let given: Vec<(usize, f64)> = support
+            .components()
+            .iter()
+            .enumerate()
+            .filter_map(|(c, (_, value))| value.map(|v| (c, v)))
+            .collect();
+        let entries = points
+            .iter()
+            .flat_map(|&p| {
+                given.iter().map(move |&(c, value)| Prescribed {
+                    dof: dofs.of(p, c),
+                    value,
+                })
+            })
+            .collect();
+        out.push(Support {
+            name: name.clone(),
+            entries,
+            schedule: timeline.support(problem, name, support.amplitude.as_deref()),
+            table: support.amplitude.is_some(),
+        });
+    }
+    Ok(out)
+}
+
+fn probes(problem: &Problem, sets: &Sets, bodies: &[Body]) -> Result<Vec<Probe>, Error> {
+    let mut out = Vec::new();
+    for (name, probe) in &problem.probe {
+        let body = probe.of.as_ref().unwrap_or(&bodies[0].name);
+        let point = sets.nearest(body, &probe.point, &format!("probe.{name}.of"))?;
+        out.push(Probe {
+            name: name.clone(),
+            point,
+        });
+    }
+    Ok(out)
+}

@@ -1,0 +1,167 @@
+//! When what acts, and with which factor.
+
+use super::super::Problem;
+use crate::simulation::Step;
+use crate::system::{Amplitude, Course, Piece, Schedule};
+use crate::time::Increments;
+
+/// Starts and ends of the steps.
+pub(super) struct Timeline {
+    spans: Vec<(f64, f64)>,
+}
+
+/// Whether `name` is active in a step whose list is `list`: in all steps that have no list.
+fn listed(list: Option<&Vec<String>>, name: &str) -> bool {
+    list.is_none_or(|names| names.iter().any(|n| n == name))
+}
+
+impl Timeline {
+    pub fn new(problem: &Problem) -> Self {
+        let mut t = 0.0;
+        let spans = problem
+            .step
+            .iter()
+            .map(|step| {
+                let start = t;
+                t += step.duration;
+                (start, t)
+            })
+            .collect();
+        Timeline { spans }
+    }
+
+    /// One piece a step, its course given whether the item is on and what its factor was before.
+    fn schedule(
+        &self,
+        active: &[bool],
+        mut course: impl FnMut(bool, f64, bool) -> Course,
+    ) -> Schedule {
+        let mut factor = 0.0;
+        let mut was = false;
+        let mut pieces = Vec::new();
+        for (&(start, end), &on) in self.spans.iter().zip(active) {
+            let course = course(on, factor, was);
+            factor = match &course {
+                Course::Off => 0.0,
+                Course::Ramp(_, to) => *to,
+                Course::Table(amplitude) => amplitude.at(end),
+            };
+            was = on;
+            pieces.push(Piece { start, end, course });
+        }
+        Schedule { pieces }
+    }
+
+    /// Loads grow from zero over the first step in which they act, stay, and fall to zero over the first in which they do not.
+    pub fn load(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
+        let active: Vec<bool> = problem
+            .step
+            .iter()
+            .map(|s| listed(s.loads.as_ref(), name))
+            .collect();
+        let table = table(problem, amplitude);
+        self.schedule(&active, |on, factor, _| match (on, &table) {
+            (true, Some(table)) => Course::Table(table.clone()),
+            (true, None) => Course::Ramp(factor, 1.0),
+            (false, _) if factor != 0.0 => Course::Ramp(factor, 0.0),
+            (false, _) => Course::Off,
+        })
+    }
+
+    /// Supports lead from where the points are to the value over the first step in which they act, then hold.
+    pub fn support(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
+        let active: Vec<bool> = problem
+            .step
+            .iter()
+            .map(|s| listed(s.supports.as_ref(), name))
+            .collect();
+        let table = table(problem, amplitude);
+        self.schedule(&active, |on, _, was| match (on, &table) {
+            (false, _) => Course::Off,
+            (true, Some(table)) => Course::Table(table.clone()),
+            (true, None) => Course::Ramp(if was { 1.0 } else { 0.0 }, 1.0),
+        })
+    }
+
+    pub fn interface(&self, problem: &Problem, name: &str) -> Schedule {
+        let active: Vec<bool> = problem
+            .step
+            .iter()
+            .map(|s| listed(s.interfaces.as_ref(), name))
+            .collect();
+        self.schedule(&active, |on, _, _| {
+            if on {
+                Course::Ramp(1.0, 1.0)
+            } else {
+                Course::Off
+            }
+        })
+    }
+
+    /// The steps, with the times on which increments land: ends, output times, rows of tables.
+    pub fn steps(&self, problem: &Problem) -> Vec<Step> {
+        let mut times: Vec<f64> = problem.output.times.clone();
+        for amplitude in problem.amplitude.values() {
+            times.extend(amplitude.table.iter().map(|row| row[0]));
+        }
+        for motion in problem.obstacle.values().filter_map(|o| o.motion.as_ref()) {
+            times.extend(motion.translation.iter().filter_map(|row| row.first()));
+            times.extend(
+                motion
+                    .rotation
+                    .iter()
+                    .flat_map(|r| r.angle.iter().map(|a| a[0])),
+            );
+        }
+        for interface in problem.interface.values() {
+            let rows = interface.primary_velocity_table.iter().flatten();
+            times.extend(rows.filter_map(|row| row.first()));
+        }
+        problem
+            .step
+            .iter()
+            .zip(&self.spans)
+            .enumerate()
+            .map(|(i, (step, &(start, end)))| {
+                let part = |fraction: f64| fraction * (end - start);
+                let inc = &step.increments;
+                let increments = match inc.fixed {
+                    Some(n) => {
+                        let size = part(1.0 / n as f64);
+                        Increments {
+                            initial: size,
+                            smallest: size,
+                            largest: size,
+                        }
+                    }
+                    None => Increments {
+                        initial: part(inc.initial),
+                        smallest: part(inc.smallest),
+                        largest: part(inc.largest),
+                    },
+                };
+                let mut milestones: Vec<f64> = times
+                    .iter()
+                    .copied()
+                    .filter(|&t| t > start && t < end)
+                    .collect();
+                milestones.push(end);
+                Step {
+                    name: step
+                        .name
+                        .clone()
+                        .unwrap_or_else(|| format!("step {}", i + 1)),
+                    start,
+                    end,
+                    increments,
+                    milestones,
+                }
+            })
+            .collect()
+    }
+}
+
+fn table(problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {
+    let rows = problem.amplitude.get(amplitude?)?.table.clone();
+    Amplitude::new(rows).ok()
+}

@@ -1,0 +1,226 @@
+//! Names of sets to points, facets and cells.
+
+use std::collections::BTreeMap;
+
+use super::super::{Problem, Select};
+use super::problem_error;
+use crate::error::{Diagnostic, Error};
+use crate::math::{Vec3, distance, dot, normalize, sub};
+use crate::mesh::{CellRef, FacetRef, Mesh};
+use crate::simulation::Body;
+
+/// Resolves names of sets against the joined mesh.
+pub(super) struct Sets<'a> {
+    mesh: &'a Mesh,
+    bodies: &'a [Body],
+    own: BTreeMap<String, Vec<usize>>,
+}
+
+fn vec3(v: &[f64]) -> Vec3 {
+    std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))
+}
+
+impl<'a> Sets<'a> {
+    pub fn new(problem: &Problem, mesh: &'a Mesh, bodies: &'a [Body]) -> Result<Self, Error> {
+        let mut sets = Sets {
+            mesh,
+            bodies,
+            own: BTreeMap::new(),
+        };
+        // Unions may name other sets: whatever can be resolved is, until nothing is left or nothing moves.
+        let mut left: Vec<&String> = problem.set.keys().collect();
+        while !left.is_empty() {
+            let before = left.len();
+            let mut later = Vec::new();
+            for name in left {
+                let set = &problem.set[name];
+                let key = format!("set.{name}");
+                if let Select::Union(parts) = &set.select {
+                    if parts
+                        .iter()
+                        .any(|p| problem.set.contains_key(p) && !sets.own.contains_key(p))
+                    {
+                        later.push(name);
+                        continue;
+                    }
+                    let mut points = Vec::new();
+                    for part in parts {
+                        points.extend(sets.points(part, &format!("{key}.union"))?);
+                    }
+                    points.sort_unstable();
+                    points.dedup();
+                    sets.own.insert(name.clone(), points);
+                    continue;
+                }
+                let of = set.of.as_deref().unwrap_or_default();
+                let from = sets.points(of, &format!("{key}.of"))?;
+                let points = sets.select(&set.select, set.tolerance, &from);
+                if points.is_empty() {
+                    return Err(problem_error(vec![
+                        Diagnostic::new(&key, format!("no point of `{of}` lies there"))
+                            .help("check the coordinates, or widen `tolerance`"),
+                    ]));
+                }
+                sets.own.insert(name.clone(), points);
+            }
+            if later.len() == before {
+                return Err(problem_error(vec![Diagnostic::new(
+                    format!("set.{}", later[0]),
+                    "the sets of this union name each other in a circle",
+                )]));
+            }
+            left = later;
+        }
+        Ok(sets)
+    }
+
+    fn select(&self, select: &Select, tolerance: f64, from: &[usize]) -> Vec<usize> {
+        let x = |p: usize| self.mesh.points[p];
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for &p in from {
+            for c in 0..3 {
+                low[c] = low[c].min(x(p)[c]);
+                high[c] = high[c].max(x(p)[c]);
+            }
+        }
+        let reach = tolerance * distance(low, high);
+        let keep =
+            |test: &dyn Fn(usize) -> bool| from.iter().copied().filter(|&p| test(p)).collect();
+        match select {
+            Select::Point(place) => {
+                let place = vec3(place);
+                let nearest = from
+                    .iter()
+                    .copied()
+                    .min_by(|&a, &b| distance(x(a), place).total_cmp(&distance(x(b), place)));
+                nearest
+                    .filter(|&p| distance(x(p), place) <= reach)
+                    .into_iter()
+                    .collect()
+            }
+            Select::Box(b) => {
+                let dim = b.from.len();
+                keep(&|p| {
+                    (0..dim).all(|c| x(p)[c] >= b.from[c] - reach && x(p)[c] <= b.to[c] + reach)
+                })
+            }
+            Select::Plane(plane) => {
+                let n = normalize(vec3(&plane.normal)).unwrap_or_default();
+                keep(&|p| dot(sub(x(p), vec3(&plane.point)), n).abs() <= reach)
+            }
+            Select::Ball(ball) => {
+                keep(&|p| distance(x(p), vec3(&ball.centre)) <= ball.radius + reach)
+            }
+            Select::Numbers(numbers) => keep(&|p| numbers.contains(&self.mesh.point_ids[p])),
+            Select::Union(_) => Vec::new(),
+        }
+    }
+
+    fn body(&self, name: &str) -> Option<&Body> {
+        self.bodies.iter().find(|b| b.name == name)
+    }
+
+    fn unknown(&self, name: &str, key: &str, what: &str) -> Error {
+        let body = name.split('.').next().unwrap_or_default();
+        let prefix = format!("{body}.");
+        let mesh = self.mesh;
+        let mut known: Vec<&str> = mesh
+            .point_sets
+            .keys()
+            .chain(mesh.facet_sets.keys())
+            .chain(mesh.cell_sets.keys())
+            .filter(|k| k.starts_with(&prefix))
+            .map(String::as_str)
+            .collect();
+        known.sort_unstable();
+        known.dedup();
+        problem_error(vec![
+            Diagnostic::new(key, format!("`{name}` has no {what}")).help(format!(
+                "sets of the mesh of `{body}`: {}",
+                if known.is_empty() {
+                    "none".to_string()
+                } else {
+                    known.join(", ")
+                }
+            )),
+        ])
+    }
+
+    /// Points of a set, sorted.
+    pub fn points(&self, name: &str, key: &str) -> Result<Vec<usize>, Error> {
+        let mut points = if let Some(points) = self.own.get(name) {
+            points.clone()
+        } else if let Some(points) = self.mesh.point_sets.get(name) {
+            points.clone()
+        } else if let Some(facets) = self.mesh.facet_sets.get(name) {
+            self.mesh.points_of_facets(facets)
+        } else if let Some(cells) = self.mesh.cell_sets.get(name) {
+            self.mesh.points_of_cells(cells)
+        } else if let Some(body) = self.body(name) {
+            body.points.clone().collect()
+        } else {
+            return Err(self.unknown(name, key, "points: there is no such set"));
+        };
+        points.sort_unstable();
+        points.dedup();
+        if points.is_empty() {
+            return Err(self.unknown(name, key, "points: the set is empty"));
+        }
+        Ok(points)
+    }
+
+    /// Boundary facets of a set: its own, or those all of whose points are in it.
+    pub fn facets(&self, name: &str, key: &str) -> Result<Vec<FacetRef>, Error> {
+        if let Some(facets) = self.mesh.facet_sets.get(name)
+            && !facets.is_empty()
+        {
+            return Ok(facets.clone());
+        }
+        let points = self.points(name, key)?;
+        let facets = self.mesh.boundary_within(&points);
+        if facets.is_empty() {
+            return Err(self.unknown(
+                name,
+                key,
+                "facets: no boundary facet has all its points in it",
+            ));
+        }
+        Ok(facets)
+    }
+
+    /// Cells of a set or body.
+    pub fn cells(&self, name: &str, key: &str) -> Result<Vec<CellRef>, Error> {
+        if let Some(cells) = self.mesh.cell_sets.get(name) {
+            return Ok(cells.clone());
+        }
+        if let Some(body) = self.body(name) {
+            return Ok(self
+                .mesh
+                .cells()
+                .filter(|c| body.blocks.contains(&c.block))
+                .collect());
+        }
+        let points = self.points(name, key)?;
+        let inside = |c: &CellRef| {
+            let of_cell = self.mesh.cell_points(*c);
+            of_cell.iter().all(|p| points.binary_search(p).is_ok())
+        };
+        let cells: Vec<CellRef> = self.mesh.cells().filter(inside).collect();
+        if cells.is_empty() {
+            return Err(self.unknown(name, key, "cells: no cell has all its points in it"));
+        }
+        Ok(cells)
+    }
+
+    /// The point of a set nearest to a place.
+    pub fn nearest(&self, name: &str, place: &[f64], key: &str) -> Result<usize, Error> {
+        let place = vec3(place);
+        let x = |p: usize| self.mesh.points[p];
+        let points = self.points(name, key)?;
+        let nearest = points
+            .iter()
+            .copied()
+            .min_by(|&a, &b| distance(x(a), place).total_cmp(&distance(x(b), place)));
+        Ok(nearest.unwrap_or(0))
+    }
+}
