@@ -1,9 +1,11 @@
 //! Documentation comments as text for people who do not read Rust.
 
-/// `[text](target)` and `` [`text`](target) `` become `text`; everything else stays.
+/// `[text](target)` and `` [`text`](target) `` become `text`, and units, which rustdoc wants as code, lose their
+/// backticks; everything else stays.
 pub(super) fn without_links(text: &str) -> String {
+    let text = text.replace("`[", "[").replace("]`", "]");
     let mut out = String::new();
-    let mut rest = text;
+    let mut rest = text.as_str();
     while let Some(middle) = rest.find("](") {
         let (before, after) = (&rest[..middle], &rest[middle + 2..]);
         match (before.rfind('['), after.find(')')) {
@@ -43,8 +45,8 @@ mod tests {
     #[test]
     fn links_become_their_text() {
         assert_eq!(
-            without_links("A [law](crate::x) of [`y`](crate::y), entry [1](2"),
-            "A law of y, entry [1](2"
+            without_links("A [law](crate::x) `[m]` of [`y`](crate::y), entry [1](2"),
+            "A law [m] of y, entry [1](2"
         );
         assert_eq!(without_links("a_[i] and (b)"), "a_[i] and (b)");
     }
