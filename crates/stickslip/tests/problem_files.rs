@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use stickslip::error::line_column;
-use stickslip::problem::{Document, Problem, schema};
+use stickslip::problem::{Document, Interface, Load, MeshSource, Problem, families, schema};
+use stickslip::registry::Family;
 
 const SOUND: &str = r#"format = 1
 title = "a block on a floor"
@@ -506,5 +507,62 @@ fn the_schema_describes_every_key() {
         "Probe",
     ] {
         assert!(tables.contains_key(table), "{table}");
+    }
+}
+
+/// Every sample of a family, in a problem made by `place`, survives the way to text and back.
+fn survives<F: Family>(place: impl Fn(&mut Problem, F)) {
+    for sample in F::samples() {
+        let kind = sample.kind();
+        let mut problem = Problem::from_toml(SOUND, None).unwrap();
+        place(&mut problem, sample);
+        let text = problem.to_toml().unwrap();
+        let unknown = problem.check().into_iter().map(|f| f.message);
+        let unknown: Vec<String> = unknown.filter(|m| m.contains("unknown key")).collect();
+        assert_eq!(unknown, Vec::<String>::new(), "{} {kind}", F::KEY);
+        let table: toml::Table = text.parse().unwrap();
+        let back: Problem = table.try_into().unwrap();
+        assert_eq!(back, problem, "{} {kind}", F::KEY);
+    }
+}
+
+#[test]
+fn every_model_survives_the_way_to_text_and_back() {
+    fn base(problem: &mut Problem) -> &mut Interface {
+        problem.interface.get_mut("base").unwrap()
+    }
+    survives(|p, generator| {
+        p.body.get_mut("block").unwrap().mesh = MeshSource::Generate(generator);
+    });
+    survives(|p, material| {
+        p.material.insert("steel".into(), material);
+    });
+    survives(|p, shape| {
+        p.obstacle.get_mut("floor").unwrap().shape = shape;
+    });
+    survives(|p, normal| base(p).normal = normal);
+    survives(|p, friction| base(p).friction = friction);
+    survives(|p, slip| base(p).slip = slip);
+    survives(|p, enforcement| base(p).enforcement = enforcement);
+    survives(|p, kinematics| base(p).kinematics = kinematics);
+    survives(|p, kind| {
+        let load = Load {
+            set: "block.top".into(),
+            amplitude: None,
+            kind,
+        };
+        p.load.insert("push".into(), load);
+    });
+}
+
+#[test]
+fn every_family_is_listed() {
+    let schema = schema().to_string();
+    for family in families() {
+        assert!(!family.entries.is_empty());
+        for entry in family.entries {
+            let key = format!("\"{}\":", entry.name);
+            assert!(schema.contains(&key), "{} {}", family.key, entry.name);
+        }
     }
 }

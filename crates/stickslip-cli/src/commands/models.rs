@@ -39,11 +39,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let here = wanted_family.is_none_or(|f| f == listing.key);
             let all = wanted_family.is_none() && listing.key == name;
             if all || here && entry.name == wanted_entry {
-                let schema = (entry.schema)().to_value();
-                text.push(parameters(
-                    &format!("{}.{}", listing.key, entry.name),
-                    &schema,
-                ));
+                let name = format!("{}.{}", listing.key, entry.name);
+                text.push(parameters(&name, &entry.schema));
             }
         }
     }
@@ -70,10 +67,7 @@ fn family(family: &FamilyListing) -> String {
         .max()
         .unwrap_or(0);
     for entry in &family.entries {
-        let schema = (entry.schema)().to_value();
-        let first = paragraphs(&schema).next().unwrap_or_default();
-        let first = first.split(". ").next().unwrap_or_default();
-        text += &format!("  {:width$}  {}\n", entry.name, first.trim_end_matches('.'));
+        text += &format!("  {:width$}  {}\n", entry.name, entry.summary);
     }
     text
 }

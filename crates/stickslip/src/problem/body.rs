@@ -24,7 +24,7 @@ pub struct Body {
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default = "one")]
     pub scale: f64,
-    /// Shift of the mesh [length].
+    /// Shift of the mesh `[length]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub translate: Option<Vec<f64>>,
     /// Where the mesh comes from.

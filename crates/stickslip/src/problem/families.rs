@@ -1,3 +1,6 @@
+use serde_json::Value;
+
+use super::{prose, schema};
 use crate::body::loads::LoadKind;
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
@@ -16,15 +19,35 @@ pub struct FamilyListing {
     pub key: &'static str,
     /// Where it stands in the problem file.
     pub place: &'static str,
-    /// Its entries.
-    pub entries: Vec<Entry>,
+    /// Its entries, in the order of the registry.
+    pub entries: Vec<ModelListing>,
+}
+
+/// One model of a family.
+#[derive(Debug, Clone)]
+pub struct ModelListing {
+    /// Its key, the kind.
+    pub name: &'static str,
+    /// What it is, in a sentence.
+    pub summary: String,
+    /// The JSON schema of its parameters, with units and defaults.
+    pub schema: Value,
 }
 
 fn listing<F: Family>(place: &'static str) -> FamilyListing {
     FamilyListing {
         key: F::KEY,
         place,
-        entries: F::entries(),
+        entries: F::entries().into_iter().map(model).collect(),
+    }
+}
+
+fn model(entry: Entry) -> ModelListing {
+    let schema = schema::plain((entry.schema)().to_value());
+    ModelListing {
+        name: entry.name,
+        summary: prose::first_sentence(schema["description"].as_str().unwrap_or_default()),
+        schema,
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Interface {
     /// How gap and slip are measured.
     #[serde(default)]
     pub kinematics: KinematicsModel,
-    /// Velocity of the material of the primary surface beyond the motion of its body, such as a belt [length/time],
+    /// Velocity of the material of the primary surface beyond the motion of its body, such as a belt `[length/time]`,
     /// constant. Its normal component has no effect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary_velocity: Option<Vec<f64>>,

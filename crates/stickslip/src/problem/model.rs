@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct Model {
     /// Plane strain, plane stress, axisymmetric or solid (3D).
     pub space: SpaceKind,
-    /// Thickness [length] of a plane problem, 1 if not given. Forces are those of this thickness.
+    /// Thickness `[length]` of a plane problem, 1 if not given. Forces are those of this thickness.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,

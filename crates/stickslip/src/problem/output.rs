@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct Output {
     /// Fields are written every so many increments, and at the end of every step; 0 for the ends of steps only.
     pub every: usize,
-    /// Further times [time] at which fields are written, increasing. Increments land on them.
+    /// Further times `[time]` at which fields are written, increasing. Increments land on them.
     pub times: Vec<f64>,
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Probe {
-    /// Undeformed coordinates [length]; the nearest point of the mesh is taken.
+    /// Undeformed coordinates `[length]`; the nearest point of the mesh is taken.
     pub point: Vec<f64>,
     /// The body of the point; may be left out if there is only one.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -29,7 +29,7 @@ fn default_tolerance() -> f64 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Select {
-    /// The one point at these coordinates [length]; an error if there is none within the tolerance.
+    /// The one point at these coordinates `[length]`; an error if there is none within the tolerance.
     Point(Vec<f64>),
     /// The points in a box with sides along the axes.
     Box(BoxRegion),
@@ -47,9 +47,9 @@ pub enum Select {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct BoxRegion {
-    /// Corner with the smallest coordinates [length].
+    /// Corner with the smallest coordinates `[length]`.
     pub from: Vec<f64>,
-    /// Corner with the largest coordinates [length].
+    /// Corner with the largest coordinates `[length]`.
     pub to: Vec<f64>,
 }
 
@@ -57,7 +57,7 @@ pub struct BoxRegion {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct PlaneRegion {
-    /// A point on it [length].
+    /// A point on it `[length]`.
     pub point: Vec<f64>,
     /// Its normal, of any length.
     pub normal: Vec<f64>,
@@ -67,9 +67,9 @@ pub struct PlaneRegion {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct BallRegion {
-    /// Its centre [length].
+    /// Its centre `[length]`.
     pub centre: Vec<f64>,
-    /// Its radius [length].
+    /// Its radius `[length]`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
 }

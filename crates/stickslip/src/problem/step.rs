@@ -9,7 +9,7 @@ pub struct Step {
     /// A name for messages and results; `step 1`, `step 2` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// How long it lasts [time].
+    /// How long it lasts `[time]`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default = "one")]
     pub duration: f64,
@@ -40,13 +40,13 @@ pub struct Increments {
     #[schemars(range(min = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<usize>,
-    /// Size of the first increment [fraction of the duration].
+    /// Size of the first increment `[fraction of the duration]`.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub initial: f64,
-    /// Size below which the analysis gives up [fraction of the duration].
+    /// Size below which the analysis gives up `[fraction of the duration]`.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub smallest: f64,
-    /// Size that is never exceeded [fraction of the duration].
+    /// Size that is never exceeded `[fraction of the duration]`.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub largest: f64,
 }

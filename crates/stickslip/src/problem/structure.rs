@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::nearest::{nearest, suggest};
+use super::prose::first_sentence;
 use super::tree::{self, Table, Value};
 use super::{key, tree::number};
 use crate::error::Diagnostic;
@@ -341,12 +342,4 @@ fn found_name(kind: &str) -> &str {
         "datetime" => "a date",
         other => other,
     }
-}
-
-/// Up to the first full stop that ends a sentence, or the first paragraph.
-fn first_sentence(description: &str) -> String {
-    let paragraph = description.split("\n\n").next().unwrap_or(description);
-    let text = paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
-    let end = text.find(". ").unwrap_or(text.len());
-    text[..end].trim_end_matches('.').to_string()
 }

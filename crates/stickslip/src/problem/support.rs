@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 pub struct Support {
     /// The points: `body.set`, a `[set.NAME]`, or a body.
     pub set: String,
-    /// Displacement along x [length]; in an axisymmetric problem the radial one.
+    /// Displacement along x `[length]`; in an axisymmetric problem the radial one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x: Option<f64>,
-    /// Displacement along y [length].
+    /// Displacement along y `[length]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y: Option<f64>,
-    /// Displacement along z [length], in 3D.
+    /// Displacement along z `[length]`, in 3D.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z: Option<f64>,
     /// An `[amplitude.NAME]` over the time of the analysis, by which the displacements are multiplied.

@@ -1,0 +1,134 @@
+//! The command from outside: exit codes, and what goes to which stream.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn stickslip(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .args(arguments)
+        .output()
+        .expect("the binary runs")
+}
+
+fn code(output: &Output) -> Option<i32> {
+    output.status.code()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// A problem file in the folder for temporary files of this test.
+fn file(name: &str, content: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, content).expect("the folder can be written to");
+    path
+}
+
+const SOUND: &str = r#"format = 1
+
+[model]
+space = "plane-strain"
+
+[body.block]
+generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }
+material = "steel"
+
+[material.steel.isotropic]
+young = 210e9
+poisson = 0.3
+
+[obstacle.floor.plane]
+point = [0, 0]
+normal = [0, 1]
+
+[interface.base]
+secondary = "block.bottom"
+primary = "floor"
+
+[support.top]
+set = "block.top"
+x = 0.0
+y = -1e-5
+
+[[step]]
+name = "press"
+"#;
+
+#[test]
+fn check_tells_what_was_understood() {
+    let path = file("sound.toml", SOUND);
+    let output = stickslip(&["check", &path.display().to_string()]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let out = text(&output.stdout);
+    assert!(
+        out.contains("model: plane-strain\nbodies: block\n"),
+        "{out}"
+    );
+    assert!(
+        out.contains("interface base: block.bottom on floor; unilateral, none,"),
+        "{out}"
+    );
+}
+
+#[test]
+fn check_shows_the_line_of_a_mistake() {
+    let path = file("wrong.toml", &SOUND.replace("young", "yuong"));
+    let output = stickslip(&["check", &path.display().to_string()]);
+    assert_eq!(code(&output), Some(1));
+    assert!(output.stdout.is_empty());
+    let err = text(&output.stderr);
+    for part in [
+        "wrong.toml:11:1",
+        "11 | yuong = 210e9",
+        "did you mean `young`?",
+    ] {
+        assert!(err.contains(part), "{part} in\n{err}");
+    }
+}
+
+#[test]
+fn overrides_reach_the_check() {
+    let path = file("override.toml", SOUND).display().to_string();
+    let wrong = "material.steel.isotropic.young=-1";
+    let output = stickslip(&["check", &path, "--set", wrong]);
+    assert_eq!(code(&output), Some(1));
+    let err = text(&output.stderr);
+    assert!(
+        err.contains("material.steel.isotropic.young: young = -1"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_missing_file_and_a_wrong_command_line_are_wrong_input() {
+    let output = stickslip(&["check", "no-such-file.toml"]);
+    assert_eq!(code(&output), Some(1));
+    assert!(text(&output.stderr).contains("no-such-file.toml"));
+    assert_eq!(code(&stickslip(&["chek", "x.toml"])), Some(1));
+    assert_eq!(code(&stickslip(&["--help"])), Some(0));
+}
+
+#[test]
+fn models_lists_families_and_parameters() {
+    let output = stickslip(&["models"]);
+    assert_eq!(code(&output), Some(0));
+    assert!(text(&output.stdout).contains("\n  coulomb "));
+    let one = text(&stickslip(&["models", "friction.coulomb"]).stdout);
+    assert!(one.starts_with("friction.coulomb\n"), "{one}");
+    assert!(one.contains("  mu: number (required)\n"), "{one}");
+    let both = text(&stickslip(&["models", "power-law"]).stdout);
+    assert!(both.contains("normal.power-law\n") && both.contains("friction.power-law\n"));
+    let none = stickslip(&["models", "glue"]);
+    assert_eq!(code(&none), Some(1));
+    assert!(text(&none.stderr).contains("no model or family `glue`"));
+}
+
+#[test]
+fn schema_is_json() {
+    let output = stickslip(&["schema"]);
+    let schema: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("the schema is JSON");
+    assert_eq!(schema["title"], "stickslip problem file");
+    assert!(!text(&output.stdout).contains("crate::"));
+}
