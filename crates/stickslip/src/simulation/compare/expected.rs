@@ -13,8 +13,20 @@ pub struct Expected {
     pub format: u32,
     /// Source of the checks that name none.
     pub source: Option<String>,
+    /// The problem file beside this one that the results are of, for the tests; `case.toml` if not given.
+    pub case: Option<String>,
+    /// Changes `path=value` with which it is run, as for `stickslip run --set`.
+    #[serde(default)]
+    pub overrides: Vec<String>,
+    /// `false` where a run takes too long for a test.
+    #[serde(default = "yes")]
+    pub tested: bool,
     /// The checks.
     pub check: Vec<Check>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// One check: where the number is (`history`, `summary` or `table`), and what it should be (`value`, bounds or `curve`).
