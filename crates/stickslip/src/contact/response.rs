@@ -28,8 +28,11 @@ pub struct Circumstances {
     pub normal_stiffness: f64,
     /// Stiffness of sticking [Pa/m].
     pub tangential_stiffness: f64,
-    /// Multipliers: pressure, and shear traction in the frame. For a perturbed Lagrangian they are the unknowns.
+    /// Multipliers where they are unknowns: pressure, and shear traction in the frame.
     pub multiplier: [f64; 3],
+    /// What the enforcement pulls the multipliers to: zero pressure and the shear carried over in a perturbed Lagrangian, the
+    /// last estimate in an augmented one.
+    pub centre: [f64; 3],
     /// Shear traction carried over from the last accepted state, in the frame.
     pub carried: [f64; 2],
     /// Stiffness [Pa/m] by which a perturbed Lagrangian weighs gaps against multipliers when it decides on status.
@@ -85,6 +88,11 @@ impl Laws {
         )
     }
 
+    /// Whether the multipliers are unknowns of Newton's iteration.
+    pub fn unknown_multipliers(&self) -> bool {
+        self.enforcement.as_dyn().multipliers() != Multipliers::None
+    }
+
     /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
     pub fn needs_normal_stiffness(&self) -> bool {
         self.normal.as_dyn().pressure(0.0).is_none()
@@ -97,16 +105,14 @@ impl Laws {
 
     /// Evaluates the laws at a stencil.
     ///
-    /// For a perturbed Lagrangian the traction returned is what the multipliers `Σ` have to equal,
-    /// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + Σ_n/ω` (the paper's `G - Σ/ω`, whose `Σ_n` is
-    /// negative in compression) and `C_t = s - (t₀ - Σ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
+    /// Where multipliers are unknowns the traction returned is what the multipliers `Σ` have to equal,
+    /// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + (Σ_n - λ_n)/ω` (with λ = 0 the paper's
+    /// `G - Σ/ω`, whose `Σ_n` is negative in compression) and `C_t = s + (Σ_t - λ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
     /// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
     /// send points from slip in one direction to slip in the other.
     pub fn respond(&self, stencil: &Stencil, at: &Circumstances) -> Response {
-        let multipliers = self.enforcement.as_dyn().multipliers();
-        let unknown = multipliers == Multipliers::Unknown;
-        let augmented = matches!(multipliers, Multipliers::Augmented { .. });
-        let mut response = self.press(stencil.gap, at, unknown, augmented);
+        let unknown = self.unknown_multipliers();
+        let mut response = self.press(stencil.gap, at, unknown);
         let pressure = response.traction[0];
         let friction: &dyn FrictionLaw = self.friction.as_dyn();
         if pressure > 0.0 {
@@ -124,17 +130,17 @@ impl Laws {
         if !friction.frictional() || pressure <= 0.0 {
             return response;
         }
-        self.shear(stencil, at, unknown, augmented, &mut response);
+        self.shear(stencil, at, unknown, &mut response);
         response
     }
 
     /// The normal part: pressure and its derivatives.
-    fn press(&self, gap: f64, at: &Circumstances, unknown: bool, augmented: bool) -> Response {
+    fn press(&self, gap: f64, at: &Circumstances, unknown: bool) -> Response {
         let normal: &dyn NormalLaw = self.normal.as_dyn();
         let mut response = Response::default();
         if unknown && normal.pressure(gap).is_none() {
             let keep = 1.0 - at.weight / at.normal_stiffness;
-            let p = keep * at.multiplier[0] - at.weight * gap;
+            let p = keep * at.multiplier[0] + (1.0 - keep) * at.centre[0] - at.weight * gap;
             if p > 0.0 {
                 response.traction[0] = p;
                 response.d_gap[0][0] = -at.weight;
@@ -142,28 +148,19 @@ impl Laws {
             }
             return response;
         }
-        let held = if augmented { at.multiplier[0] } else { 0.0 };
-        let p = pressure(normal, gap, held, at.normal_stiffness);
+        let p = pressure(normal, gap, 0.0, at.normal_stiffness);
         response.traction[0] = p.value;
         response.d_gap[0][0] = p.slope;
         response
     }
 
     /// The tangential part, added to a response with pressure.
-    fn shear(
-        &self,
-        stencil: &Stencil,
-        at: &Circumstances,
-        unknown: bool,
-        augmented: bool,
-        response: &mut Response,
-    ) {
+    fn shear(&self, stencil: &Stencil, at: &Circumstances, unknown: bool, response: &mut Response) {
         let keep = if unknown && at.tangential_stiffness.is_finite() {
             1.0 - at.weight / at.tangential_stiffness
         } else {
             0.0
         };
-        let held = [at.multiplier[1], at.multiplier[2]];
         let motion = Tangential {
             slip: [stencil.slip[0] - at.belt[0], stencil.slip[1] - at.belt[1]],
             dt: at.dt,
@@ -172,10 +169,10 @@ impl Laws {
             } else {
                 at.tangential_stiffness
             },
-            base: match (augmented, unknown) {
-                (true, _) => held,
-                (_, true) => [0, 1].map(|i| keep * held[i] + (1.0 - keep) * at.carried[i]),
-                _ => at.carried,
+            base: if unknown {
+                [1, 2].map(|i| keep * at.multiplier[i] + (1.0 - keep) * at.centre[i])
+            } else {
+                at.carried
             },
             skew: stencil.skew,
         };

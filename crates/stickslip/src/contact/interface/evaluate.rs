@@ -1,6 +1,7 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
 use super::{Interface, Primary, SaddleRows};
+use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
 use crate::contact::obstacle::Pose;
 use crate::contact::pairing::{FacetPoint, beyond, facet_distance, project};
@@ -46,7 +47,7 @@ pub(super) struct Evaluation {
     pub tangential_stiffness: f64,
     /// Shear traction at the last accepted state, in the frame.
     pub carried: [f64; 2],
-    /// Multipliers as components in the frame, for a perturbed Lagrangian.
+    /// Multipliers as components in the frame, where they are unknowns.
     pub multiplier: [f64; 3],
 }
 
@@ -268,12 +269,21 @@ impl Interface {
         };
         let multiplier = &self.memory.multipliers[i];
         let shear = components(multiplier.shear, &stencil.frame_before, dim);
+        let carried = components(self.memory.committed[i].shear, &stencil.frame_before, dim);
+        let centre = match enforcement.multipliers() {
+            Multipliers::Augmented { .. } => {
+                let t = components(multiplier.centre_shear, &stencil.frame_before, dim);
+                [multiplier.centre_pressure, t[0], t[1]]
+            }
+            _ => [0.0, carried[0], carried[1]],
+        };
         let at = Circumstances {
             dt: scene.dt,
             normal_stiffness,
             tangential_stiffness,
             multiplier: [multiplier.pressure, shear[0], shear[1]],
-            carried: components(self.memory.committed[i].shear, &stencil.frame_before, dim),
+            centre,
+            carried,
             weight: point
                 .stiffness
                 .min(normal_stiffness)
@@ -317,7 +327,7 @@ impl Interface {
         hessian: impl FnOnce([f64; 3], &mut [f64]),
     ) {
         let r = &e.response;
-        let unknown = self.unknown_multipliers();
+        let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
@@ -397,7 +407,7 @@ fn condensed_slope(inverse: &[f64], d_gap: &Mat3) -> Mat3 {
     })
 }
 
-/// The multiplier rows `Σ - T(gap, Σ) = 0` of a perturbed Lagrangian; in contact and stick they are the paper's `G - Σ/ω = 0`, up to a
+/// The multiplier rows `Σ - T(gap, Σ) = 0`; in contact and stick they are the paper's `G - Σ/ω = 0`, up to a
 /// factor.
 fn saddle(
     r: &Response,
