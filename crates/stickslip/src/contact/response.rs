@@ -24,15 +24,15 @@ pub struct Laws {
 pub struct Circumstances {
     /// Time since the last accepted state.
     pub dt: f64,
-    /// Stiffness against penetration [Pa/m]; infinite where the normal law itself is followed.
+    /// Stiffness against penetration `[Pa/m]`; infinite where the normal law itself is followed.
     pub normal_stiffness: f64,
-    /// Stiffness of sticking [Pa/m].
+    /// Stiffness of sticking `[Pa/m]`.
     pub tangential_stiffness: f64,
     /// Multipliers: pressure, and shear traction in the frame. For a perturbed Lagrangian they are the unknowns.
     pub multiplier: [f64; 3],
     /// Shear traction carried over from the last accepted state, in the frame.
     pub carried: [f64; 2],
-    /// Displacement of the belt since the last accepted state, along the frame [m].
+    /// Displacement of the belt since the last accepted state, along the frame `[m]`.
     pub belt: [f64; 2],
 }
 
@@ -51,19 +51,19 @@ pub enum Status {
 /// Traction on the secondary in the frame `(normal, 1, 2)` and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
-    /// Pressure and shear [Pa].
+    /// Pressure and shear `[Pa]`.
     pub traction: [f64; 3],
-    /// Derivatives with respect to gap and slips [Pa/m].
+    /// Derivatives with respect to gap and slips `[Pa/m]`.
     pub d_gap: [[f64; 3]; 3],
-    /// Derivatives with respect to the skew [Pa].
+    /// Derivatives with respect to the skew `[Pa]`.
     pub d_skew: [f64; 3],
-    /// Derivatives of the shear with respect to the multiplier of the pressure, for a perturbed Lagrangian [-].
+    /// Derivatives of the shear with respect to the multiplier of the pressure, for a perturbed Lagrangian `[-]`.
     pub d_pressure: [f64; 2],
-    /// Largest shear [Pa].
+    /// Largest shear `[Pa]`.
     pub limit: f64,
     /// Open, stick or slip.
     pub status: Status,
-    /// Irreversible slip since the last accepted state [m].
+    /// Irreversible slip since the last accepted state `[m]`.
     pub sliding_path: [f64; 2],
 }
 
