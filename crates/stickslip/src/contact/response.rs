@@ -32,6 +32,9 @@ pub struct Circumstances {
     pub multiplier: [f64; 3],
     /// Shear traction carried over from the last accepted state, in the frame.
     pub carried: [f64; 2],
+    /// Slope of the pressure `[Pa/m]` that a point which just touches is given although it carries nothing yet; zero but in the
+    /// first iteration of a first contact, when nothing else may hold a body.
+    pub touching: f64,
     /// Displacement of the belt since the last accepted state, along the frame `[m]`.
     pub belt: [f64; 2],
 }
@@ -105,6 +108,16 @@ impl Laws {
         response.d_gap[0][0] = p.slope;
         if p.value > 0.0 {
             response.status = Status::Stick;
+        } else if at.touching > 0.0 {
+            let sides = if self.friction.as_dyn().frictional() {
+                3
+            } else {
+                1
+            };
+            for i in 0..sides {
+                response.d_gap[i][i] = -at.touching;
+            }
+            return response;
         }
         let friction: &dyn FrictionLaw = self.friction.as_dyn();
         // In a perturbed Lagrangian the limit follows the unknown pressure, not the one the gap would give.

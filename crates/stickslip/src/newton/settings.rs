@@ -11,7 +11,8 @@ pub struct Settings {
     pub line_search: usize,
     /// Most iterations of the Krylov solver with one factor before a fresh factor is made.
     pub krylov_patience: usize,
-    /// Relative residual to which a linear system is solved at least.
+    /// Relative residual to which a linear system is solved while points still change status; afterwards it is solved as
+    /// accurately as `tolerance` asks for.
     pub linear_tolerance: f64,
 }
 
@@ -22,7 +23,7 @@ impl Default for Settings {
             max_iterations: 30,
             line_search: 5,
             krylov_patience: 12,
-            linear_tolerance: 1e-6,
+            linear_tolerance: 1e-4,
         }
     }
 }

@@ -163,7 +163,13 @@ impl Newton {
                 .zip(&system.constraints.fixed)
                 .map(|((f, c), &fixed)| if fixed { 0.0 } else { -(f + c) })
                 .collect();
-            let wanted = 0.1 * target / balance.norm.max(f64::MIN_POSITIVE);
+            // While points still change status the linear problem is not the last one: digits would be thrown away.
+            let loose = settings.linear_tolerance;
+            let wanted = if iteration == 0 || tally(system).changed > 0 {
+                loose
+            } else {
+                0.1 * target / balance.norm.max(multipliers).max(f64::MIN_POSITIVE)
+            };
             let (du, krylov) = self.linearised.solve(
                 Operator {
                     matrix: system.matrix,
@@ -171,7 +177,7 @@ impl Newton {
                     blocks: &out.blocks,
                 },
                 &b,
-                wanted.clamp(1e-13, settings.linear_tolerance),
+                wanted.clamp(1e-13, loose.max(1e-13)),
                 &settings,
                 &mut self.statistics,
             )?;

@@ -8,6 +8,9 @@ use crate::contact::response::{Circumstances, Response};
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 
+/// Gap relative to the cell beneath up to which a point counts as touching at the very start.
+const TOUCHING: f64 = 1e-6;
+
 /// What all points of one evaluation share.
 pub(super) struct Scene<'a> {
     pub x: &'a [Vec3],
@@ -271,6 +274,11 @@ impl Interface {
             tangential_stiffness,
             multiplier: [multiplier.pressure, shear[0], shear[1]],
             carried: components(self.memory.committed[i].shear, &stencil.frame_before, dim),
+            touching: if self.memory.untouched && stencil.gap <= TOUCHING * point.size {
+                point.stiffness
+            } else {
+                0.0
+            },
             belt: stencil.frame_before.map(|e| dot(e, scene.belt)),
         };
         let response = self.laws.respond(stencil, &at);
@@ -307,7 +315,7 @@ impl Interface {
         let r = &e.response;
         let unknown = self.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
-        if traction == [0.0; 3] && r.traction == [0.0; 3] {
+        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
         }
         let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);

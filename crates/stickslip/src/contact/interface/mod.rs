@@ -75,6 +75,8 @@ pub struct Memory {
     dissipated: f64,
     belt_work: f64,
     changed: usize,
+    /// Nothing has been in contact yet, and this is the first tangent of the attempt.
+    untouched: bool,
 }
 
 /// Committed history of a contact point.
@@ -249,6 +251,7 @@ impl Force for Interface {
         }
         memory.flips.fill(Flips::default());
         memory.last.clear();
+        memory.untouched = memory.committed.iter().all(|h| h.status == Status::Open);
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
@@ -283,12 +286,13 @@ impl Force for Interface {
                         },
                     );
                 }
-            } else if out.wants_tangent && e.response.traction != [0.0; 3] {
+            } else if out.wants_tangent {
                 out.add_tangent(&dofs, &e.tangent, &e.surrogate);
             }
         }
         let memory = &mut self.memory;
         if out.wants_tangent {
+            memory.untouched = false;
             memory.changed = 0;
             for (flips, e) in memory.flips.iter_mut().zip(&evaluations) {
                 let now = Some(e.response.status);
