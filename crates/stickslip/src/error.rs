@@ -95,7 +95,7 @@ impl MeshError {
 pub struct RunError {
     /// What happened, in a sentence.
     pub message: String,
-    /// Time reached [the problem's unit of time].
+    /// Time reached `[the problem's unit of time]`.
     pub time: f64,
     /// The nodes, facets or dofs to look at, most guilty first, one line each.
     pub culprits: Vec<String>,

@@ -4,7 +4,7 @@ use std::process::Command;
 
 /// What a program took.
 pub struct Run {
-    /// Processor time, user and system [s].
+    /// Processor time, user and system `[s]`.
     pub cpu: f64,
 }
 
@@ -23,7 +23,7 @@ pub fn measure(command: &mut Command) -> Result<Run, String> {
     })
 }
 
-/// The time of all programs run and waited for so far [s].
+/// The time of all programs run and waited for so far `[s]`.
 fn of_children() -> Result<f64, String> {
     let stat = std::fs::read_to_string("/proc/self/stat")
         .map_err(|e| format!("CPU times are read from /proc/self/stat: {e}"))?;

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-/// A cube of `n³` hexahedra of edge 1 [m] that stands on the plane `z = base`; labels continue after those of another.
+/// A cube of `n³` hexahedra of edge 1 `[m]` that stands on the plane `z = base`; labels continue after those of another.
 struct Cube {
     n: usize,
     base: usize,

@@ -73,7 +73,7 @@ fn run_stickslip(binary: &Path, case: &Path, n: usize, directory: &Path) -> Resu
     measure(&mut command)
 }
 
-/// Runs CalculiX; also the force on the top face at the end [N].
+/// Runs CalculiX; also the force on the top face at the end `[N]`.
 fn run_calculix(n: usize, directory: &Path) -> Result<(Run, Option<[f64; 3]>), String> {
     let deck = directory.join("calculix.inp");
     fs::write(&deck, deck::press_and_slide(n)).map_err(|e| format!("{}: {e}", deck.display()))?;

@@ -15,7 +15,7 @@ pub struct Arguments {
     file: PathBuf,
     /// The interface; may be left out if there is only one.
     interface: Option<String>,
-    /// Largest pressure of the table [stress].
+    /// Largest pressure of the table, in the unit of stress of the problem.
     #[arg(long, default_value_t = 1e8)]
     pressure: f64,
     /// Rows of the table.

@@ -6,7 +6,7 @@ use stickslip::problem::{FamilyListing, families};
 use super::{Failure, Outcome};
 use crate::print;
 
-/// Width of the printed text [characters].
+/// Width of the printed text in characters.
 const WIDTH: usize = 100;
 
 /// List the model families and their entries, or the parameters of one.

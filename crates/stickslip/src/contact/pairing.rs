@@ -89,8 +89,8 @@ pub(crate) fn projection_matrix(p: &FacetPoint, r: Vec3) -> [[f64; 2]; 2] {
 /// Inverse of a symmetric 2×2 matrix; `None` if it is singular.
 pub(crate) fn invert2(m: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    // Not `<=`: a NaN is singular as well.
-    if !(det.abs() > 1e-12 * (m[0][0] * m[1][1]).abs()) {
+    // A NaN is singular as well.
+    if det.is_nan() || det.abs() <= 1e-12 * (m[0][0] * m[1][1]).abs() {
         return None;
     }
     Some([
@@ -157,7 +157,7 @@ pub fn project(kind: ElementKind, coordinates: &[Vec3], point: Vec3) -> Option<F
 /// How far a projection lies beyond the facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beyond {
-    /// Distance from the facet within its surface [m]; zero inside.
+    /// Distance from the facet within its surface `[m]`; zero inside.
     pub distance: f64,
     /// The edge it lies beyond, in the order of `surface::edges`; meaningless inside.
     pub edge: usize,

@@ -24,9 +24,9 @@ pub struct Laws {
 pub struct Circumstances {
     /// Time since the last accepted state.
     pub dt: f64,
-    /// Stiffness against penetration [Pa/m]; infinite where the normal law itself is followed.
+    /// Stiffness against penetration `[Pa/m]`; infinite where the normal law itself is followed.
     pub normal_stiffness: f64,
-    /// Stiffness of sticking [Pa/m].
+    /// Stiffness of sticking `[Pa/m]`.
     pub tangential_stiffness: f64,
     /// Multipliers where they are unknowns: pressure, and shear traction in the frame.
     pub multiplier: [f64; 3],
@@ -35,12 +35,12 @@ pub struct Circumstances {
     pub centre: [f64; 3],
     /// Shear traction carried over from the last accepted state, in the frame.
     pub carried: [f64; 2],
-    /// Stiffness [Pa/m] by which a perturbed Lagrangian weighs gaps against multipliers when it decides on status.
+    /// Stiffness `[Pa/m]` by which a perturbed Lagrangian weighs gaps against multipliers when it decides on status.
     pub weight: f64,
-    /// Slope of the pressure [Pa/m] that a point which just touches is given although it carries nothing yet; zero but in the
+    /// Slope of the pressure `[Pa/m]` that a point which just touches is given although it carries nothing yet; zero but in the
     /// first iteration of a first contact, when nothing else may hold a body.
     pub touching: f64,
-    /// Displacement of the belt since the last accepted state, along the frame [m].
+    /// Displacement of the belt since the last accepted state, along the frame `[m]`.
     pub belt: [f64; 2],
 }
 
@@ -59,19 +59,19 @@ pub enum Status {
 /// Traction on the secondary in the frame `(normal, 1, 2)` and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
-    /// Pressure and shear [Pa].
+    /// Pressure and shear `[Pa]`.
     pub traction: [f64; 3],
-    /// Derivatives with respect to gap and slips [Pa/m].
+    /// Derivatives with respect to gap and slips `[Pa/m]`.
     pub d_gap: [[f64; 3]; 3],
-    /// Derivatives with respect to the skew [Pa].
+    /// Derivatives with respect to the skew `[Pa]`.
     pub d_skew: [f64; 3],
-    /// Derivatives with respect to the multipliers, for a perturbed Lagrangian [-].
+    /// Derivatives with respect to the multipliers, for a perturbed Lagrangian `[-]`.
     pub d_multiplier: [[f64; 3]; 3],
-    /// Largest shear [Pa].
+    /// Largest shear `[Pa]`.
     pub limit: f64,
     /// Open, stick or slip.
     pub status: Status,
-    /// Irreversible slip since the last accepted state [m].
+    /// Irreversible slip since the last accepted state `[m]`.
     pub sliding_path: [f64; 2],
 }
 

@@ -12,13 +12,13 @@ pub struct ContactPoint {
     pub nodes: Vec<usize>,
     /// Their weights, adding up to one.
     pub weights: Vec<f64>,
-    /// Area of the surface it stands for [m²] (thickness or 2πr included).
+    /// Area of the surface it stands for `[m²]` (thickness or 2πr included).
     pub area: f64,
-    /// Stiffness of the body beneath, constrained modulus over cell height [Pa/m].
+    /// Stiffness of the body beneath, constrained modulus over cell height `[Pa/m]`.
     pub stiffness: f64,
     /// Outward normal of the secondary surface in the reference configuration.
     pub normal: Vec3,
-    /// Height of the cell beneath [m], for reports.
+    /// Height of the cell beneath `[m]`, for reports.
     pub size: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct Facet {
     pub nodes: Vec<usize>,
     /// For each edge (3D) or end (2D), whether the surface goes on beyond it.
     pub continues: Vec<bool>,
-    /// Constrained modulus of the cell beneath [Pa].
+    /// Constrained modulus of the cell beneath `[Pa]`.
     pub modulus: f64,
     /// User's number of the cell beneath.
     pub cell: u64,

@@ -14,8 +14,8 @@ pub fn symmetric_eigen(a: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
             .flat_map(|i| (0..i).map(move |j| (i, j)))
             .map(|(i, j)| m[i][j] * m[i][j])
             .sum();
-        // Not `<=`: a NaN must leave the loop as well, a zero matrix at once.
-        if !(off > 1e-34 * total) {
+        // A NaN must leave the loop as well, a zero matrix at once.
+        if off.is_nan() || off <= 1e-34 * total {
             break;
         }
         for p in 0..n {

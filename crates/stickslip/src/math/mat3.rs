@@ -47,7 +47,7 @@ pub fn inverse(m: &Mat3) -> Option<(Mat3, f64)> {
     ))
 }
 
-/// The rotation by `angle` [rad] about the unit vector `axis` (Rodrigues' formula).
+/// The rotation by `angle` `[rad]` about the unit vector `axis` (Rodrigues' formula).
 pub fn rotation(axis: Vec3, angle: f64) -> Mat3 {
     let (s, c) = angle.sin_cos();
     let skew = [

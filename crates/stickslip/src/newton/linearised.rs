@@ -7,6 +7,17 @@ use super::settings::{Settings, Statistics};
 use crate::linear::{BlockCsr, Factor, GmresSettings, LinearError, Symbolic, gmres};
 use crate::system::{Cause, ContactBlock, StepFailure};
 
+/// The matrix of one Newton iteration: the bulk on the free dofs plus the blocks of the interfaces.
+#[derive(Debug, Clone, Copy)]
+pub struct Operator<'a> {
+    /// The bulk, over all dofs.
+    pub matrix: &'a BlockCsr,
+    /// Prescribed dofs, whose rows and columns are left out.
+    pub fixed: &'a [bool],
+    /// Contact points.
+    pub blocks: &'a [ContactBlock],
+}
+
 /// A symmetric positive definite factor that outlives the state it was made at.
 ///
 /// It is made of the bulk and the symmetric part of the interface at some iteration; GMRES makes up for what has changed since
@@ -26,11 +37,14 @@ impl Linearised {
 
     fn refactor(
         &mut self,
-        matrix: &BlockCsr,
-        fixed: &[bool],
-        blocks: &[ContactBlock],
+        operator: Operator,
         statistics: &mut Statistics,
     ) -> Result<(), LinearError> {
+        let Operator {
+            matrix,
+            fixed,
+            blocks,
+        } = operator;
         let started = Instant::now();
         let covered = self.matches(fixed)
             && self
@@ -64,31 +78,27 @@ impl Linearised {
     /// Solves `(bulk + blocks) x = b` on the free dofs; `x` is zero where fixed. Returns `x` and the Krylov iterations.
     pub fn solve(
         &mut self,
-        matrix: &BlockCsr,
-        fixed: &[bool],
-        blocks: &[ContactBlock],
+        operator: Operator,
         b: &[f64],
         tolerance: f64,
         settings: &Settings,
         statistics: &mut Statistics,
     ) -> Result<(Vec<f64>, usize), StepFailure> {
-        if !self.matches(fixed) {
+        if !self.matches(operator.fixed) {
             self.factor = None;
         }
         let mut spent = 0;
         if self.factor.is_some() && !self.stale {
             let patience = 2 * settings.krylov_patience;
-            let (x, its, done) =
-                self.krylov(matrix, fixed, blocks, b, tolerance, patience, statistics)?;
+            let (x, its, done) = self.krylov(operator, b, tolerance, patience, statistics)?;
             spent += its;
             if done {
                 self.stale = its > settings.krylov_patience;
                 return Ok((x, spent));
             }
         }
-        self.refactor(matrix, fixed, blocks, statistics)
-            .map_err(describe)?;
-        let (x, its, done) = self.krylov(matrix, fixed, blocks, b, tolerance, 200, statistics)?;
+        self.refactor(operator, statistics).map_err(describe)?;
+        let (x, its, done) = self.krylov(operator, b, tolerance, 200, statistics)?;
         spent += its;
         if !done {
             return Err(StepFailure::new(
@@ -105,9 +115,7 @@ impl Linearised {
 
     fn krylov(
         &self,
-        matrix: &BlockCsr,
-        fixed: &[bool],
-        blocks: &[ContactBlock],
+        operator: Operator,
         b: &[f64],
         tolerance: f64,
         most: usize,
@@ -119,7 +127,7 @@ impl Linearised {
         };
         let mut x = vec![0.0; b.len()];
         let report = gmres(
-            &mut |v, out| apply(matrix, fixed, blocks, v, out),
+            &mut |v, out| apply(operator, v, out),
             &mut |v| factor.solve(v),
             b,
             &mut x,
@@ -142,9 +150,9 @@ impl Linearised {
 }
 
 /// `out = (bulk + blocks) v` on the free dofs.
-fn apply(matrix: &BlockCsr, fixed: &[bool], blocks: &[ContactBlock], v: &[f64], out: &mut [f64]) {
-    matrix.mul(v, out);
-    for block in blocks {
+fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
+    operator.matrix.mul(v, out);
+    for block in operator.blocks {
         let n = block.dofs.len();
         for (i, &dof) in block.dofs.iter().enumerate() {
             let row = &block.tangent[i * n..(i + 1) * n];
@@ -155,7 +163,7 @@ fn apply(matrix: &BlockCsr, fixed: &[bool], blocks: &[ContactBlock], v: &[f64], 
                 .sum::<f64>();
         }
     }
-    for (o, &fixed) in out.iter_mut().zip(fixed) {
+    for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
         if fixed {
             *o = 0.0;
         }

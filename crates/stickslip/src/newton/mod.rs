@@ -7,6 +7,6 @@ mod linearised;
 mod settings;
 mod solve;
 
-pub use linearised::Linearised;
+pub use linearised::{Linearised, Operator};
 pub use settings::{Progress, Settings, Statistics};
 pub use solve::{Converged, Newton, System};

@@ -1,6 +1,6 @@
 use std::time::Instant;
 
-use super::linearised::Linearised;
+use super::linearised::{Linearised, Operator};
 use super::settings::{Progress, Settings, Statistics};
 use crate::linear::BlockCsr;
 use crate::system::{
@@ -19,7 +19,7 @@ pub struct System<'a> {
     pub external: Vec<f64>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
-    /// Largest coordinate of the model [m]: what the rounding of a gap is relative to.
+    /// Largest coordinate of the model `[m]`: what the rounding of a gap is relative to.
     pub length: f64,
 }
 
@@ -171,9 +171,11 @@ impl Newton {
                 0.1 * target / norm(&b).max(f64::MIN_POSITIVE)
             };
             let (du, krylov) = self.linearised.solve(
-                system.matrix,
-                &system.constraints.fixed,
-                &out.blocks,
+                Operator {
+                    matrix: system.matrix,
+                    fixed: &system.constraints.fixed,
+                    blocks: &out.blocks,
+                },
                 &b,
                 wanted.clamp(1e-13, loose.max(1e-13)),
                 &settings,

@@ -72,7 +72,7 @@ pub struct Support {
 pub struct Prescribed {
     /// The dof.
     pub dof: usize,
-    /// Displacement [m].
+    /// Displacement `[m]`.
     pub value: f64,
 }
 

@@ -178,7 +178,7 @@ impl Simulation {
                     }
                     let plan = &self.model.output;
                     let last = stepper.next().is_none();
-                    let due = plan.times.iter().any(|&t| t == trial.to)
+                    let due = plan.times.contains(&trial.to)
                         || (plan.every > 0 && increment % plan.every == 0);
                     if last || due {
                         for observer in observers.iter_mut() {
@@ -349,9 +349,8 @@ impl Simulation {
         // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
         let before = self.external(trial.from);
         let mut work = 0.0;
-        for i in 0..at.u.len() {
-            let du = at.u[i] - self.state.u[i];
-            work += 0.5 * (before[i] + accepted.external[i]) * du;
+        for (i, (before, after)) in before.iter().zip(&accepted.external).enumerate() {
+            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
         }
         let fixed = self.constraints(trial.to).fixed;
         for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {

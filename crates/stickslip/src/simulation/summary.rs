@@ -31,7 +31,7 @@ pub struct Summary {
     pub solver: Statistics,
     /// Seconds by phase.
     pub phases: Phases,
-    /// Largest memory of the process [bytes]; 0 if the system does not tell.
+    /// Largest memory of the process `[bytes]`; 0 if the system does not tell.
     pub peak_memory: u64,
     /// Threads used.
     pub threads: usize,
@@ -79,7 +79,7 @@ pub struct Phases {
     pub total: f64,
 }
 
-/// Energies [J] (per unit of thickness or over 2π as the model has it).
+/// Energies `[J]` (per unit of thickness or over 2π as the model has it).
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct EnergyLedger {

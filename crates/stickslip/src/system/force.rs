@@ -42,7 +42,7 @@ pub enum Augmentation {
     Again(f64),
 }
 
-/// Energies of one force [energy]; `dissipated` and `work` are totals since the start of the analysis.
+/// Energies of one force `[energy]`; `dissipated` and `work` are totals since the start of the analysis.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Energy {
     /// Recoverable energy stored now.

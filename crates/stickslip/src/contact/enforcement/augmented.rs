@@ -11,10 +11,10 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct AugmentedLagrangian {
-    /// Largest penetration, and largest false slip of a sticking point, relative to the elastic approach [-]. Default: 10⁻⁴.
+    /// Largest penetration, and largest false slip of a sticking point, relative to the elastic approach `[-]`. Default: 10⁻⁴.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// Stiffness as a multiple of the bodies' own, `M / h` [-]. Default: 1000.
+    /// Stiffness as a multiple of the bodies' own, `M / h` `[-]`. Default: 1000.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
 }

@@ -39,9 +39,9 @@ pub enum Multipliers {
 /// A stiffness per area: given, or as a multiple of the bodies' own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stiffness {
-    /// Multiple of `M / h`, the constrained modulus over the cell size [-].
+    /// Multiple of `M / h`, the constrained modulus over the cell size `[-]`.
     Factor(f64),
-    /// Absolute [Pa/m].
+    /// Absolute `[Pa/m]`.
     Absolute(f64),
 }
 

@@ -9,16 +9,16 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Penalty {
-    /// Stiffness against penetration as a multiple of the bodies' own, `M / h` [-]. Default: 100.
+    /// Stiffness against penetration as a multiple of the bodies' own, `M / h` `[-]`. Default: 100.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// Stiffness against penetration per area [Pa/m], instead of `factor`.
+    /// Stiffness against penetration per area `[Pa/m]`, instead of `factor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
-    /// Stiffness of sticking as a multiple of `M / h` [-]. Default: as against penetration.
+    /// Stiffness of sticking as a multiple of `M / h` `[-]`. Default: as against penetration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_factor: Option<f64>,
-    /// Stiffness of sticking per area [Pa/m], instead of `tangential-factor`.
+    /// Stiffness of sticking per area `[Pa/m]`, instead of `tangential-factor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_stiffness: Option<f64>,
 }

@@ -10,16 +10,16 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PerturbedLagrangian {
-    /// ω against penetration as a multiple of the bodies' own stiffness `M / h` [-]. Default: 10⁴.
+    /// ω against penetration as a multiple of the bodies' own stiffness `M / h` `[-]`. Default: 10⁴.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// ω against penetration per area [Pa/m], instead of `factor`.
+    /// ω against penetration per area `[Pa/m]`, instead of `factor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
-    /// ω of sticking as a multiple of `M / h` [-]. Default: as against penetration.
+    /// ω of sticking as a multiple of `M / h` `[-]`. Default: as against penetration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_factor: Option<f64>,
-    /// ω of sticking per area [Pa/m], instead of `tangential-factor`.
+    /// ω of sticking per area `[Pa/m]`, instead of `tangential-factor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_stiffness: Option<f64>,
 }

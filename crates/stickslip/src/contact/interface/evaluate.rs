@@ -365,8 +365,8 @@ impl Interface {
         hessian(traction.map(|t| -area * t), &mut tangent);
         if !unknown {
             for k in 0..n {
-                for q in 0..3 {
-                    let row = -area * rows[q][k];
+                for (q, row) in rows.iter().enumerate() {
+                    let row = -area * row[k];
                     if row != 0.0 {
                         for l in 0..n {
                             tangent[k * n + l] += row * change(q, l);

@@ -51,7 +51,7 @@ pub struct Interface {
     pub laws: Laws,
     /// How gap and slip are measured.
     pub kinematics: KinematicsModel,
-    /// Velocity of the primary surface beyond the motion of its body, U_T^C, as rows of `[time, vx, vy, vz]` [m/s].
+    /// Velocity of the primary surface beyond the motion of its body, U_T^C, as rows of `[time, vx, vy, vz]` `[m/s]`.
     pub belt: Vec<[f64; 4]>,
     /// When it acts.
     pub schedule: Schedule,
@@ -188,7 +188,7 @@ impl Interface {
         let x = self.reference.clone();
         self.search(&x);
         self.memory.frozen = (0..self.points.len())
-            .map(|i| self.closest(i, &x, None).ok().map(|(f, p)| (f, p)))
+            .map(|i| self.closest(i, &x, None).ok())
             .collect();
     }
 

@@ -9,28 +9,28 @@ use crate::system::{Culprit, Fields, Force, Location, Stage};
 /// Forces of an interface on its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Resultant {
-    /// Sum of pressure forces [N].
+    /// Sum of pressure forces `[N]`.
     pub normal: Vec3,
-    /// Sum of shear forces [N].
+    /// Sum of shear forces `[N]`.
     pub shear: Vec3,
-    /// Centre of pressure [m]; the origin where there is none.
+    /// Centre of pressure `[m]`; the origin where there is none.
     pub centre: Vec3,
-    /// Moment of all forces about the origin [N m].
+    /// Moment of all forces about the origin `[N m]`.
     pub moment: Vec3,
-    /// Area in contact [m²].
+    /// Area in contact `[m²]`.
     pub area: f64,
-    /// Largest pressure [Pa].
+    /// Largest pressure `[Pa]`.
     pub peak: f64,
 }
 
 /// Figures by which a solution can be judged.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct Quality {
-    /// Largest penetration that the normal law did not ask for [m].
+    /// Largest penetration that the normal law did not ask for `[m]`.
     pub penetration: f64,
-    /// The same relative to the height of the cell beneath [-].
+    /// The same relative to the height of the cell beneath `[-]`.
     pub relative_to_size: f64,
-    /// Largest false slip of a sticking point over the last increment [m].
+    /// Largest false slip of a sticking point over the last increment `[m]`.
     pub false_slip: f64,
 }
 
@@ -190,8 +190,8 @@ impl Interface {
         }
         let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);
         for (local, &node) in self.nodes.iter().enumerate() {
-            for c in 0..3 {
-                field.values[3 * node + c] += forces[local][c];
+            for (total, f) in field.values[3 * node..].iter_mut().zip(forces[local]) {
+                *total += f;
             }
         }
     }

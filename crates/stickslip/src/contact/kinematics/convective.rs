@@ -50,17 +50,12 @@ impl Kinematics for Convective {
             let i = &projection.inverse[alpha];
             std::array::from_fn(|c| i[0] * a[0][c] + if d == 2 { i[1] * a[1][c] } else { 0.0 })
         });
-        for i in 0..2 {
-            out.slip[i] = jacobian[i][0] * moved[0] + jacobian[i][1] * moved[1];
+        for (i, row) in jacobian.iter().enumerate() {
+            out.slip[i] = row[0] * moved[0] + row[1] * moved[1];
             out.frame[i] = [0.0; 3];
             for alpha in 0..d {
-                add_scaled_row(
-                    jacobian[i][alpha],
-                    &projection.xi[alpha],
-                    &mut out.rows[i + 1],
-                );
-                out.frame[i] =
-                    crate::math::add_scaled(out.frame[i], jacobian[i][alpha], dual[alpha]);
+                add_scaled_row(row[alpha], &projection.xi[alpha], &mut out.rows[i + 1]);
+                out.frame[i] = crate::math::add_scaled(out.frame[i], row[alpha], dual[alpha]);
             }
         }
     }

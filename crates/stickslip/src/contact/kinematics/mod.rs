@@ -27,11 +27,11 @@ use crate::shape::ElementKind;
 pub struct Stencil {
     /// Number of dofs.
     pub n: usize,
-    /// Gap, positive if open [m].
+    /// Gap, positive if open `[m]`.
     pub gap: f64,
     /// Unit normal out of the primary.
     pub normal: Vec3,
-    /// Slip of the secondary over the primary since the last accepted state, in the two directions of the frame [m].
+    /// Slip of the secondary over the primary since the last accepted state, in the two directions of the frame `[m]`.
     pub slip: [f64; 2],
     /// The two directions, now: the shear traction on the secondary is `t₁ frame₁ + t₂ frame₂`.
     pub frame: [Vec3; 2],

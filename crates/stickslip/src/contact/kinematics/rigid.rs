@@ -37,10 +37,10 @@ pub fn rigid_stencil(
     let frame = tangents(anchor.normal, dim);
     let moved = sub(foot.point, anchor.point);
     spread(point, out.normal, dim, &mut out.rows[0]);
-    for i in 0..2 {
-        out.slip[i] = dot(frame[i], moved);
-        out.frame_before[i] = pose_before.turn(frame[i]);
-        out.frame[i] = pose.turn(mat_vec(&foot.slope, frame[i]));
+    for (i, &direction) in frame.iter().enumerate() {
+        out.slip[i] = dot(direction, moved);
+        out.frame_before[i] = pose_before.turn(direction);
+        out.frame[i] = pose.turn(mat_vec(&foot.slope, direction));
         spread(point, out.frame[i], dim, &mut out.rows[i + 1]);
     }
     if dim == 2 {

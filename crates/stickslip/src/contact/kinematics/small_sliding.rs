@@ -31,9 +31,9 @@ impl Kinematics for SmallSliding {
         out.gap = dot(sub(pair.point, foot.x), foot.normal);
         let moved = sub(pair.point, pair.point_before);
         add_relative(pair, foot.normal, 1.0, &mut out.rows[0]);
-        for i in 0..pair.kind.dim() {
-            out.slip[i] = dot(moved, frame[i]);
-            add_relative(pair, frame[i], 1.0, &mut out.rows[i + 1]);
+        for (i, &direction) in frame.iter().enumerate().take(pair.kind.dim()) {
+            out.slip[i] = dot(moved, direction);
+            add_relative(pair, direction, 1.0, &mut out.rows[i + 1]);
         }
         if pair.kind.dim() == 1 {
             out.slip[1] = 0.0;

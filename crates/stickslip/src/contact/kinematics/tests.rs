@@ -41,7 +41,7 @@ impl Case {
     fn new(kind: ElementKind, seed: u64) -> Self {
         let mut r = Numbers(seed);
         let dim = kind.dim() + 1;
-        let weights = if seed % 2 == 0 {
+        let weights = if seed.is_multiple_of(2) {
             vec![1.0]
         } else {
             vec![0.3, 0.7]

@@ -10,12 +10,12 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Cylinder {
-    /// A point on its axis [m].
+    /// A point on its axis `[m]`.
     pub centre: Vec<f64>,
     /// Direction of its axis; not given in a plane problem.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vec<f64>>,
-    /// Radius [m].
+    /// Radius `[m]`.
     pub radius: f64,
     /// `true` for a bore: the bodies are inside. Default: `false`.
     #[serde(default)]

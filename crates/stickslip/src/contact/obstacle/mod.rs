@@ -15,7 +15,7 @@ use crate::math::{Mat3, Vec3};
 /// The foot of a point on a shape, in the frame of the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
-    /// Signed distance, positive outside the obstacle [m].
+    /// Signed distance, positive outside the obstacle `[m]`.
     pub gap: f64,
     /// Unit normal, out of the obstacle.
     pub normal: Vec3,
@@ -23,7 +23,7 @@ pub struct Foot {
     pub point: Vec3,
     /// `∂foot/∂point`, symmetric.
     pub slope: Mat3,
-    /// `∂normal/∂point`, symmetric [1/m].
+    /// `∂normal/∂point`, symmetric `[1/m]`.
     pub curvature: Mat3,
 }
 
@@ -81,8 +81,8 @@ fn radial_foot(x: Vec3, centre: Vec3, radius: f64, inside: bool, q: &Mat3) -> Op
     use crate::math::{add_scaled, mat_vec, norm, scale, sub};
     let r = mat_vec(q, sub(x, centre));
     let rho = norm(r);
-    // Not `<=`: a NaN has no foot either.
-    if !(rho > 1e-12 * radius) {
+    // A NaN has no foot either.
+    if rho.is_nan() || rho <= 1e-12 * radius {
         return None;
     }
     let e = scale(1.0 / rho, r);
@@ -143,13 +143,13 @@ mod tests {
                 let (a, b) = (at(-h), at(h));
                 let d = |p: f64, q: f64| (q - p) / (2.0 * h);
                 assert!((d(a.gap, b.gap) - foot.normal[j]).abs() < 1e-9, "{shape:?}");
-                for i in 0..3 {
+                for (i, dd) in dd.iter().enumerate() {
                     let close = |value: f64, p: f64, q: f64| {
                         assert!((value - d(p, q)).abs() < 1e-8, "{shape:?}");
                     };
                     close(foot.slope[i][j], a.point[i], b.point[i]);
                     close(foot.curvature[i][j], a.normal[i], b.normal[i]);
-                    close(dd[i][j], slope(&a)[i], slope(&b)[i]);
+                    close(dd[j], slope(&a)[i], slope(&b)[i]);
                 }
             }
         }

@@ -10,7 +10,7 @@ use crate::system::Amplitude;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Motion {
-    /// Rows of `[time, dx, dy]` (plane problems) or `[time, dx, dy, dz]` [m].
+    /// Rows of `[time, dx, dy]` (plane problems) or `[time, dx, dy, dz]` `[m]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub translation: Vec<Vec<f64>>,
     /// Rotation about a fixed axis.
@@ -22,7 +22,7 @@ pub struct Motion {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Rotation {
-    /// A point on the axis [m].
+    /// A point on the axis `[m]`.
     pub centre: Vec<f64>,
     /// Direction of the axis; out of the plane if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]

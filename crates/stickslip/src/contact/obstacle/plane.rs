@@ -9,7 +9,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Plane {
-    /// A point on its surface [m].
+    /// A point on its surface `[m]`.
     pub point: Vec<f64>,
     /// Normal out of it, towards the bodies; need not be a unit vector.
     pub normal: Vec<f64>,

@@ -10,9 +10,9 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Sphere {
-    /// Centre [m].
+    /// Centre `[m]`.
     pub centre: Vec<f64>,
-    /// Radius [m].
+    /// Radius `[m]`.
     pub radius: f64,
     /// `true` for a socket: the bodies are inside. Default: `false`.
     #[serde(default)]

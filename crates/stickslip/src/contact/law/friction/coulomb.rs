@@ -9,9 +9,9 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coulomb {
-    /// Coefficient of friction μ [-].
+    /// Coefficient of friction μ `[-]`.
     pub mu: f64,
-    /// Largest shear traction [Pa], e.g. the shear yield stress. Default: none.
+    /// Largest shear traction `[Pa]`, e.g. the shear yield stress. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cap: Option<f64>,
 }

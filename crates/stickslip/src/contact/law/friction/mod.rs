@@ -11,24 +11,24 @@ pub use power_law::PowerLaw;
 /// What a friction law may depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionPoint {
-    /// Pressure [Pa], not negative.
+    /// Pressure `[Pa]`, not negative.
     pub pressure: f64,
-    /// Penetration `max(0, -gap)` [m].
+    /// Penetration `max(0, -gap)` `[m]`.
     pub penetration: f64,
-    /// Sliding speed [m/s].
+    /// Sliding speed `[m/s]`.
     pub speed: f64,
 }
 
 /// The limit of the shear traction and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limit {
-    /// Limit [Pa], not negative.
+    /// Limit `[Pa]`, not negative.
     pub value: f64,
-    /// Derivative with respect to pressure [-].
+    /// Derivative with respect to pressure `[-]`.
     pub d_pressure: f64,
-    /// Derivative with respect to penetration [Pa/m].
+    /// Derivative with respect to penetration `[Pa/m]`.
     pub d_penetration: f64,
-    /// Derivative with respect to speed [Pa s/m].
+    /// Derivative with respect to speed `[Pa s/m]`.
     pub d_speed: f64,
 }
 

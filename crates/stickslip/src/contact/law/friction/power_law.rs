@@ -12,11 +12,11 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PowerLaw {
-    /// Coefficient c_T [Pa/m^m].
+    /// Coefficient c_T `[Pa/m^m]`.
     pub c: f64,
-    /// Exponent m_T [-], at least 1.
+    /// Exponent m_T `[-]`, at least 1.
     pub m: f64,
-    /// Largest shear traction [Pa]. Default: none.
+    /// Largest shear traction `[Pa]`. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cap: Option<f64>,
 }

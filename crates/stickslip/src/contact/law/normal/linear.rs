@@ -11,7 +11,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Linear {
-    /// Stiffness per area [Pa/m].
+    /// Stiffness per area `[Pa/m]`.
     pub c: f64,
 }
 

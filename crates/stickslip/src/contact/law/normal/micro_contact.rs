@@ -16,15 +16,15 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MicroContact {
-    /// Vickers correlation coefficient c1 [Pa].
+    /// Vickers correlation coefficient c1 `[Pa]`.
     pub c1: f64,
-    /// Vickers size index c2 [-], negative for most metals.
+    /// Vickers size index c2 `[-]`, negative for most metals.
     pub c2: f64,
-    /// Combined root-mean-square roughness σ [m].
+    /// Combined root-mean-square roughness σ `[m]`.
     pub sigma: f64,
-    /// Combined mean absolute asperity slope m [-].
+    /// Combined mean absolute asperity slope m `[-]`.
     pub slope: f64,
-    /// Distance of the mean planes at zero gap [m]. Default: where the asperities just touch, about 5.4 σ.
+    /// Distance of the mean planes at zero gap `[m]`. Default: where the asperities just touch, about 5.4 σ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separation: Option<f64>,
 }
@@ -64,7 +64,7 @@ impl MicroContact {
         })
     }
 
-    /// Pressure [Pa] and `dp/dd` [Pa/m] at a distance `d` [m] of the mean planes.
+    /// Pressure `[Pa]` and `dp/dd` `[Pa/m]` at a distance `d` `[m]` of the mean planes.
     pub fn at_distance(&self, d: f64) -> Slope {
         let d0 = self.inflection();
         if d < d0 {

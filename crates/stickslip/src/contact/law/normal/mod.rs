@@ -16,13 +16,13 @@ use crate::math::Slope;
 
 /// A relation between the gap (positive: open) and the pressure (positive: compression), falling and one-sided.
 pub trait NormalLaw: Send + Sync {
-    /// Pressure [Pa] and its derivative at a gap [m]; `None` where the law is set-valued (unilateral).
+    /// Pressure `[Pa]` and its derivative at a gap `[m]`; `None` where the law is set-valued (unilateral).
     fn pressure(&self, gap: f64) -> Option<Slope>;
 
-    /// The inverse `h(p)`: the gap [m] at a pressure `p > 0` [Pa], and its derivative (not positive).
+    /// The inverse `h(p)`: the gap `[m]` at a pressure `p > 0` `[Pa]`, and its derivative (not positive).
     fn gap(&self, pressure: f64) -> Slope;
 
-    /// Recoverable energy per area [J/m²] at a gap.
+    /// Recoverable energy per area `[J/m²]` at a gap.
     fn energy(&self, gap: f64) -> f64;
 
     /// What is wrong with the parameters, as `(key, message)`; empty if nothing.

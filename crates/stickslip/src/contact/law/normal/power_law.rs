@@ -11,9 +11,9 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PowerLaw {
-    /// Coefficient c_n [Pa/m^m].
+    /// Coefficient c_n `[Pa/m^m]`.
     pub c: f64,
-    /// Exponent m_n [-], at least 1.
+    /// Exponent m_n `[-]`, at least 1.
     pub m: f64,
 }
 

@@ -12,13 +12,13 @@ pub use return_mapping::ReturnMapping;
 /// lengths are measured by `|v|² = v₁² + v₂² + 2 skew v₁ v₂`. It is zero for all other kinematics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tangential {
-    /// Displacement of the secondary relative to the primary surface since the last accepted state [m].
+    /// Displacement of the secondary relative to the primary surface since the last accepted state `[m]`.
     pub slip: [f64; 2],
-    /// Time since then [s].
+    /// Time since then `[s]`.
     pub dt: f64,
-    /// Stiffness of sticking [Pa/m].
+    /// Stiffness of sticking `[Pa/m]`.
     pub stiffness: f64,
-    /// Traction carried over: the committed one, or the multiplier [Pa].
+    /// Traction carried over: the committed one, or the multiplier `[Pa]`.
     pub base: [f64; 2],
     /// Cosine of the angle between the two directions.
     pub skew: f64,
@@ -44,23 +44,23 @@ impl Tangential {
 /// Shear traction on the secondary and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SlipState {
-    /// Traction on the secondary [Pa].
+    /// Traction on the secondary `[Pa]`.
     pub traction: [f64; 2],
-    /// Derivative with respect to the slip [Pa/m], row: traction.
+    /// Derivative with respect to the slip `[Pa/m]`, row: traction.
     pub d_slip: [[f64; 2]; 2],
-    /// Derivative with respect to the limit [-].
+    /// Derivative with respect to the limit `[-]`.
     pub d_limit: [f64; 2],
-    /// Derivative with respect to the skew [Pa].
+    /// Derivative with respect to the skew `[Pa]`.
     pub d_skew: [f64; 2],
     /// The limit is reached.
     pub sliding: bool,
-    /// The irreversible part of the slip [m].
+    /// The irreversible part of the slip `[m]`.
     pub sliding_path: [f64; 2],
 }
 
 /// Turns a limit and a motion into a traction.
 pub trait SlipRule: Send + Sync {
-    /// Traction for a limit [Pa] and a motion.
+    /// Traction for a limit `[Pa]` and a motion.
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState;
 
     /// Whether the rule sticks through a stiffness (and so can be made exact by multipliers).

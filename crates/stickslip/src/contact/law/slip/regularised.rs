@@ -13,7 +13,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Regularised {
-    /// Velocity ε [m/s] above which the full limit acts.
+    /// Velocity ε `[m/s]` above which the full limit acts.
     pub epsilon: f64,
 }
 
@@ -62,11 +62,11 @@ impl SlipRule for Regularised {
             let df = (slope - f) / speed;
             let toward = motion.length_slope(w, speed);
             let d_speed = w[0] * w[1] / speed;
-            for i in 0..2 {
+            for (i, along) in w.iter().enumerate() {
                 for (j, toward) in toward.iter().enumerate() {
-                    state.d_slip[i][j] -= limit * w[i] * df * toward / motion.dt;
+                    state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
                 }
-                state.d_skew[i] = -limit * w[i] * df * d_speed;
+                state.d_skew[i] = -limit * along * df * d_speed;
             }
         }
         state
