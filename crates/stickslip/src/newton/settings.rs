@@ -35,6 +35,8 @@ pub struct Statistics {
     pub iterations: usize,
     /// Multiplier updates.
     pub augmentations: usize,
+    /// Increments reached by continuation from softer friction, after a plain iteration had failed.
+    pub continuations: usize,
     /// Symbolic factorisations.
     pub analyses: usize,
     /// Numeric factorisations.

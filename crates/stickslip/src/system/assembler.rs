@@ -39,6 +39,8 @@ pub struct Assembler {
     pub condensed: Vec<f64>,
     /// Largest multiplier-row residual, as a force, for the convergence test.
     pub multiplier_residual: f64,
+    /// Square of the force that rounding of coordinates may leave, summed over the points.
+    pub rounding: f64,
     /// Tangent blocks; left empty when only a residual is wanted.
     pub blocks: Vec<ContactBlock>,
     /// Whether tangents are wanted.
@@ -60,6 +62,7 @@ impl Assembler {
         self.residual.fill(0.0);
         self.condensed.fill(0.0);
         self.multiplier_residual = 0.0;
+        self.rounding = 0.0;
         self.blocks.clear();
         self.wants_tangent = wants_tangent;
     }

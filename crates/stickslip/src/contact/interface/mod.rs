@@ -77,6 +77,7 @@ pub struct Memory {
     changed: usize,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
     untouched: bool,
+    softening: Option<f64>,
 }
 
 /// Committed history of a contact point.
@@ -269,6 +270,7 @@ impl Force for Interface {
             dofs.clear();
             dofs.extend_from_slice(&e.dofs);
             out.add_residual(&dofs, &e.residual);
+            out.rounding += e.rounding * e.rounding;
             if let Some(saddle) = &e.saddle {
                 let worst = saddle.r_l.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 out.multiplier_residual = out.multiplier_residual.max(worst * self.points[i].area);
@@ -322,6 +324,11 @@ impl Force for Interface {
         Ok(())
     }
 
+    fn soften(&mut self, factor: Option<f64>) -> bool {
+        self.memory.softening = factor;
+        self.laws.friction.as_dyn().frictional()
+    }
+
     fn update_internal(&mut self, du: &[f64], step: f64) {
         if !self.laws.unknown_multipliers() {
             return;
@@ -373,7 +380,9 @@ impl Force for Interface {
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;
         }
-        if worst <= error * approach {
+        let reach = memory.searched_at.iter().chain(&self.reference);
+        let reach = reach.map(|&x| crate::math::norm(x)).fold(0.0, f64::max);
+        if worst <= (error * approach).max(16.0 * f64::EPSILON * reach) {
             Augmentation::Done
         } else {
             Augmentation::Again(worst / (error * approach).max(f64::MIN_POSITIVE))

@@ -22,6 +22,8 @@ pub struct Tangential {
     pub base: [f64; 2],
     /// Cosine of the angle between the two directions.
     pub skew: f64,
+    /// Velocity `[m/s]` over which a regularised rule is smoothed at least; zero but in a continuation.
+    pub smoothing: f64,
 }
 
 impl Tangential {
@@ -98,6 +100,7 @@ mod tests {
             stiffness: 2.0,
             base: [0.11, -0.2],
             skew,
+            smoothing: 0.0,
         }
     }
 
