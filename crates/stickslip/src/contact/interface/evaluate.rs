@@ -10,7 +10,11 @@ use crate::contact::surface::Facet;
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
 
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
-const KEPT: f64 = 0.05;
+const KEPT: f64 = 1e-3;
+
+/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
+/// some 1e-6 of the facet.
+const FLAT: f64 = 1e-5;
 
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 const TOUCHING: f64 = 1e-6;
@@ -154,7 +158,7 @@ impl Interface {
         }
         match (best, kept, previous) {
             // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
-            (Some((_, _, p, true)), Some(k), Some(f)) if dot(p.normal, k.normal) > 1.0 - 1e-12 => {
+            (Some((_, _, p, true)), Some(k), Some(f)) if dot(p.normal, k.normal) > 1.0 - FLAT => {
                 Ok((f, k))
             }
             (Some((_, f, p, true)), ..) => Ok((f, p)),
@@ -178,6 +182,14 @@ impl Interface {
             let previous = self.memory.last.get(i).and_then(|e| e.facet);
             let previous = previous.or(self.memory.committed[i].facet);
             self.closest(i, scene.x, previous)
+        };
+        // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
+        // off until the next increment.
+        let found = match found {
+            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
+                Err(norm(sub(point.position(scene.x), p.x)))
+            }
+            found => found,
         };
         let (f, foot) = match found {
             Ok(found) => found,

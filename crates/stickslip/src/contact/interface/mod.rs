@@ -112,6 +112,9 @@ struct Multiplier {
 struct Flips {
     count: usize,
     last: [Option<Status>; 4],
+    /// Whether it lay over the primary, and how often it has slid off its outer edge.
+    over: bool,
+    left: usize,
 }
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
@@ -302,6 +305,9 @@ impl Force for Interface {
                     flips.count += 1;
                     memory.changed += 1;
                 }
+                let over = e.facet.is_some();
+                flips.left += usize::from(flips.over && !over);
+                flips.over = over;
                 flips.last.rotate_right(1);
                 flips.last[0] = now;
             }
