@@ -89,6 +89,7 @@ examples! {
     flat_punch = "flat-punch",
     greco = "greco",
     greco_compliance = "greco-compliance",
+    lug = "lug",
     patch_friction = "patch-friction",
     patch_matching = "patch-matching",
     patch_taylor = "patch-taylor",

@@ -79,6 +79,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             base: [0.0; 2],
             skew: 0.0,
             smoothing: 0.0,
+            slack: 0.0,
         };
         let shear = -slip.traction(limit, &motion).traction[0];
         text += &format!(

@@ -42,6 +42,8 @@ pub struct Circumstances {
     pub touching: f64,
     /// Slip per limit `[m/Pa]` over which a regularised rule is smoothed at least; zero but in a continuation.
     pub softness: f64,
+    /// Slack of the slip rule, see [`Tangential::slack`].
+    pub slack: f64,
     /// Displacement of the belt since the last accepted state, along the frame `[m]`.
     pub belt: [f64; 2],
 }
@@ -180,6 +182,7 @@ impl Laws {
             },
             skew: stencil.skew,
             smoothing: 0.0,
+            slack: at.slack,
         };
         let path = motion.length(motion.slip);
         let limit = self.friction.as_dyn().limit(&FrictionPoint {

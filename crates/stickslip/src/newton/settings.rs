@@ -30,6 +30,7 @@ impl Default for Settings {
 
 /// Counts over an analysis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Statistics {
     /// Newton iterations.
     pub iterations: usize,

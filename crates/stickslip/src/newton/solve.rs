@@ -226,6 +226,7 @@ impl Newton {
                     matrix: system.matrix,
                     fixed: &system.constraints.fixed,
                     blocks: &out.blocks,
+                    couplings: &out.couplings,
                 },
                 &b,
                 wanted.clamp(1e-13, loose.max(1e-13)),

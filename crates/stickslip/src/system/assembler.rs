@@ -41,6 +41,8 @@ pub struct Assembler {
     pub multiplier_residual: f64,
     /// Square of the force that rounding of coordinates may leave, summed over the points.
     pub rounding: f64,
+    /// Dofs of every point that may come to act, acting or not: what a symbolic factorisation should provide for.
+    pub couplings: Vec<Vec<usize>>,
     /// Tangent blocks; left empty when only a residual is wanted.
     pub blocks: Vec<ContactBlock>,
     /// Whether tangents are wanted.
@@ -64,6 +66,7 @@ impl Assembler {
         self.multiplier_residual = 0.0;
         self.rounding = 0.0;
         self.blocks.clear();
+        self.couplings.clear();
         self.wants_tangent = wants_tangent;
     }
 

@@ -9,6 +9,9 @@ use crate::contact::response::{Circumstances, Response};
 use crate::contact::surface::Facet;
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
 
+/// By how much the first trial traction of an attempt may exceed the limit and count as stick.
+const FIRST_SLACK: f64 = 1e-2;
+
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
 const KEPT: f64 = 1e-3;
 
@@ -312,6 +315,11 @@ impl Interface {
             multiplier: [multiplier.pressure, shear[0], shear[1]],
             centre,
             carried,
+            slack: if scene.tangent && self.memory.flips[i].last[0].is_none() {
+                FIRST_SLACK
+            } else {
+                0.0
+            },
             softness: soft.map_or(0.0, |soft| 1.0 / soft),
             weight: point
                 .stiffness
@@ -358,14 +366,14 @@ impl Interface {
         let r = &e.response;
         let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
-        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
-            return;
-        }
         let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
         for &node in nodes {
             for c in 0..dim {
                 e.dofs.push(self.dofs.of(self.nodes[node], c));
             }
+        }
+        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
+            return;
         }
         e.residual = (0..n)
             .map(|k| {

@@ -267,7 +267,10 @@ impl Force for Interface {
         let unknown = self.laws.unknown_multipliers();
         let mut dofs = Vec::new();
         for (i, e) in evaluations.iter().enumerate() {
-            if e.dofs.is_empty() {
+            if out.wants_tangent && !e.dofs.is_empty() {
+                out.couplings.push(e.dofs.clone());
+            }
+            if e.residual.is_empty() {
                 continue;
             }
             dofs.clear();

@@ -24,6 +24,9 @@ pub struct Tangential {
     pub skew: f64,
     /// Velocity `[m/s]` over which a regularised rule is smoothed at least; zero but in a continuation.
     pub smoothing: f64,
+    /// Fraction by which a trial traction may exceed the limit and still count as stick; zero but in the first iteration of an
+    /// increment, where a point that slid before would otherwise slide or stick by rounding alone.
+    pub slack: f64,
 }
 
 impl Tangential {
@@ -101,6 +104,7 @@ mod tests {
             base: [0.11, -0.2],
             skew,
             smoothing: 0.0,
+            slack: 0.0,
         }
     }
 
