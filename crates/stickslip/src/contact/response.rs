@@ -28,10 +28,15 @@ pub struct Circumstances {
     pub normal_stiffness: f64,
     /// Stiffness of sticking `[Pa/m]`.
     pub tangential_stiffness: f64,
-    /// Multipliers: pressure, and shear traction in the frame. For a perturbed Lagrangian they are the unknowns.
+    /// Multipliers where they are unknowns: pressure, and shear traction in the frame.
     pub multiplier: [f64; 3],
+    /// What the enforcement pulls the multipliers to: zero pressure and the shear carried over in a perturbed Lagrangian, the
+    /// last estimate in an augmented one.
+    pub centre: [f64; 3],
     /// Shear traction carried over from the last accepted state, in the frame.
     pub carried: [f64; 2],
+    /// Stiffness `[Pa/m]` by which a perturbed Lagrangian weighs gaps against multipliers when it decides on status.
+    pub weight: f64,
     /// Slope of the pressure `[Pa/m]` that a point which just touches is given although it carries nothing yet; zero but in the
     /// first iteration of a first contact, when nothing else may hold a body.
     pub touching: f64,
@@ -60,8 +65,8 @@ pub struct Response {
     pub d_gap: [[f64; 3]; 3],
     /// Derivatives with respect to the skew `[Pa]`.
     pub d_skew: [f64; 3],
-    /// Derivatives of the shear with respect to the multiplier of the pressure, for a perturbed Lagrangian `[-]`.
-    pub d_pressure: [f64; 2],
+    /// Derivatives with respect to the multipliers, for a perturbed Lagrangian `[-]`.
+    pub d_multiplier: [[f64; 3]; 3],
     /// Largest shear `[Pa]`.
     pub limit: f64,
     /// Open, stick or slip.
@@ -83,6 +88,11 @@ impl Laws {
         )
     }
 
+    /// Whether the multipliers are unknowns of Newton's iteration.
+    pub fn unknown_multipliers(&self) -> bool {
+        self.enforcement.as_dyn().multipliers() != Multipliers::None
+    }
+
     /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
     pub fn needs_normal_stiffness(&self) -> bool {
         self.normal.as_dyn().pressure(0.0).is_none()
@@ -94,59 +104,81 @@ impl Laws {
     }
 
     /// Evaluates the laws at a stencil.
+    ///
+    /// Where multipliers are unknowns the traction returned is what the multipliers `Σ` have to equal,
+    /// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + (Σ_n - λ_n)/ω` (with λ = 0 the paper's
+    /// `G - Σ/ω`, whose `Σ_n` is negative in compression) and `C_t = s + (Σ_t - λ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
+    /// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
+    /// send points from slip in one direction to slip in the other.
     pub fn respond(&self, stencil: &Stencil, at: &Circumstances) -> Response {
-        let unknown = self.enforcement.as_dyn().multipliers() == Multipliers::Unknown;
-        let augmented = matches!(
-            self.enforcement.as_dyn().multipliers(),
-            Multipliers::Augmented { .. }
-        );
-        let normal: &dyn NormalLaw = self.normal.as_dyn();
-        let held = if augmented { at.multiplier[0] } else { 0.0 };
-        let p = pressure(normal, stencil.gap, held, at.normal_stiffness);
-        let mut response = Response::default();
-        response.traction[0] = p.value;
-        response.d_gap[0][0] = p.slope;
-        if p.value > 0.0 {
-            response.status = Status::Stick;
-        } else if at.touching > 0.0 {
-            let sides = if self.friction.as_dyn().frictional() {
-                3
+        let unknown = self.unknown_multipliers();
+        let mut response = self.press(stencil.gap, at, unknown);
+        let pressure = response.traction[0];
+        let friction: &dyn FrictionLaw = self.friction.as_dyn();
+        if pressure > 0.0 {
+            response.status = if friction.frictional() {
+                Status::Stick
             } else {
-                1
+                Status::Slip
             };
+        } else if at.touching > 0.0 {
+            let sides = if friction.frictional() { 3 } else { 1 };
             for i in 0..sides {
                 response.d_gap[i][i] = -at.touching;
             }
+        }
+        if !friction.frictional() || pressure <= 0.0 {
             return response;
         }
-        let friction: &dyn FrictionLaw = self.friction.as_dyn();
-        // In a perturbed Lagrangian the limit follows the unknown pressure, not the one the gap would give.
-        // While that is still zero the gap has to do, or nothing would hold a point in its first iteration.
-        let unknown = unknown && at.multiplier[0] > 0.0;
-        let pressed = if unknown { at.multiplier[0] } else { p.value };
-        if !friction.frictional() {
-            if p.value > 0.0 {
-                response.status = Status::Slip;
+        self.shear(stencil, at, unknown, &mut response);
+        response
+    }
+
+    /// The normal part: pressure and its derivatives.
+    fn press(&self, gap: f64, at: &Circumstances, unknown: bool) -> Response {
+        let normal: &dyn NormalLaw = self.normal.as_dyn();
+        let mut response = Response::default();
+        if unknown && normal.pressure(gap).is_none() {
+            let keep = 1.0 - at.weight / at.normal_stiffness;
+            let p = keep * at.multiplier[0] + (1.0 - keep) * at.centre[0] - at.weight * gap;
+            if p > 0.0 {
+                response.traction[0] = p;
+                response.d_gap[0][0] = -at.weight;
+                response.d_multiplier[0][0] = keep;
             }
             return response;
         }
-        if pressed <= 0.0 {
-            return response;
-        }
+        let p = pressure(normal, gap, 0.0, at.normal_stiffness);
+        response.traction[0] = p.value;
+        response.d_gap[0][0] = p.slope;
+        response
+    }
+
+    /// The tangential part, added to a response with pressure.
+    fn shear(&self, stencil: &Stencil, at: &Circumstances, unknown: bool, response: &mut Response) {
+        let keep = if unknown && at.tangential_stiffness.is_finite() {
+            1.0 - at.weight / at.tangential_stiffness
+        } else {
+            0.0
+        };
         let motion = Tangential {
             slip: [stencil.slip[0] - at.belt[0], stencil.slip[1] - at.belt[1]],
             dt: at.dt,
-            stiffness: at.tangential_stiffness,
-            base: if augmented {
-                [at.multiplier[1], at.multiplier[2]]
+            stiffness: if unknown {
+                at.weight
+            } else {
+                at.tangential_stiffness
+            },
+            base: if unknown {
+                [1, 2].map(|i| keep * at.multiplier[i] + (1.0 - keep) * at.centre[i])
             } else {
                 at.carried
             },
             skew: stencil.skew,
         };
         let path = motion.length(motion.slip);
-        let limit = friction.limit(&FrictionPoint {
-            pressure: pressed,
+        let limit = self.friction.as_dyn().limit(&FrictionPoint {
+            pressure: response.traction[0],
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
         });
@@ -157,13 +189,13 @@ impl Laws {
         if shear.sliding {
             response.status = Status::Slip;
         }
-        let (own, penetration) = if unknown {
-            (0.0, limit.d_penetration)
-        } else {
-            (limit.d_pressure * p.slope, limit.d_penetration)
-        };
         // penetration = -gap where closed
-        let d_limit_gap = own - if stencil.gap < 0.0 { penetration } else { 0.0 };
+        let d_limit_gap = limit.d_pressure * response.d_gap[0][0]
+            - if stencil.gap < 0.0 {
+                limit.d_penetration
+            } else {
+                0.0
+            };
         let toward = if path > 0.0 && limit.d_speed != 0.0 {
             motion.length_slope(motion.slip, path)
         } else {
@@ -172,17 +204,17 @@ impl Laws {
         for i in 0..2 {
             response.traction[i + 1] = shear.traction[i];
             response.d_gap[i + 1][0] = shear.d_limit[i] * d_limit_gap;
+            response.d_skew[i + 1] = shear.d_skew[i];
+            response.d_multiplier[i + 1][0] =
+                shear.d_limit[i] * limit.d_pressure * response.d_multiplier[0][0];
             for (j, toward) in toward.iter().enumerate() {
                 response.d_gap[i + 1][j + 1] =
                     shear.d_slip[i][j] + shear.d_limit[i] * limit.d_speed * toward / at.dt;
+                if keep != 0.0 && rule.sticks() {
+                    // the trial traction is keep Σ_t + … - r s
+                    response.d_multiplier[i + 1][j + 1] = -keep * shear.d_slip[i][j] / at.weight;
+                }
             }
-            response.d_skew[i + 1] = shear.d_skew[i];
-            response.d_pressure[i] = if unknown {
-                shear.d_limit[i] * limit.d_pressure
-            } else {
-                0.0
-            };
         }
-        response
     }
 }

@@ -168,7 +168,7 @@ impl Newton {
             let wanted = if iteration == 0 || tally(system).changed > 0 {
                 loose
             } else {
-                0.1 * target / balance.norm.max(multipliers).max(f64::MIN_POSITIVE)
+                0.1 * target / norm(&b).max(f64::MIN_POSITIVE)
             };
             let (du, krylov) = self.linearised.solve(
                 Operator {
@@ -183,6 +183,14 @@ impl Newton {
             )?;
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);
+            // Status may have to change against the residual: at first only a step that makes it much worse is shortened.
+            // Once three iterations have gained nothing, points are going to and fro, and every step has to gain.
+            let stuck = iteration >= 4 && relative > 0.5 * residuals[iteration - 3];
+            let patience = match (stuck, iteration < 4) {
+                (true, _) => 0.99,
+                (false, true) => 1e3,
+                (false, false) => 10.0,
+            };
             let start = at.u.clone();
             let mut step = 1.0;
             let mut best: Option<(f64, f64)> = None;
@@ -199,8 +207,6 @@ impl Newton {
                 if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
                     best = Some((now, step));
                 }
-                // The active set may have to change against the residual: only a step that makes it much worse is shortened.
-                let patience = if iteration < 4 { 1e3 } else { 10.0 };
                 if now <= patience * before || halvings == settings.line_search {
                     break;
                 }
@@ -308,6 +314,10 @@ impl Newton {
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
 
 fn tally(system: &System) -> Tally {
     let mut all = Tally::default();

@@ -311,7 +311,7 @@ impl Simulation {
             at.u.iter()
                 .zip(&self.state.u)
                 .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        if change > self.model.largest_change * self.length {
+        if change > self.model.largest_change * self.model.mesh.diameter() {
             return Err(StepFailure::new(
                 Cause::TooFar,
                 format!(

@@ -5,8 +5,8 @@
 //! `gap - h(p) + (p - λ)/ω = 0`,
 //!
 //! with `h` the gap of the normal law at a pressure and ω a stiffness per area. *Penalty*: `λ = 0`. *Perturbed Lagrangian*: the
-//! same with the pressure kept as an unknown of Newton's iteration. *Augmented Lagrangian*: λ is the last pressure, updated
-//! until `gap = h(λ)` to a stated error. A compliant law needs no help: with `ω = ∞` its own curve is followed.
+//! same with the pressure kept as an unknown of Newton's iteration. *Augmented Lagrangian*: the pressure is an unknown as well, and λ
+//! its last estimate, updated until `gap = h(p)` to a stated error. A compliant law needs no help: with `ω = ∞` its own curve is followed.
 //!
 //! ω is a dimensionless factor times the stiffness of the bodies beside the interface over the size of their cells, so
 //! neither the units nor the mesh change how stiff it is.
@@ -33,8 +33,6 @@ pub enum Multipliers {
     Augmented {
         /// Largest violation relative to the elastic approach.
         error: f64,
-        /// Most updates in an increment.
-        rounds: usize,
     },
 }
 

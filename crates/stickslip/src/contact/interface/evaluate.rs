@@ -1,12 +1,13 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
 use super::{Interface, Primary, SaddleRows};
+use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
 use crate::contact::obstacle::Pose;
 use crate::contact::pairing::{FacetPoint, beyond, facet_distance, project};
 use crate::contact::response::{Circumstances, Response};
 use crate::contact::surface::Facet;
-use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
 
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 const TOUCHING: f64 = 1e-6;
@@ -46,7 +47,7 @@ pub(super) struct Evaluation {
     pub tangential_stiffness: f64,
     /// Shear traction at the last accepted state, in the frame.
     pub carried: [f64; 2],
-    /// Multipliers as components in the frame, for a perturbed Lagrangian.
+    /// Multipliers as components in the frame, where they are unknowns.
     pub multiplier: [f64; 3],
 }
 
@@ -268,12 +269,25 @@ impl Interface {
         };
         let multiplier = &self.memory.multipliers[i];
         let shear = components(multiplier.shear, &stencil.frame_before, dim);
+        let carried = components(self.memory.committed[i].shear, &stencil.frame_before, dim);
+        let centre = match enforcement.multipliers() {
+            Multipliers::Augmented { .. } => {
+                let t = components(multiplier.centre_shear, &stencil.frame_before, dim);
+                [multiplier.centre_pressure, t[0], t[1]]
+            }
+            _ => [0.0, carried[0], carried[1]],
+        };
         let at = Circumstances {
             dt: scene.dt,
             normal_stiffness,
             tangential_stiffness,
             multiplier: [multiplier.pressure, shear[0], shear[1]],
-            carried: components(self.memory.committed[i].shear, &stencil.frame_before, dim),
+            centre,
+            carried,
+            weight: point
+                .stiffness
+                .min(normal_stiffness)
+                .min(tangential_stiffness),
             touching: if self.memory.untouched && stencil.gap <= TOUCHING * point.size {
                 point.stiffness
             } else {
@@ -313,7 +327,7 @@ impl Interface {
         hessian: impl FnOnce([f64; 3], &mut [f64]),
     ) {
         let r = &e.response;
-        let unknown = self.unknown_multipliers();
+        let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
@@ -361,7 +375,12 @@ impl Interface {
                 }
             }
         }
-        let d = &r.d_gap;
+        // With multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
+        let condensed = e
+            .saddle
+            .as_ref()
+            .map(|s| condensed_slope(&s.k_ll_inverse, &r.d_gap));
+        let d = condensed.as_ref().unwrap_or(&r.d_gap);
         let [t11, t22, t12] = positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]);
         let normal = (-d[0][0]).max(0.0);
         let mut surrogate = vec![0.0; n * n];
@@ -381,9 +400,15 @@ impl Interface {
     }
 }
 
-/// The multiplier rows `λ - T(gap, λ) = 0` of a perturbed Lagrangian.
-///
-/// For a linear law the first row is `λ + ω g = 0`, the paper's `G - Σ/ω = 0` (its `Σ_n` is `-λ`) times `-ω`.
+/// `K_ll⁻¹ ∂T/∂gap`: the slope of the multipliers after their elimination.
+fn condensed_slope(inverse: &[f64], d_gap: &Mat3) -> Mat3 {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..3).map(|k| inverse[3 * i + k] * d_gap[k][j]).sum())
+    })
+}
+
+/// The multiplier rows `Σ - T(gap, Σ) = 0`; in contact and stick they are the paper's `G - Σ/ω = 0`, up to a
+/// factor.
 fn saddle(
     r: &Response,
     multiplier: [f64; 3],
@@ -400,12 +425,16 @@ fn saddle(
             k_lu[q * n + k] = -change(q, k);
         }
     }
-    // K_ll = I - ∂T/∂λ, whose only entries off the diagonal are those of the limit: its inverse flips their sign.
-    let p = r.d_pressure;
+    // K_ll = I - ∂T/∂Σ
+    let k_ll: Mat3 = std::array::from_fn(|i| {
+        std::array::from_fn(|j| (if i == j { 1.0 } else { 0.0 }) - r.d_multiplier[i][j])
+    });
+    // It is 1/ω times the weight in contact, and the unit matrix where open: never singular for a finite ω.
+    let inverse = inverse(&k_ll).map_or(identity(), |(m, _)| m);
     SaddleRows {
         k_ul,
         k_lu,
-        k_ll_inverse: vec![1.0, 0.0, 0.0, p[0], 1.0, 0.0, p[1], 0.0, 1.0],
+        k_ll_inverse: inverse.concat(),
         r_l: (0..3).map(|q| multiplier[q] - r.traction[q]).collect(),
     }
 }

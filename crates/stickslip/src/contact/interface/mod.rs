@@ -98,10 +98,12 @@ struct History {
 struct Multiplier {
     pressure: f64,
     shear: Vec3,
-    /// The same as components, at the last tangent; a perturbed Lagrangian steps from here.
+    /// What an augmented Lagrangian pulls them to: the estimate of the last round.
+    centre_pressure: f64,
+    centre_shear: Vec3,
+    /// The same as components, at the last tangent: Newton steps from here.
     base: [f64; 3],
     frame: [Vec3; 2],
-    step: [f64; 3],
 }
 
 /// Status changes of a point over the iterations of an attempt.
@@ -214,10 +216,6 @@ impl Interface {
             })
             .collect()
     }
-
-    fn unknown_multipliers(&self) -> bool {
-        self.laws.enforcement.as_dyn().multipliers() == Multipliers::Unknown
-    }
 }
 
 impl Force for Interface {
@@ -246,6 +244,8 @@ impl Force for Interface {
             *m = Multiplier {
                 pressure: h.pressure,
                 shear: h.shear,
+                centre_pressure: h.pressure,
+                centre_shear: h.shear,
                 ..Multiplier::default()
             };
         }
@@ -260,7 +260,7 @@ impl Force for Interface {
             return Ok(());
         }
         let evaluations = self.evaluate_all(stage, out.wants_tangent);
-        let unknown = self.unknown_multipliers();
+        let unknown = self.laws.unknown_multipliers();
         let mut dofs = Vec::new();
         for (i, e) in evaluations.iter().enumerate() {
             if e.dofs.is_empty() {
@@ -307,7 +307,6 @@ impl Force for Interface {
                 for (m, e) in memory.multipliers.iter_mut().zip(&evaluations) {
                     m.base = e.multiplier;
                     m.frame = e.frame_before;
-                    m.step = [0.0; 3];
                 }
             }
         }
@@ -324,7 +323,7 @@ impl Force for Interface {
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
-        if !self.unknown_multipliers() {
+        if !self.laws.unknown_multipliers() {
             return;
         }
         let memory = &mut self.memory;
@@ -349,8 +348,7 @@ impl Force for Interface {
     }
 
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
-        let Multipliers::Augmented { error, .. } = self.laws.enforcement.as_dyn().multipliers()
-        else {
+        let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
             return Augmentation::Done;
         };
         let memory = &mut self.memory;
@@ -365,14 +363,15 @@ impl Force for Interface {
         for (m, e) in memory.multipliers.iter_mut().zip(&memory.last) {
             let r = &e.response;
             if e.normal_stiffness.is_finite() {
-                worst = worst.max((r.traction[0] - m.pressure).abs() / e.normal_stiffness);
-                m.pressure = r.traction[0];
+                let change = (r.traction[0] - m.centre_pressure).abs();
+                worst = worst.max(change / e.normal_stiffness);
             }
             let shear = e.along(&e.frame_before);
             if r.status == Status::Stick && e.tangential_stiffness.is_finite() {
-                worst = worst.max(distance(shear, m.shear) / e.tangential_stiffness);
+                worst = worst.max(distance(shear, m.centre_shear) / e.tangential_stiffness);
             }
-            m.shear = shear;
+            m.centre_pressure = r.traction[0];
+            m.centre_shear = shear;
         }
         if worst <= error * approach {
             Augmentation::Done
