@@ -2,7 +2,7 @@
 //!
 //! | stage | file | knows |
 //! |---|---|---|
-//! | surface | `surface.rs` | points of the secondary with their areas, facets of the primary |
+//! | surface | `surface.rs`, `crossing.rs` | points of the secondary with their areas, facets of the primary; whether they run through themselves |
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
 //! | search | `search.rs` | which facets a point may meet |
 //! | pairing | `pairing.rs` | the projection of a point on a facet |
@@ -11,6 +11,7 @@
 //! | response | `response.rs` | traction and its derivatives in the frame of the stencil |
 //! | interface | `interface/` | the only place that scatters into residual and tangent |
 
+pub mod crossing;
 pub mod enforcement;
 pub mod interface;
 pub mod kinematics;

@@ -63,7 +63,7 @@ pub struct Progress {
     pub iteration: usize,
     /// Multiplier update, from 0.
     pub round: usize,
-    /// Out-of-balance force relative to the forces in play, before the step.
+    /// Out-of-balance force relative to the forces in play, before the step; the larger one of displacements and multipliers.
     pub residual: f64,
     /// Step length taken.
     pub step: f64,

@@ -235,6 +235,7 @@ impl Newton {
             )?;
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);
+            let reported = before / balance.scale.max(f64::MIN_POSITIVE);
             // Status may have to change against the residual: at first only a step that makes it much worse is shortened.
             // Once three iterations have gained nothing, points are going to and fro, and every step has to gain.
             let stuck = iteration >= 4 && relative > 0.5 * residuals[iteration - 3];
@@ -286,7 +287,7 @@ impl Newton {
             log(&Progress {
                 iteration,
                 round,
-                residual: relative,
+                residual: reported,
                 step,
                 krylov,
                 tally: tally(system),

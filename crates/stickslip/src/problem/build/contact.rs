@@ -7,6 +7,7 @@ use super::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
+use crate::contact::crossing::crossing;
 use crate::contact::interface::{Interface, Memory, Primary};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -38,6 +39,7 @@ pub(super) fn build(
     for (name, table) in &problem.interface {
         let key = format!("interface.{name}");
         let secondary = sets.facets(&table.secondary, &format!("{key}.secondary"))?;
+        surfaces.simple(&format!("{key}.secondary"), &secondary)?;
         let mut numbering = Numbering::default();
         let kinematics = table.kinematics.as_dyn();
         let primary = match problem.obstacle.get(&table.primary) {
@@ -48,6 +50,7 @@ pub(super) fn build(
             None => {
                 let facets = sets.facets(&table.primary, &format!("{key}.primary"))?;
                 surfaces.disjoint(&key, &secondary, &facets)?;
+                surfaces.simple(&format!("{key}.primary"), &facets)?;
                 let mut facets = surfaces.facets(&facets, &mut numbering);
                 if kinematics.triangles() || table.facets == Some(FacetShape::Triangles) {
                     facets = triangulate(facets);
@@ -275,6 +278,43 @@ impl Surfaces<'_> {
             }
         }
         out
+    }
+
+    /// No facet of a surface runs through another.
+    fn simple(&self, key: &str, facets: &[FacetRef]) -> Result<(), Error> {
+        let mut numbering = Numbering::default();
+        let surface = self.facets(facets, &mut numbering);
+        let x = self.coordinates(&numbering.nodes);
+        let Some((i, j)) = crossing(&surface, &x) else {
+            return Ok(());
+        };
+        let cell = |k: usize| {
+            let body = self
+                .bodies
+                .iter()
+                .find(|b| b.blocks.contains(&facets[k].cell.block));
+            format!(
+                "cell {} of body {}",
+                surface[k].cell,
+                body.map_or("?", |b| b.name.as_str())
+            )
+        };
+        let at = x[surface[i].nodes[0]];
+        let at: Vec<String> = at[..self.space.dim()].iter().map(f64::to_string).collect();
+        Err(problem_error(vec![
+            Diagnostic::new(
+                key,
+                format!(
+                    "the surface runs through itself: at {} and {}, near ({})",
+                    cell(i),
+                    cell(j),
+                    at.join(", ")
+                ),
+            )
+            .help(
+                "mend the mesh there, or make the set smaller; two surfaces that overlap belong on the two sides of an interface",
+            ),
+        ]))
     }
 
     fn disjoint(
