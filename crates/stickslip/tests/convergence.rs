@@ -307,7 +307,9 @@ fn examine(problem: &Problem) -> Verdict {
         }
     };
     for (iterations, row) in &record.increments {
-        for sequence in iterations.chunk_by(|a, b| a.round == b.round) {
+        // A new round of multipliers, or a new level of a continuation after the plain iteration had failed, starts afresh.
+        for sequence in iterations.chunk_by(|a, b| a.round == b.round && a.iteration < b.iteration)
+        {
             let mut residuals: Vec<f64> = sequence.iter().map(|p| p.residual).collect();
             let changed: Vec<bool> = sequence.iter().map(|p| p.tally.changed > 0).collect();
             // The residual after the last step of a round is below the tolerance, or rounding.

@@ -13,6 +13,8 @@ pub struct System<'a> {
     pub dofs: Dofs,
     /// The bulk, over all dofs.
     pub matrix: &'a BlockCsr,
+    /// Its diagonal, by which the rounding of bulk forces is judged.
+    pub diagonal: &'a [f64],
     /// The interfaces.
     pub contact: Vec<&'a mut dyn Force>,
     /// External forces at the time of evaluation.
@@ -54,7 +56,7 @@ struct Balance {
     norm: f64,
     /// Size of the forces in play.
     scale: f64,
-    /// What rounding leaves of the contact forces.
+    /// What rounding leaves of the forces.
     floor: f64,
 }
 
@@ -337,6 +339,7 @@ impl Newton {
         let mut forces = vec![0.0; at.u.len()];
         system.matrix.mul(&at.u, &mut forces);
         let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
+        let mut bulk = 0.0;
         for (i, f) in forces.iter_mut().enumerate() {
             if system.constraints.fixed[i] {
                 internal += *f * *f;
@@ -345,6 +348,7 @@ impl Newton {
             external += system.external[i] * system.external[i];
             contact += out.residual[i] * out.residual[i];
             if !system.constraints.fixed[i] {
+                bulk += (4.0 * f64::EPSILON * system.diagonal[i] * at.u[i]).powi(2);
                 norm += *f * *f;
             }
         }
@@ -353,7 +357,7 @@ impl Newton {
             forces,
             norm: norm.sqrt(),
             scale,
-            floor: out.rounding.sqrt(),
+            floor: (out.rounding + bulk).sqrt(),
         })
     }
 }

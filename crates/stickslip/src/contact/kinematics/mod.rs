@@ -43,6 +43,8 @@ pub struct Stencil {
     pub rows: [Vec<f64>; 3],
     /// Gradient of the skew; empty where it is zero.
     pub skew_row: Vec<f64>,
+    /// Size of the coordinates from which the gap is a difference `[m]`: what its rounding is relative to.
+    pub reach: f64,
 }
 
 impl Stencil {
