@@ -84,5 +84,15 @@ macro_rules! examples {
 }
 
 examples! {
+    block_limits = "block-limits",
+    compliance_bar = "compliance-bar",
+    flat_punch = "flat-punch",
     greco = "greco",
+    greco_compliance = "greco-compliance",
+    lug = "lug",
+    patch_friction = "patch-friction",
+    patch_matching = "patch-matching",
+    patch_taylor = "patch-taylor",
+    press_and_slide = "press-and-slide",
+    shear_lag = "shear-lag",
 }

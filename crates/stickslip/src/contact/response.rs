@@ -40,6 +40,10 @@ pub struct Circumstances {
     /// Slope of the pressure `[Pa/m]` that a point which just touches is given although it carries nothing yet; zero but in the
     /// first iteration of a first contact, when nothing else may hold a body.
     pub touching: f64,
+    /// Slip per limit `[m/Pa]` over which a regularised rule is smoothed at least; zero but in a continuation.
+    pub softness: f64,
+    /// Slack of the slip rule, see [`Tangential::slack`].
+    pub slack: f64,
     /// Displacement of the belt since the last accepted state, along the frame `[m]`.
     pub belt: [f64; 2],
 }
@@ -90,7 +94,9 @@ impl Laws {
 
     /// Whether the multipliers are unknowns of Newton's iteration.
     pub fn unknown_multipliers(&self) -> bool {
+        // Where the laws themselves say pressure and shear there is nothing to enforce.
         self.enforcement.as_dyn().multipliers() != Multipliers::None
+            && (self.needs_normal_stiffness() || self.needs_tangential_stiffness())
     }
 
     /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
@@ -175,6 +181,8 @@ impl Laws {
                 at.carried
             },
             skew: stencil.skew,
+            smoothing: 0.0,
+            slack: at.slack,
         };
         let path = motion.length(motion.slip);
         let limit = self.friction.as_dyn().limit(&FrictionPoint {
@@ -182,6 +190,10 @@ impl Laws {
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
         });
+        let motion = Tangential {
+            smoothing: at.softness * limit.value / at.dt,
+            ..motion
+        };
         let rule: &dyn SlipRule = self.slip.as_dyn();
         let shear = rule.traction(limit.value, &motion);
         response.limit = limit.value;

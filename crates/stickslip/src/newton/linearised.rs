@@ -16,6 +16,8 @@ pub struct Operator<'a> {
     pub fixed: &'a [bool],
     /// Contact points.
     pub blocks: &'a [ContactBlock],
+    /// Dofs that may come to be coupled by contact, for the symbolic factorisation.
+    pub couplings: &'a [Vec<usize>],
 }
 
 /// A symmetric positive definite factor that outlives the state it was made at.
@@ -44,6 +46,7 @@ impl Linearised {
             matrix,
             fixed,
             blocks,
+            couplings,
         } = operator;
         let started = Instant::now();
         let covered = self.matches(fixed)
@@ -52,8 +55,7 @@ impl Linearised {
                 .as_ref()
                 .is_some_and(|s| blocks.iter().all(|b| s.covers(&b.dofs)));
         if !covered {
-            let extra: Vec<Vec<usize>> = blocks.iter().map(|b| b.dofs.clone()).collect();
-            let symbolic = Symbolic::analyze(matrix, fixed, &extra)?;
+            let symbolic = Symbolic::analyze(matrix, fixed, couplings)?;
             statistics.analyses += 1;
             statistics.factor_nonzeros = symbolic.factor_nonzeros();
             self.symbolic = Some(Arc::new(symbolic));

@@ -30,11 +30,14 @@ impl Default for Settings {
 
 /// Counts over an analysis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Statistics {
     /// Newton iterations.
     pub iterations: usize,
     /// Multiplier updates.
     pub augmentations: usize,
+    /// Increments reached by continuation from softer friction, after a plain iteration had failed.
+    pub continuations: usize,
     /// Symbolic factorisations.
     pub analyses: usize,
     /// Numeric factorisations.

@@ -19,8 +19,6 @@ pub struct System<'a> {
     pub external: Vec<f64>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
-    /// Largest coordinate of the model `[m]`: what the rounding of a gap is relative to.
-    pub length: f64,
 }
 
 /// An equilibrium.
@@ -88,9 +86,62 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);
+        let guess = at.u.clone();
         for force in &mut system.contact {
             force.begin();
         }
+        let failure = match self.rounds(system, from, at, log) {
+            Err(failure) if failure.cause != Cause::NotFinite => failure,
+            outcome => return outcome,
+        };
+        // Continuation: stick that yields like the bodies first, then ever more stiffly, each from the solution before.
+        at.u = guess;
+        let mut softened = false;
+        for force in &mut system.contact {
+            force.begin();
+            softened |= force.soften(Some(1.0));
+        }
+        if !softened {
+            return Err(failure);
+        }
+        self.statistics.continuations += 1;
+        let outcome = self.continuation(system, from, at, log);
+        for force in &mut system.contact {
+            force.soften(None);
+        }
+        outcome.map_err(|_| failure)
+    }
+
+    fn continuation(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
+        let mut iterations = 0;
+        for factor in [1.0, 3.0, 1e1, 3e1, 1e2, 3e2, 1e3, 3e3, 1e4, 3e4] {
+            for force in &mut system.contact {
+                force.soften(Some(factor));
+            }
+            iterations += self.equilibrium(system, from, at, 0, log)?.iterations;
+        }
+        for force in &mut system.contact {
+            force.soften(None);
+        }
+        let mut converged = self.rounds(system, from, at, log)?;
+        converged.iterations += iterations;
+        Ok(converged)
+    }
+
+    /// Equilibrium, then multiplier updates until they settle.
+    fn rounds(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
         let mut total = 0;
         let mut round = 0;
         loop {
@@ -175,6 +226,7 @@ impl Newton {
                     matrix: system.matrix,
                     fixed: &system.constraints.fixed,
                     blocks: &out.blocks,
+                    couplings: &out.couplings,
                 },
                 &b,
                 wanted.clamp(1e-13, loose.max(1e-13)),
@@ -297,18 +349,11 @@ impl Newton {
             }
         }
         let scale = f64::max(internal, f64::max(external, contact)).sqrt();
-        let mut stiffness = 0.0;
-        for block in &out.blocks {
-            let n = block.dofs.len();
-            stiffness += (0..n)
-                .map(|i| block.surrogate[i * n + i].powi(2))
-                .sum::<f64>();
-        }
         Ok(Balance {
             forces,
             norm: norm.sqrt(),
             scale,
-            floor: 4.0 * f64::EPSILON * system.length * stiffness.sqrt(),
+            floor: out.rounding.sqrt(),
         })
     }
 }

@@ -26,7 +26,6 @@ pub struct Simulation {
     held: BTreeMap<String, Vec<f64>>,
     released: Vec<(usize, f64)>,
     step: usize,
-    length: f64,
     started: Instant,
 }
 
@@ -69,12 +68,6 @@ impl Simulation {
             force.stiffness(&mut matrix).map_err(|e| e.at(0.0))?;
         }
         let n = model.dofs.count();
-        let length = model
-            .mesh
-            .points
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |m, x| m.max(x.abs()));
         let newton = Newton::new(model.settings);
         let mut simulation = Simulation {
             state: State {
@@ -90,7 +83,6 @@ impl Simulation {
             held: BTreeMap::new(),
             released: Vec::new(),
             step: 0,
-            length,
             started,
             model,
         };
@@ -172,6 +164,10 @@ impl Simulation {
                     increment += 1;
                     let row = self.accept(trial, state, forces, &accepted, increment, attempt);
                     stepper.accept(trial, accepted.iterations);
+                    if step.milestones.contains(&trial.to) {
+                        // Tables have their corners here.
+                        self.previous = None;
+                    }
                     attempt = 1;
                     for observer in observers.iter_mut() {
                         observer.see(self, Event::Increment(&row))?;
@@ -193,8 +189,9 @@ impl Simulation {
                         "{} ({:.6e} to {:.6e}): {}",
                         step.name, trial.from, trial.to, failure.message
                     ));
-                    let hopeless = failure.cause == Cause::Singular;
-                    if hopeless || !stepper.reject(trial) {
+                    // What the last increment did is no guide any more.
+                    self.previous = None;
+                    if !stepper.reject(trial) {
                         return Err(self.give_up(failure).into());
                     }
                     for observer in observers.iter_mut() {
@@ -208,7 +205,7 @@ impl Simulation {
 
     fn give_up(&self, failure: StepFailure) -> RunError {
         if failure.cause == Cause::Singular {
-            let modes = diagnosis::free_modes(self, self.state.t);
+            let modes = diagnosis::free_modes(self, self.model.steps[self.step].end);
             return diagnosis::explain_singular(self, &failure, &modes);
         }
         let message = format!(
@@ -282,7 +279,6 @@ impl Simulation {
                 newton,
                 matrix,
                 state,
-                length,
                 ..
             } = self;
             let contact = model
@@ -296,7 +292,6 @@ impl Simulation {
                 contact,
                 external: external.clone(),
                 constraints,
-                length: *length,
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
         };

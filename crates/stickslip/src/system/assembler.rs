@@ -39,6 +39,10 @@ pub struct Assembler {
     pub condensed: Vec<f64>,
     /// Largest multiplier-row residual, as a force, for the convergence test.
     pub multiplier_residual: f64,
+    /// Square of the force that rounding of coordinates may leave, summed over the points.
+    pub rounding: f64,
+    /// Dofs of every point that may come to act, acting or not: what a symbolic factorisation should provide for.
+    pub couplings: Vec<Vec<usize>>,
     /// Tangent blocks; left empty when only a residual is wanted.
     pub blocks: Vec<ContactBlock>,
     /// Whether tangents are wanted.
@@ -60,7 +64,9 @@ impl Assembler {
         self.residual.fill(0.0);
         self.condensed.fill(0.0);
         self.multiplier_residual = 0.0;
+        self.rounding = 0.0;
         self.blocks.clear();
+        self.couplings.clear();
         self.wants_tangent = wants_tangent;
     }
 

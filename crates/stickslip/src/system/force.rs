@@ -93,6 +93,12 @@ pub trait Force: Send {
     /// Tells a force with unknowns of its own (multipliers) the Newton increment `step · du` that was accepted.
     fn update_internal(&mut self, _du: &[f64], _step: f64) {}
 
+    /// Makes stick and slip change hands more gently, by a factor of at least 1 (a hundred: close to the force's own law; `None`: the
+    /// law itself), for a solution that is approached by continuation. `false` if there is nothing to soften.
+    fn soften(&mut self, _factor: Option<f64>) -> bool {
+        false
+    }
+
     /// Multiplier update between equilibrium solves.
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         Augmentation::Done

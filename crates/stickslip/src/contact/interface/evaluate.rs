@@ -9,6 +9,16 @@ use crate::contact::response::{Circumstances, Response};
 use crate::contact::surface::Facet;
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
 
+/// By how much the first trial traction of an attempt may exceed the limit and count as stick.
+const FIRST_SLACK: f64 = 1e-2;
+
+/// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
+const KEPT: f64 = 1e-3;
+
+/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
+/// some 1e-6 of the facet.
+const FLAT: f64 = 1e-5;
+
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 const TOUCHING: f64 = 1e-6;
 
@@ -32,6 +42,8 @@ pub(super) struct Evaluation {
     pub tangent: Vec<f64>,
     pub surrogate: Vec<f64>,
     pub saddle: Option<SaddleRows>,
+    /// Force that rounding may leave.
+    pub rounding: f64,
     pub response: Response,
     pub gap: f64,
     pub normal: Vec3,
@@ -108,6 +120,7 @@ impl Interface {
         let position = point.position(x);
         let mut best: Option<(f64, usize, FacetPoint, bool)> = None;
         let mut nearest = f64::INFINITY;
+        let mut kept: Option<FacetPoint> = None;
         let mut nodes = [[0.0; 3]; crate::contact::pairing::FACET_NODES];
         for &f in &self.memory.candidates[i] {
             let facet = &facets[f];
@@ -126,6 +139,9 @@ impl Interface {
             let away = facet_distance(position, &p, over);
             nearest = nearest.min(away);
             let carried = over.distance <= self.edge_tolerance * size || facet.continues[over.edge];
+            if previous == Some(f) && carried && over.distance <= KEPT * size {
+                kept = Some(p);
+            }
             let better = match &best {
                 None => true,
                 Some((d, b, _, was_carried)) => {
@@ -143,8 +159,12 @@ impl Interface {
                 best = Some((away, f, p, carried));
             }
         }
-        match best {
-            Some((_, f, p, true)) => Ok((f, p)),
+        match (best, kept, previous) {
+            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
+            (Some((_, _, p, true)), Some(k), Some(f)) if dot(p.normal, k.normal) > 1.0 - FLAT => {
+                Ok((f, k))
+            }
+            (Some((_, f, p, true)), ..) => Ok((f, p)),
             _ => Err(nearest),
         }
     }
@@ -165,6 +185,14 @@ impl Interface {
             let previous = self.memory.last.get(i).and_then(|e| e.facet);
             let previous = previous.or(self.memory.committed[i].facet);
             self.closest(i, scene.x, previous)
+        };
+        // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
+        // off until the next increment.
+        let found = match found {
+            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
+                Err(norm(sub(point.position(scene.x), p.x)))
+            }
+            found => found,
         };
         let (f, foot) = match found {
             Ok(found) => found,
@@ -268,6 +296,9 @@ impl Interface {
             f64::INFINITY
         };
         let multiplier = &self.memory.multipliers[i];
+        // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
+        let soft = self.memory.softening.map(|factor| factor * point.stiffness);
+        let tangential_stiffness = tangential_stiffness.min(soft.unwrap_or(f64::INFINITY));
         let shear = components(multiplier.shear, &stencil.frame_before, dim);
         let carried = components(self.memory.committed[i].shear, &stencil.frame_before, dim);
         let centre = match enforcement.multipliers() {
@@ -284,6 +315,12 @@ impl Interface {
             multiplier: [multiplier.pressure, shear[0], shear[1]],
             centre,
             carried,
+            slack: if scene.tangent && self.memory.flips[i].last[0].is_none() {
+                FIRST_SLACK
+            } else {
+                0.0
+            },
+            softness: soft.map_or(0.0, |soft| 1.0 / soft),
             weight: point
                 .stiffness
                 .min(normal_stiffness)
@@ -329,14 +366,14 @@ impl Interface {
         let r = &e.response;
         let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
-        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
-            return;
-        }
         let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
         for &node in nodes {
             for c in 0..dim {
                 e.dofs.push(self.dofs.of(self.nodes[node], c));
             }
+        }
+        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
+            return;
         }
         e.residual = (0..n)
             .map(|k| {
@@ -346,6 +383,18 @@ impl Interface {
                         .sum::<f64>()
             })
             .collect();
+        // What rounding of coordinates of this size leaves of the force.
+        let reach = self.points[i]
+            .nodes
+            .iter()
+            .map(|&n| norm(scene.x[n]))
+            .fold(0.0, f64::max);
+        let slope = r
+            .d_gap
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |m, d| m.max(d.abs()));
+        e.rounding = 4.0 * f64::EPSILON * reach * slope * area;
         let rows = &stencil.rows;
         // d_gap · B (+ the skew), shape (3, n)
         let change = |q: usize, k: usize| -> f64 {

@@ -77,6 +77,7 @@ pub struct Memory {
     changed: usize,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
     untouched: bool,
+    softening: Option<f64>,
 }
 
 /// Committed history of a contact point.
@@ -111,6 +112,9 @@ struct Multiplier {
 struct Flips {
     count: usize,
     last: [Option<Status>; 4],
+    /// Whether it lay over the primary, and how often it has slid off its outer edge.
+    over: bool,
+    left: usize,
 }
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
@@ -263,12 +267,16 @@ impl Force for Interface {
         let unknown = self.laws.unknown_multipliers();
         let mut dofs = Vec::new();
         for (i, e) in evaluations.iter().enumerate() {
-            if e.dofs.is_empty() {
+            if out.wants_tangent && !e.dofs.is_empty() {
+                out.couplings.push(e.dofs.clone());
+            }
+            if e.residual.is_empty() {
                 continue;
             }
             dofs.clear();
             dofs.extend_from_slice(&e.dofs);
             out.add_residual(&dofs, &e.residual);
+            out.rounding += e.rounding * e.rounding;
             if let Some(saddle) = &e.saddle {
                 let worst = saddle.r_l.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 out.multiplier_residual = out.multiplier_residual.max(worst * self.points[i].area);
@@ -300,6 +308,9 @@ impl Force for Interface {
                     flips.count += 1;
                     memory.changed += 1;
                 }
+                let over = e.facet.is_some();
+                flips.left += usize::from(flips.over && !over);
+                flips.over = over;
                 flips.last.rotate_right(1);
                 flips.last[0] = now;
             }
@@ -320,6 +331,11 @@ impl Force for Interface {
             }
         }
         Ok(())
+    }
+
+    fn soften(&mut self, factor: Option<f64>) -> bool {
+        self.memory.softening = factor;
+        self.laws.friction.as_dyn().frictional()
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
@@ -373,7 +389,9 @@ impl Force for Interface {
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;
         }
-        if worst <= error * approach {
+        let reach = memory.searched_at.iter().chain(&self.reference);
+        let reach = reach.map(|&x| crate::math::norm(x)).fold(0.0, f64::max);
+        if worst <= (error * approach).max(16.0 * f64::EPSILON * reach) {
             Augmentation::Done
         } else {
             Augmentation::Again(worst / (error * approach).max(f64::MIN_POSITIVE))

@@ -25,6 +25,7 @@ pub struct Resultant {
 
 /// Figures by which a solution can be judged.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Quality {
     /// Largest penetration that the normal law did not ask for `[m]`.
     pub penetration: f64,

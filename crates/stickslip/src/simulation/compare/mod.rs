@@ -16,14 +16,14 @@
 //!
 //! [[check]]
 //! what = "largest pressure on the base"
-//! history = "base.CPRESS-max"
+//! history = "base.CPRESSMAX"
 //! reduce = "max"                  # "last", "max", "min", "max-abs" over the rows
 //! value = 0.0
 //! absolute = 1e-9                 # with `relative`, the larger of both counts
 //!
 //! [[check]]
 //! what = "penetration is negligible"
-//! summary = "quality.max-penetration.relative-to-size"   # a path in summary.json; numbers index lists
+//! summary = "interfaces.0.quality.relative-to-size"   # a path in summary.json; numbers index lists
 //! below = 1e-3                    # and/or `above`; both bounds count as inside
 //!
 //! [[check]]

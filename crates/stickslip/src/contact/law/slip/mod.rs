@@ -22,6 +22,11 @@ pub struct Tangential {
     pub base: [f64; 2],
     /// Cosine of the angle between the two directions.
     pub skew: f64,
+    /// Velocity `[m/s]` over which a regularised rule is smoothed at least; zero but in a continuation.
+    pub smoothing: f64,
+    /// Fraction by which a trial traction may exceed the limit and still count as stick; zero but in the first iteration of an
+    /// increment, where a point that slid before would otherwise slide or stick by rounding alone.
+    pub slack: f64,
 }
 
 impl Tangential {
@@ -98,6 +103,8 @@ mod tests {
             stiffness: 2.0,
             base: [0.11, -0.2],
             skew,
+            smoothing: 0.0,
+            slack: 0.0,
         }
     }
 

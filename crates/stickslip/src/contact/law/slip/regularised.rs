@@ -41,10 +41,12 @@ impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
         let speed = motion.length(w);
-        let (value, slope) = phi(self.epsilon, speed);
+        // Frozen within an evaluation: while smoothed, the tangent leaves out that the smoothing follows the limit.
+        let epsilon = self.epsilon.max(motion.smoothing);
+        let (value, slope) = phi(epsilon, speed);
         // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
-        let f = if speed <= self.epsilon {
-            (2.0 - speed / self.epsilon) / self.epsilon
+        let f = if speed <= epsilon {
+            (2.0 - speed / epsilon) / epsilon
         } else {
             value / speed
         };
@@ -53,7 +55,7 @@ impl SlipRule for Regularised {
             traction: [-limit * phi_vector[0], -limit * phi_vector[1]],
             d_limit: [-phi_vector[0], -phi_vector[1]],
             d_slip: [[-limit * f / motion.dt, 0.0], [0.0, -limit * f / motion.dt]],
-            sliding: speed > self.epsilon,
+            sliding: speed > epsilon,
             sliding_path: motion.slip,
             ..SlipState::default()
         };

@@ -19,7 +19,7 @@ impl SlipRule for ReturnMapping {
             motion.base[1] - w * motion.slip[1],
         ];
         let size = motion.length(trial);
-        if size <= limit {
+        if size <= limit * (1.0 + motion.slack) {
             return SlipState {
                 traction: trial,
                 d_slip: [[-w, 0.0], [0.0, -w]],
