@@ -20,7 +20,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         parent.join("expected.toml")
     });
     let report = stickslip::simulation::compare::compare(&arguments.directory, &expected)?;
-    print::out(&report.to_string())?;
+    print::out(&format!("{report}\n"))?;
     Ok(if report.passes() {
         ExitCode::SUCCESS
     } else {

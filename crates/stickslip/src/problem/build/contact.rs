@@ -328,19 +328,18 @@ impl Surfaces<'_> {
         let shared: Vec<String> = ours
             .iter()
             .filter(|p| theirs.binary_search(p).is_ok())
-            .take(5)
             .map(|&p| self.mesh.point_ids[p].to_string())
             .collect();
-        if shared.is_empty() {
-            return Ok(());
-        }
+        let nodes = match shared.as_slice() {
+            [] => return Ok(()),
+            [one] => format!("node {one}"),
+            [some @ ..] if some.len() <= 5 => format!("nodes {}", some.join(", ")),
+            many => format!("nodes {}, … {} in all", many[..5].join(", "), many.len()),
+        };
         Err(problem_error(vec![
             Diagnostic::new(
                 format!("{key}.primary"),
-                format!(
-                    "primary and secondary share points (nodes {}…)",
-                    shared.join(", ")
-                ),
+                format!("primary and secondary share points ({nodes})"),
             )
             .help("the two surfaces must belong to different bodies or be apart; duplicate the nodes of a conforming interface"),
         ]))

@@ -134,15 +134,18 @@ impl<'a> Sets<'a> {
             .collect();
         known.sort_unstable();
         known.dedup();
+        let help = match self.own.get(name) {
+            // A set of the problem file: it exists, but does not hold enough.
+            Some(points) => format!(
+                "`{name}` holds {} point{}; widen it until it holds all points of at least one",
+                points.len(),
+                if points.len() == 1 { "" } else { "s" }
+            ),
+            None if known.is_empty() => format!("the mesh of `{body}` has no sets"),
+            None => format!("sets of the mesh of `{body}`: {}", known.join(", ")),
+        };
         problem_error(vec![
-            Diagnostic::new(key, format!("`{name}` has no {what}")).help(format!(
-                "sets of the mesh of `{body}`: {}",
-                if known.is_empty() {
-                    "none".to_string()
-                } else {
-                    known.join(", ")
-                }
-            )),
+            Diagnostic::new(key, format!("`{name}` has no {what}")).help(help),
         ])
     }
 

@@ -1,0 +1,275 @@
+//! Running, comparing and tabulating from outside: results on disk, exit codes 0 to 3.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn stickslip(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .args(arguments)
+        .output()
+        .expect("the binary runs")
+}
+
+fn code(output: &Output) -> Option<i32> {
+    output.status.code()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+const CASE: &str = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
+support.top = { set = "block.top", x = 0.0, y = -1e-5 }
+probe.corner.point = [0.0, 0.02]
+step = [{ name = "press", increments = { fixed = 2 } }]
+"#;
+
+/// What the case must give: the top moves as prescribed.
+const EXPECTED: &str = r#"format = 1
+source = "the support prescribes it"
+
+[[check]]
+what = "displacement of the top"
+history = "corner.U2"
+value = -1e-5
+relative = 1e-12
+"#;
+
+/// A folder of its own for each test, with the case in it.
+struct Place {
+    folder: PathBuf,
+}
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+            .join("runs")
+            .join(name);
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
+        }
+        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        let place = Place { folder };
+        place.write("case.toml", CASE);
+        place.write("expected.toml", EXPECTED);
+        place
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.folder.join(name).display().to_string()
+    }
+
+    fn write(&self, name: &str, content: &str) {
+        std::fs::write(self.folder.join(name), content).expect("the folder can be written to");
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+}
+
+/// The last value of a column of `history.csv`.
+fn last(history: &str, column: &str) -> f64 {
+    let mut lines = history.lines().filter(|l| !l.starts_with('#'));
+    let header = lines.next().expect("a header");
+    let i = header
+        .split(',')
+        .position(|name| name.trim_matches('"') == column)
+        .unwrap_or_else(|| panic!("{column} in {header}"));
+    let row = lines.last().expect("a row");
+    row.split(',')
+        .nth(i)
+        .and_then(|x| x.parse().ok())
+        .expect("a number")
+}
+
+#[test]
+fn a_run_writes_its_results() {
+    let place = Place::new("results");
+    let output = stickslip(&["run", &place.path("case.toml"), "-o", &place.path("out")]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty(), "{}", text(&output.stdout));
+    assert!(!output.stderr.is_empty(), "no progress");
+    let history = place.read("out/history.csv");
+    assert!((last(&history, "corner.U2") / -1e-5 - 1.0).abs() < 1e-12);
+    assert!(last(&history, "base.CFN2") > 0.0);
+    assert!(place.read("out/fields.pvd").contains(".vtu"));
+    assert!(place.read("out/interfaces/base.csv").contains("CPRESS"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&place.read("out/summary.json")).expect("JSON");
+    assert_eq!(summary["increments"], 2);
+}
+
+#[test]
+fn results_lie_beside_the_file_and_progress_can_be_silenced() {
+    let place = Place::new("beside");
+    let output = stickslip(&["run", &place.path("case.toml"), "--quiet"]);
+    assert_eq!(code(&output), Some(0));
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert!(!place.read("case.out/history.csv").is_empty());
+}
+
+#[test]
+fn values_and_threads_are_taken_from_the_command_line() {
+    let place = Place::new("set");
+    let case = place.path("case.toml");
+    let mut histories = Vec::new();
+    for threads in ["1", "3"] {
+        let out = place.path(threads);
+        let set = "support.top.y=-2e-5";
+        let arguments = [
+            "run",
+            &case,
+            "-o",
+            &out,
+            "--threads",
+            threads,
+            "--set",
+            set,
+            "-q",
+        ];
+        let output = stickslip(&arguments);
+        assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+        histories.push(place.read(&format!("{threads}/history.csv")));
+    }
+    assert!((last(&histories[0], "corner.U2") / -2e-5 - 1.0).abs() < 1e-12);
+    assert_eq!(histories[0], histories[1]);
+    let wrong = stickslip(&["run", &case, "--set", "support.top.w=1"]);
+    assert_eq!(code(&wrong), Some(1));
+    assert!(
+        text(&wrong.stderr).contains("unknown key `w`"),
+        "{}",
+        text(&wrong.stderr)
+    );
+    assert_eq!(
+        code(&stickslip(&["run", &case, "--threads", "many"])),
+        Some(1)
+    );
+}
+
+#[test]
+fn comparing_tells_agreement_from_difference() {
+    let place = Place::new("compare");
+    let out = place.path("out");
+    let run = stickslip(&["run", &place.path("case.toml"), "-o", &out, "-q"]);
+    assert_eq!(code(&run), Some(0));
+    // expected.toml beside the results, or named
+    let agrees = stickslip(&["compare", &out]);
+    assert_eq!(code(&agrees), Some(0), "{}", text(&agrees.stderr));
+    assert!(text(&agrees.stdout).contains("displacement of the top"));
+    place.write("other.toml", &EXPECTED.replace("-1e-5", "-1.1e-5"));
+    let differs = stickslip(&["compare", &out, &place.path("other.toml")]);
+    assert_eq!(code(&differs), Some(2));
+    assert!(text(&differs.stdout).contains("displacement of the top"));
+    place.write("unknown.toml", &EXPECTED.replace("corner.U2", "corner.U7"));
+    let unknown = stickslip(&["compare", &out, &place.path("unknown.toml")]);
+    assert_eq!(code(&unknown), Some(2));
+    assert!(text(&unknown.stdout).ends_with("0 of 1 checks passed\n"));
+    let all = text(&unknown.stdout) + &text(&unknown.stderr);
+    assert!(all.contains("corner.U7"), "{all}");
+    let nothing = stickslip(&["compare", &place.path("no-results")]);
+    assert_eq!(code(&nothing), Some(1));
+    assert!(
+        text(&nothing.stderr).contains("no-results"),
+        "{}",
+        text(&nothing.stderr)
+    );
+}
+
+#[test]
+fn an_analysis_that_fails_says_so_and_keeps_its_summary() {
+    let place = Place::new("fails");
+    // Held sideways by nothing.
+    place.write(
+        "case.toml",
+        &CASE
+            .replace("x = 0.0, ", "")
+            .replace("friction.coulomb = { mu = 0.3 }", "friction.none = {}"),
+    );
+    let output = stickslip(&[
+        "run",
+        &place.path("case.toml"),
+        "-o",
+        &place.path("out"),
+        "-q",
+    ]);
+    assert_eq!(code(&output), Some(3), "{}", text(&output.stderr));
+    let err = text(&output.stderr);
+    assert!(
+        err.contains("body block: translation x is held neither"),
+        "{err}"
+    );
+    assert!(place.read("out/summary.json").contains("free to move"));
+}
+
+#[test]
+fn a_mistake_that_the_mesh_shows_has_its_line() {
+    let place = Place::new("line");
+    place.write("case.toml", &CASE.replace("block.bottom", "block.botom"));
+    for command in ["run", "check"] {
+        let output = stickslip(&[command, &place.path("case.toml")]);
+        assert_eq!(code(&output), Some(1), "{command}");
+        let err = text(&output.stderr);
+        for part in [
+            "case.toml:6:",
+            "`block.botom` has no points",
+            "block.bottom, ",
+        ] {
+            assert!(err.contains(part), "{command}: {part} in\n{err}");
+        }
+    }
+    assert!(!place.folder.join("case.out").exists());
+}
+
+#[test]
+fn check_tells_gaps_and_free_motions() {
+    let place = Place::new("check");
+    place.write("case.toml", &CASE.replace("x = 0.0, ", ""));
+    let output = stickslip(&["check", &place.path("case.toml")]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let out = text(&output.stdout);
+    for part in ["base", "translation x"] {
+        assert!(out.contains(part), "{part} in\n{out}");
+    }
+}
+
+#[test]
+fn curve_tabulates_the_laws_of_an_interface() {
+    let place = Place::new("curve");
+    let case = place.path("case.toml");
+    let law = "interface.base.normal.power-law={ c = 1e20, m = 2.0 }";
+    let output = stickslip(&[
+        "curve",
+        &case,
+        "--pressure",
+        "1e8",
+        "--rows",
+        "3",
+        "--set",
+        law,
+    ]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let out = text(&output.stdout);
+    let rows: Vec<Vec<f64>> = out
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').map(|x| x.parse().expect("a number")).collect())
+        .collect();
+    assert_eq!(rows.len(), 3);
+    // p = c δ², limit = μ p
+    let end = &rows[2];
+    assert!((end[0] / -1e-6 - 1.0).abs() < 1e-12 && (end[1] / 1e8 - 1.0).abs() < 1e-12);
+    assert!((end[4] / 3e7 - 1.0).abs() < 1e-12);
+    let unknown = stickslip(&["curve", &case, "joint"]);
+    assert_eq!(code(&unknown), Some(1));
+    assert!(
+        text(&unknown.stderr).contains("interfaces: base"),
+        "{}",
+        text(&unknown.stderr)
+    );
+}
