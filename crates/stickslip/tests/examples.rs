@@ -84,6 +84,7 @@ macro_rules! examples {
 }
 
 examples! {
+    cattaneo_mindlin = "cattaneo-mindlin",
     block_limits = "block-limits",
     compliance_bar = "compliance-bar",
     flat_punch = "flat-punch",

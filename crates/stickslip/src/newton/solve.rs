@@ -192,6 +192,8 @@ impl Newton {
         let mut out = Assembler::new(system.dofs.count());
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();
+        // Residual at which steps began to have to gain; they have to until a hundredth of it is left.
+        let mut strict: f64 = 0.0;
         for iteration in 0..=settings.max_iterations {
             let relative = balance.relative();
             residuals.push(relative);
@@ -241,6 +243,14 @@ impl Newton {
             // Status may have to change against the residual: at first only a step that makes it much worse is shortened.
             // Once three iterations have gained nothing, points are going to and fro, and every step has to gain.
             let stuck = iteration >= 4 && relative > 0.5 * residuals[iteration - 3];
+            strict = if stuck {
+                strict.max(relative)
+            } else if relative < 0.01 * strict {
+                0.0
+            } else {
+                strict
+            };
+            let stuck = strict > 0.0;
             let patience = match (stuck, iteration < 4) {
                 (true, _) => 0.99,
                 (false, true) => 1e3,

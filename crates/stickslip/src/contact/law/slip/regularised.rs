@@ -41,7 +41,6 @@ impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
         let speed = motion.length(w);
-        // Frozen within an evaluation: while smoothed, the tangent leaves out that the smoothing follows the limit.
         let epsilon = self.epsilon.max(motion.smoothing);
         let (value, slope) = phi(epsilon, speed);
         // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
@@ -59,6 +58,13 @@ impl SlipRule for Regularised {
             sliding_path: motion.slip,
             ..SlipState::default()
         };
+        if motion.smoothing > self.epsilon && speed <= epsilon {
+            // The smoothing follows the limit: dε/dlimit = smoothing/limit.
+            let f_epsilon = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
+            for i in 0..2 {
+                state.d_limit[i] -= f_epsilon * motion.smoothing * w[i];
+            }
+        }
         if speed > 0.0 {
             // df/d|w| = (φ' - f)/|w|
             let df = (slope - f) / speed;
