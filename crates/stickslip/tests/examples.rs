@@ -85,6 +85,9 @@ macro_rules! examples {
 
 examples! {
     cattaneo_mindlin = "cattaneo-mindlin",
+    hertz_line = "hertz-line",
+    hertz_sphere = "hertz-sphere",
+    mindlin_sphere = "mindlin-sphere",
     block_limits = "block-limits",
     compliance_bar = "compliance-bar",
     flat_punch = "flat-punch",
