@@ -44,6 +44,8 @@ pub struct Newton {
     /// Counts since the start.
     pub statistics: Statistics,
     linearised: Linearised,
+    /// Diagonal of the bulk.
+    diagonal: Vec<f64>,
 }
 
 /// A residual and what it is compared with.
@@ -54,7 +56,7 @@ struct Balance {
     norm: f64,
     /// Size of the forces in play.
     scale: f64,
-    /// What rounding leaves of the contact forces.
+    /// What rounding leaves of the forces of contact and bodies.
     floor: f64,
 }
 
@@ -86,6 +88,7 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);
+        self.diagonal = system.matrix.diagonal();
         let guess = at.u.clone();
         for force in &mut system.contact {
             force.begin();
@@ -337,6 +340,8 @@ impl Newton {
         let mut forces = vec![0.0; at.u.len()];
         system.matrix.mul(&at.u, &mut forces);
         let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
+        // A body that moves without strain has forces of rounding only, far below those that hold its parts together.
+        let mut bulk = 0.0;
         for (i, f) in forces.iter_mut().enumerate() {
             if system.constraints.fixed[i] {
                 internal += *f * *f;
@@ -346,6 +351,7 @@ impl Newton {
             contact += out.residual[i] * out.residual[i];
             if !system.constraints.fixed[i] {
                 norm += *f * *f;
+                bulk += (self.diagonal[i] * at.u[i]).powi(2);
             }
         }
         let scale = f64::max(internal, f64::max(external, contact)).sqrt();
@@ -353,10 +359,13 @@ impl Newton {
             forces,
             norm: norm.sqrt(),
             scale,
-            floor: out.rounding.sqrt(),
+            floor: (out.rounding + ROUNDING * ROUNDING * bulk).sqrt(),
         })
     }
 }
+
+/// Rounding of a row of the bulk relative to its diagonal entry times the displacement.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;

@@ -367,7 +367,9 @@ impl Interface {
         let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
         let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
+        let mut reach = stencil.reach;
         for &node in nodes {
+            reach = reach.max(norm(scene.x[node]));
             for c in 0..dim {
                 e.dofs.push(self.dofs.of(self.nodes[node], c));
             }
@@ -383,12 +385,7 @@ impl Interface {
                         .sum::<f64>()
             })
             .collect();
-        // What rounding of coordinates of this size leaves of the force.
-        let reach = self.points[i]
-            .nodes
-            .iter()
-            .map(|&n| norm(scene.x[n]))
-            .fold(0.0, f64::max);
+        // What rounding of lengths of this size leaves of the force.
         let slope = r
             .d_gap
             .iter()

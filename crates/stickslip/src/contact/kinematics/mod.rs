@@ -43,6 +43,9 @@ pub struct Stencil {
     pub rows: [Vec<f64>; 3],
     /// Gradient of the skew; empty where it is zero.
     pub skew_row: Vec<f64>,
+    /// A length beyond the coordinates of the nodes whose rounding is in the gap, as the radius of an obstacle `[m]`; zero if
+    /// there is none.
+    pub reach: f64,
 }
 
 impl Stencil {
@@ -55,6 +58,7 @@ impl Stencil {
         }
         self.skew_row.clear();
         self.skew = 0.0;
+        self.reach = 0.0;
     }
 }
 

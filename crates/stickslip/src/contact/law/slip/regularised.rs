@@ -41,7 +41,6 @@ impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
         let speed = motion.length(w);
-        // Frozen within an evaluation: while smoothed, the tangent leaves out that the smoothing follows the limit.
         let epsilon = self.epsilon.max(motion.smoothing);
         let (value, slope) = phi(epsilon, speed);
         // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
@@ -69,6 +68,11 @@ impl SlipRule for Regularised {
                     state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
                 }
                 state.d_skew[i] = -limit * along * df * d_speed;
+                if motion.smoothing > self.epsilon && speed <= epsilon {
+                    // df/dε of f = (2 - |w|/ε)/ε
+                    let df = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
+                    state.d_smoothing[i] = -limit * along * df;
+                }
             }
         }
         state
