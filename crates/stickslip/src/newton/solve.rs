@@ -13,6 +13,8 @@ pub struct System<'a> {
     pub dofs: Dofs,
     /// The bulk, over all dofs.
     pub matrix: &'a BlockCsr,
+    /// Its diagonal, by which the rounding of bulk forces is judged.
+    pub diagonal: &'a [f64],
     /// The interfaces.
     pub contact: Vec<&'a mut dyn Force>,
     /// External forces at the time of evaluation.
@@ -44,8 +46,6 @@ pub struct Newton {
     /// Counts since the start.
     pub statistics: Statistics,
     linearised: Linearised,
-    /// Diagonal of the bulk.
-    diagonal: Vec<f64>,
 }
 
 /// A residual and what it is compared with.
@@ -56,7 +56,7 @@ struct Balance {
     norm: f64,
     /// Size of the forces in play.
     scale: f64,
-    /// What rounding leaves of the forces of contact and bodies.
+    /// What rounding leaves of the forces.
     floor: f64,
 }
 
@@ -88,7 +88,6 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);
-        self.diagonal = system.matrix.diagonal();
         let guess = at.u.clone();
         for force in &mut system.contact {
             force.begin();
@@ -340,7 +339,6 @@ impl Newton {
         let mut forces = vec![0.0; at.u.len()];
         system.matrix.mul(&at.u, &mut forces);
         let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
-        // A body that moves without strain has forces of rounding only, far below those that hold its parts together.
         let mut bulk = 0.0;
         for (i, f) in forces.iter_mut().enumerate() {
             if system.constraints.fixed[i] {
@@ -350,8 +348,8 @@ impl Newton {
             external += system.external[i] * system.external[i];
             contact += out.residual[i] * out.residual[i];
             if !system.constraints.fixed[i] {
+                bulk += (4.0 * f64::EPSILON * system.diagonal[i] * at.u[i]).powi(2);
                 norm += *f * *f;
-                bulk += (self.diagonal[i] * at.u[i]).powi(2);
             }
         }
         let scale = f64::max(internal, f64::max(external, contact)).sqrt();
@@ -359,13 +357,10 @@ impl Newton {
             forces,
             norm: norm.sqrt(),
             scale,
-            floor: (out.rounding + ROUNDING * ROUNDING * bulk).sqrt(),
+            floor: (out.rounding + bulk).sqrt(),
         })
     }
 }
-
-/// Rounding of a row of the bulk relative to its diagonal entry times the displacement.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;

@@ -21,6 +21,7 @@ pub struct Simulation {
     /// Energies and counts so far.
     pub summary: Summary,
     matrix: BlockCsr,
+    diagonal: Vec<f64>,
     newton: Newton,
     previous: Option<(f64, Vec<f64>)>,
     held: BTreeMap<String, Vec<f64>>,
@@ -77,6 +78,7 @@ impl Simulation {
             },
             forces: vec![0.0; n],
             summary: Summary::new(&model),
+            diagonal: matrix.diagonal(),
             matrix,
             newton,
             previous: None,
@@ -278,6 +280,7 @@ impl Simulation {
                 model,
                 newton,
                 matrix,
+                diagonal,
                 state,
                 ..
             } = self;
@@ -289,6 +292,7 @@ impl Simulation {
             let mut system = System {
                 dofs: model.dofs,
                 matrix,
+                diagonal,
                 contact,
                 external: external.clone(),
                 constraints,

@@ -233,6 +233,7 @@ impl Interface {
         let kinematics = self.kinematics.as_dyn();
         let mut stencil = Stencil::default();
         kinematics.stencil(&pair, &mut stencil);
+        stencil.reach = now.iter().map(|&x| norm(x)).fold(norm(position), f64::max);
         let mut e = self.respond(i, &stencil, scene);
         e.facet = Some(f);
         e.facet_weights = facet
@@ -266,6 +267,15 @@ impl Interface {
         ) else {
             return Evaluation::open(f64::INFINITY);
         };
+        // A curved obstacle measures the gap from its centre.
+        let curvature = feet[0].curvature.iter().flatten();
+        let curvature = curvature.fold(0.0_f64, |m, c| m.max(c.abs()));
+        let radius = if curvature > 0.0 {
+            1.0 / curvature
+        } else {
+            0.0
+        };
+        stencil.reach = norm(x) + 2.0 * radius;
         let mut e = self.respond(i, &stencil, scene);
         self.finish(
             i,
@@ -367,9 +377,7 @@ impl Interface {
         let unknown = self.laws.unknown_multipliers();
         let traction = if unknown { e.multiplier } else { r.traction };
         let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
-        let mut reach = stencil.reach;
         for &node in nodes {
-            reach = reach.max(norm(scene.x[node]));
             for c in 0..dim {
                 e.dofs.push(self.dofs.of(self.nodes[node], c));
             }
@@ -385,13 +393,13 @@ impl Interface {
                         .sum::<f64>()
             })
             .collect();
-        // What rounding of lengths of this size leaves of the force.
+        // What rounding of coordinates of this size leaves of the force.
         let slope = r
             .d_gap
             .iter()
             .flatten()
             .fold(0.0_f64, |m, d| m.max(d.abs()));
-        e.rounding = 4.0 * f64::EPSILON * reach * slope * area;
+        e.rounding = 4.0 * f64::EPSILON * stencil.reach * slope * area;
         let rows = &stencil.rows;
         // d_gap · B (+ the skew), shape (3, n)
         let change = |q: usize, k: usize| -> f64 {

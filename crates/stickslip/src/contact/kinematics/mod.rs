@@ -43,8 +43,7 @@ pub struct Stencil {
     pub rows: [Vec<f64>; 3],
     /// Gradient of the skew; empty where it is zero.
     pub skew_row: Vec<f64>,
-    /// A length beyond the coordinates of the nodes whose rounding is in the gap, as the radius of an obstacle `[m]`; zero if
-    /// there is none.
+    /// Size of the coordinates from which the gap is a difference `[m]`: what its rounding is relative to.
     pub reach: f64,
 }
 
@@ -58,7 +57,6 @@ impl Stencil {
         }
         self.skew_row.clear();
         self.skew = 0.0;
-        self.reach = 0.0;
     }
 }
 

@@ -34,10 +34,6 @@ pub fn rigid_stencil(
     out.reset(n);
     out.gap = foot.gap;
     out.normal = pose.turn(foot.normal);
-    // The gap is a distance from the centre of curvature, less the radius.
-    let bend = foot.curvature.as_flattened().iter();
-    let bend = bend.fold(0.0_f64, |m, c| m.max(c.abs()));
-    out.reach = if bend > 0.0 { 1.0 / bend } else { 0.0 };
     let frame = tangents(anchor.normal, dim);
     let moved = sub(foot.point, anchor.point);
     spread(point, out.normal, dim, &mut out.rows[0]);
