@@ -81,7 +81,7 @@ fn last(history: &str, column: &str) -> f64 {
         .split(',')
         .position(|name| name.trim_matches('"') == column)
         .unwrap_or_else(|| panic!("{column} in {header}"));
-    let row = lines.last().expect("a row");
+    let row = lines.next_back().expect("a row");
     row.split(',')
         .nth(i)
         .and_then(|x| x.parse().ok())

@@ -214,14 +214,16 @@ impl Laws {
             [0.0; 2]
         };
         for i in 0..2 {
+            // the smoothing follows the limit
+            let d_limit = shear.d_limit[i] + shear.d_smoothing[i] * at.softness / at.dt;
             response.traction[i + 1] = shear.traction[i];
-            response.d_gap[i + 1][0] = shear.d_limit[i] * d_limit_gap;
+            response.d_gap[i + 1][0] = d_limit * d_limit_gap;
             response.d_skew[i + 1] = shear.d_skew[i];
             response.d_multiplier[i + 1][0] =
-                shear.d_limit[i] * limit.d_pressure * response.d_multiplier[0][0];
+                d_limit * limit.d_pressure * response.d_multiplier[0][0];
             for (j, toward) in toward.iter().enumerate() {
                 response.d_gap[i + 1][j + 1] =
-                    shear.d_slip[i][j] + shear.d_limit[i] * limit.d_speed * toward / at.dt;
+                    shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
                 if keep != 0.0 && rule.sticks() {
                     // the trial traction is keep Σ_t + … - r s
                     response.d_multiplier[i + 1][j + 1] = -keep * shear.d_slip[i][j] / at.weight;

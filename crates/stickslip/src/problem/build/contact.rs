@@ -333,7 +333,7 @@ impl Surfaces<'_> {
         let nodes = match shared.as_slice() {
             [] => return Ok(()),
             [one] => format!("node {one}"),
-            [some @ ..] if some.len() <= 5 => format!("nodes {}", some.join(", ")),
+            some if some.len() <= 5 => format!("nodes {}", some.join(", ")),
             many => format!("nodes {}, … {} in all", many[..5].join(", "), many.len()),
         };
         Err(problem_error(vec![

@@ -57,6 +57,8 @@ pub struct SlipState {
     pub d_limit: [f64; 2],
     /// Derivative with respect to the skew `[Pa]`.
     pub d_skew: [f64; 2],
+    /// Derivative with respect to the smoothing `[Pa s/m]`.
+    pub d_smoothing: [f64; 2],
     /// The limit is reached.
     pub sliding: bool,
     /// The irreversible part of the slip `[m]`.
@@ -96,14 +98,14 @@ mod tests {
     use super::*;
     use crate::registry::Family;
 
-    fn motion(scale: f64, skew: f64) -> Tangential {
+    fn motion(scale: f64, skew: f64, smoothing: f64) -> Tangential {
         Tangential {
             slip: [0.7 * scale, -0.4 * scale],
             dt: 0.5,
             stiffness: 2.0,
             base: [0.11, -0.2],
             skew,
-            smoothing: 0.0,
+            smoothing,
             slack: 0.0,
         }
     }
@@ -112,8 +114,15 @@ mod tests {
     fn derivatives_agree_with_differences() {
         for model in SlipModel::samples() {
             let rule = model.as_dyn();
-            for (scale, skew) in [(0.1, 0.0), (0.3, 0.4), (2.0, 0.0), (3.0, -0.3)] {
-                let at = motion(scale, skew);
+            for (scale, skew, smoothing) in [
+                (0.1, 0.0, 0.0),
+                (0.3, 0.4, 0.0),
+                (2.0, 0.0, 0.0),
+                (3.0, -0.3, 0.0),
+                (0.7, 0.2, 1.7),
+                (2.0, 0.2, 1.7),
+            ] {
+                let at = motion(scale, skew, smoothing);
                 let limit = 0.9;
                 let s = rule.traction(limit, &at);
                 let h = 1e-6;
@@ -143,6 +152,11 @@ mod tests {
                     )
                 };
                 let (c, d) = (turned(-h), turned(h));
+                let smoothed = |h: f64| {
+                    let smoothing = smoothing + h;
+                    rule.traction(limit, &Tangential { smoothing, ..at })
+                };
+                let (e, f) = (smoothed(-h), smoothed(h));
                 for i in 0..2 {
                     assert!(close(
                         s.d_limit[i],
@@ -151,6 +165,10 @@ mod tests {
                     assert!(close(
                         s.d_skew[i],
                         (d.traction[i] - c.traction[i]) / (2.0 * h)
+                    ));
+                    assert!(close(
+                        s.d_smoothing[i],
+                        (f.traction[i] - e.traction[i]) / (2.0 * h)
                     ));
                 }
                 assert!(at.length(s.traction) <= limit * (1.0 + 1e-14));

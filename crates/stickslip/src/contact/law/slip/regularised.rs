@@ -75,6 +75,11 @@ impl SlipRule for Regularised {
                     state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
                 }
                 state.d_skew[i] = -limit * along * df * d_speed;
+                if motion.smoothing > self.epsilon && speed <= epsilon {
+                    // df/dε of f = (2 - |w|/ε)/ε
+                    let df = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
+                    state.d_smoothing[i] = -limit * along * df;
+                }
             }
         }
         state
