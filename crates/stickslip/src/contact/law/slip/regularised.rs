@@ -58,13 +58,6 @@ impl SlipRule for Regularised {
             sliding_path: motion.slip,
             ..SlipState::default()
         };
-        if motion.smoothing > self.epsilon && speed <= epsilon {
-            // The smoothing follows the limit: dε/dlimit = smoothing/limit.
-            let f_epsilon = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
-            for i in 0..2 {
-                state.d_limit[i] -= f_epsilon * motion.smoothing * w[i];
-            }
-        }
         if speed > 0.0 {
             // df/d|w| = (φ' - f)/|w|
             let df = (slope - f) / speed;
