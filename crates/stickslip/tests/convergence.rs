@@ -18,7 +18,7 @@ use stickslip::problem::{Interface, Problem};
 use stickslip::registry::Family;
 
 /// Residuals below this are rounding.
-const FLOOR: f64 = 1e-10;
+const FLOOR: f64 = 2e-11;
 /// Residuals above this are not near the solution yet.
 const NEAR: f64 = 1e-4;
 /// Smallest order that counts as quadratic. Linear convergence gives 1 whatever its rate. What takes a little off 2 is rounding, and
