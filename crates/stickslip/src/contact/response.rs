@@ -154,7 +154,7 @@ impl Laws {
             }
             return response;
         }
-        let p = pressure(normal, gap, 0.0, at.normal_stiffness);
+        let p = pressure(normal, gap, at.normal_stiffness);
         response.traction[0] = p.value;
         response.d_gap[0][0] = p.slope;
         response

@@ -265,7 +265,6 @@ impl Force for Interface {
         }
         let evaluations = self.evaluate_all(stage, out.wants_tangent);
         let unknown = self.laws.unknown_multipliers();
-        let mut dofs = Vec::new();
         for (i, e) in evaluations.iter().enumerate() {
             if out.wants_tangent && !e.dofs.is_empty() {
                 out.couplings.push(e.dofs.clone());
@@ -273,9 +272,7 @@ impl Force for Interface {
             if e.residual.is_empty() {
                 continue;
             }
-            dofs.clear();
-            dofs.extend_from_slice(&e.dofs);
-            out.add_residual(&dofs, &e.residual);
+            out.add_residual(&e.dofs, &e.residual);
             out.rounding += e.rounding * e.rounding;
             if let Some(saddle) = &e.saddle {
                 let worst = saddle.r_l.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
@@ -283,7 +280,7 @@ impl Force for Interface {
                 if out.wants_tangent {
                     let mut tangent = e.tangent.clone();
                     out.add_saddle(
-                        &dofs,
+                        &e.dofs,
                         &mut tangent,
                         &e.surrogate,
                         Saddle {
@@ -295,7 +292,7 @@ impl Force for Interface {
                     );
                 }
             } else if out.wants_tangent {
-                out.add_tangent(&dofs, &e.tangent, &e.surrogate);
+                out.add_tangent(&e.dofs, &e.tangent, &e.surrogate);
             }
         }
         let memory = &mut self.memory;
