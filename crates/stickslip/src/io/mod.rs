@@ -1,4 +1,5 @@
-//! Files: meshes in ([`gmsh`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]).
+//! Files: meshes in ([`gmsh`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]) and, for comparisons, in again
+//! ([`vtu`], [`csv`]).
 //!
 //! This module knows meshes and named fields, never what they mean.
 

@@ -1,18 +1,12 @@
-//! Fields for ParaView: VTK XML unstructured grids.
-//!
-//! Arrays are appended raw and compressed by zlib in blocks (*VTK XML formats*, `vtkZLibDataCompressor`), with 64-bit
-//! headers in little-endian order.
-
 use std::path::Path;
 
 use rayon::prelude::*;
 
 use crate::error::{Error, IoError};
+use crate::io::write_atomically;
 use crate::mesh::Mesh;
 use crate::shape::ElementKind;
 use crate::system::{Fields, Location};
-
-use super::write_atomically;
 
 /// Bytes compressed at a time. Blocks are compressed in parallel, and are the same for any number of threads.
 const BLOCK: usize = 1 << 18;
@@ -177,7 +171,7 @@ fn vtk_type(kind: ElementKind) -> u8 {
 }
 
 /// A text as the value of an XML attribute.
-pub(super) fn escape(text: &str) -> String {
+pub(in crate::io) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
