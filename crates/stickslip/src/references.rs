@@ -33,4 +33,6 @@ references! {
     saad_1993: "Y. Saad, A flexible inner-outer preconditioned GMRES algorithm, SIAM Journal on Scientific Computing 14 (1993) 461-469.",
     mindlin_deresiewicz_1953: "R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, Journal of Applied Mechanics 20 (1953) 327-344.",
     klarbring_1990: "A. Klarbring, Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems with friction, Ingenieur-Archiv 60 (1990) 529-541.",
+    lanczos_1950: "C. Lanczos, An iteration method for the solution of the eigenvalue problem of linear differential and integral operators, Journal of Research of the National Bureau of Standards 45 (1950) 255-282.",
+    paige_1980: "C. C. Paige, Accuracy and effectiveness of the Lanczos algorithm for the symmetric eigenproblem, Linear Algebra and its Applications 34 (1980) 235-258.",
 }

@@ -8,6 +8,7 @@ mod extrapolate;
 mod facets;
 mod fields;
 mod geometry;
+pub mod internal;
 mod kernel;
 pub mod loads;
 mod operator;

@@ -1,0 +1,102 @@
+//! Which kernel computes which cells of a part.
+
+use super::super::{Elastic, Formulation, Space};
+use super::generic::Generic;
+use super::hex8::{Hex8, Parallelepiped};
+use super::law::{General, Isotropic, Law};
+use super::sweep::{Kernel, Swept};
+use super::tet4::Tet4;
+use crate::material::Stiffness;
+use crate::math::{Vec3, add, cross, dot, norm, sub};
+use crate::mesh::Block;
+use crate::shape::ElementKind;
+
+/// How far a hexahedron may be from one with parallel faces to be computed as one: displacement of a node over the least
+/// height. Forces differ by a small multiple of it. The rounding of coordinates stays below it up to some hundred cells
+/// along a side.
+const PARALLEL: f64 = 2e-13;
+
+/// The kernels for part `part` of a body, each with its cells in ascending order.
+pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> {
+    let block = &body.mesh.blocks[body.parts[part].block];
+    let acting = &body.acting[part];
+    let (kind, space, formulation) = (block.kind, body.space, body.formulation);
+    let all = 0..(block.connectivity.len() / kind.node_count()) as u32;
+    if kind == ElementKind::Hex8 {
+        let (parallel, other) =
+            all.partition(|&cell| is_parallelepiped(&body.mesh.points, block, cell));
+        return vec![
+            (hexahedron(acting, formulation, true), parallel),
+            (hexahedron(acting, formulation, false), other),
+        ];
+    }
+    vec![(simple(kind, space, formulation, acting), all.collect())]
+}
+
+fn simple(
+    kind: ElementKind,
+    space: Space,
+    formulation: Formulation,
+    acting: &Stiffness,
+) -> Box<dyn Kernel> {
+    macro_rules! generic {
+        ($n:literal, $d:literal) => {
+            Box::new(Swept::<_, $n, $d>(Generic::<$n, $d, { 2 * $d }>::new(
+                kind,
+                space,
+                formulation,
+                acting,
+            )))
+        };
+    }
+    match (kind.node_count(), kind.dim()) {
+        (3, _) => generic!(3, 2),
+        (4, 2) => generic!(4, 2),
+        (6, _) => generic!(6, 2),
+        (8, 2) => generic!(8, 2),
+        (4, _) => match Isotropic::of(acting) {
+            Some(law) => Box::new(Swept::<_, 4, 3>(Tet4::new(law))),
+            None => Box::new(Swept::<_, 4, 3>(Tet4::new(General(*acting)))),
+        },
+        (10, _) => generic!(10, 3),
+        (20, _) => generic!(20, 3),
+        (n, _) => unreachable!("no cell has {n} nodes"),
+    }
+}
+
+fn hexahedron(acting: &Stiffness, formulation: Formulation, parallel: bool) -> Box<dyn Kernel> {
+    match Isotropic::of(acting) {
+        Some(law) => hexahedron_of(law, formulation, parallel),
+        None => hexahedron_of(General(*acting), formulation, parallel),
+    }
+}
+
+fn hexahedron_of<L: Law>(law: L, formulation: Formulation, parallel: bool) -> Box<dyn Kernel> {
+    match (formulation, parallel) {
+        (Formulation::Standard, false) => Box::new(Swept(Hex8::<_, false>::new(law))),
+        (Formulation::Standard, true) => Box::new(Swept(Parallelepiped::<_, false>::new(law))),
+        (Formulation::MeanDilatation, false) => Box::new(Swept(Hex8::<_, true>::new(law))),
+        (Formulation::MeanDilatation, true) => Box::new(Swept(Parallelepiped::<_, true>::new(law))),
+    }
+}
+
+/// Whether the faces of a hexahedron are parallel, see [`PARALLEL`].
+fn is_parallelepiped(points: &[Vec3], block: &Block, cell: u32) -> bool {
+    let x: [Vec3; 8] = std::array::from_fn(|a| points[block.connectivity[cell as usize * 8 + a]]);
+    let edges = [1, 3, 4].map(|a| sub(x[a], x[0]));
+    let [p, q, r] = edges;
+    let volume = dot(p, cross(q, r));
+    let largest_face = [cross(p, q), cross(q, r), cross(r, p)]
+        .map(norm)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let expected = [
+        (2, add(p, q)),
+        (5, add(p, r)),
+        (6, add(add(p, q), r)),
+        (7, add(q, r)),
+    ];
+    expected
+        .into_iter()
+        .all(|(a, edge)| norm(sub(sub(x[a], x[0]), edge)) * largest_face <= PARALLEL * volume)
+}
