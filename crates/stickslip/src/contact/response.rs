@@ -189,6 +189,7 @@ impl Laws {
             pressure: response.traction[0],
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
+            sticking: true,
         });
         let motion = Tangential {
             smoothing: at.softness * limit.value / at.dt,
