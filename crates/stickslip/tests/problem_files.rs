@@ -208,6 +208,16 @@ const WRONG: &[(&str, &str, &[&str])] = &[
         "friction.stribeck = { static = 0.5, kinetic = 0.3, velocity = 0.1, exponent = 0.5 }",
         &["26:79 `exponent` must be at least 1, not 0.5"],
     ),
+    (
+        "friction.coulomb",
+        "normal.linear = { c = 1e12 }\ndamping.viscous = { coefficient = 0 }\nfriction.coulomb",
+        &["27:35 `coefficient` must be positive and finite, not 0"],
+    ),
+    (
+        "friction.coulomb",
+        "damping.hunt-crossley = { coefficient = 0.3 }\nfriction.coulomb",
+        &["26:1 damping needs a pressure that follows from the gap"],
+    ),
     // dimensions
     (
         "normal = [0, 1]",
@@ -399,6 +409,22 @@ fn every_mistake_is_found_where_it_is() {
 }
 
 #[test]
+fn damping_goes_with_a_pressure_that_follows_from_the_gap() {
+    for beside in [
+        "enforcement.penalty = {}",
+        "normal.power-law = { c = 1e20, m = 2.0 }",
+    ] {
+        for damping in ["viscous", "hunt-crossley"] {
+            let laws = format!("{beside}\ndamping.{damping} = {{ coefficient = 0.3 }}\nfriction");
+            let text = SOUND.replace("friction", &laws);
+            assert_eq!(findings(&text), Vec::<String>::new(), "{beside} {damping}");
+        }
+    }
+    let none = SOUND.replace("friction", "damping.none = {}\nfriction");
+    assert_eq!(findings(&none), Vec::<String>::new());
+}
+
+#[test]
 fn several_mistakes_are_found_at_once() {
     let text = SOUND
         .replace("young", "yuong")
@@ -560,6 +586,7 @@ fn every_model_survives_the_way_to_text_and_back() {
         p.obstacle.get_mut("floor").unwrap().shape = shape;
     });
     survives(|p, normal| base(p).normal = normal);
+    survives(|p, damping| base(p).damping = damping);
     survives(|p, friction| base(p).friction = friction);
     survives(|p, slip| base(p).slip = slip);
     survives(|p, enforcement| base(p).enforcement = enforcement);
