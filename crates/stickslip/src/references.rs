@@ -32,6 +32,8 @@ references! {
     saad_schultz_1986: "Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems, SIAM Journal on Scientific and Statistical Computing 7 (1986) 856-869.",
     saad_1993: "Y. Saad, A flexible inner-outer preconditioned GMRES algorithm, SIAM Journal on Scientific Computing 14 (1993) 461-469.",
     mindlin_deresiewicz_1953: "R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, Journal of Applied Mechanics 20 (1953) 327-344.",
+    hunt_crossley_1975: "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445.",
+    armstrong_1994: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.",
     klarbring_1990: "A. Klarbring, Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems with friction, Ingenieur-Archiv 60 (1990) 529-541.",
     lanczos_1950: "C. Lanczos, An iteration method for the solution of the eigenvalue problem of linear differential and integral operators, Journal of Research of the National Bureau of Standards 45 (1950) 255-282.",
     paige_1980: "C. C. Paige, Accuracy and effectiveness of the Lanczos algorithm for the symmetric eigenproblem, Linear Algebra and its Applications 34 (1980) 235-258.",

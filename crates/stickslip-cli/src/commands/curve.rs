@@ -64,13 +64,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
             normal.gap(f64::MIN_POSITIVE).value
         };
         let slope = normal.pressure(gap).map_or(f64::NEG_INFINITY, |s| s.slope);
-        let limit = friction
-            .limit(&FrictionPoint {
+        let limit = |sticking| {
+            let at = FrictionPoint {
                 pressure: p,
                 penetration: (-gap).max(0.0),
                 speed: 1.0,
-            })
-            .value;
+                sticking,
+            };
+            friction.limit(&at).value
+        };
         // far beyond stick for any stiffness: the full shear of the slip rule at unit speed
         let motion = Tangential {
             slip: [1.0, 0.0],
@@ -81,10 +83,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
             smoothing: 0.0,
             slack: 0.0,
         };
-        let shear = -slip.traction(limit, &motion).traction[0];
+        let shear = -slip.traction(limit(false), &motion).traction[0];
         text += &format!(
-            "{gap:?},{p:?},{slope:?},{:?},{limit:?},{shear:?}\n",
-            normal.energy(gap)
+            "{gap:?},{p:?},{slope:?},{:?},{:?},{shear:?}\n",
+            normal.energy(gap),
+            limit(true)
         );
     }
     print::out(&text)?;

@@ -2,6 +2,7 @@
 
 use super::enforcement::{EnforcementModel, Multipliers, pressure};
 use super::kinematics::Stencil;
+use super::law::damping::DampingModel;
 use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
 use super::law::normal::{NormalLaw, NormalModel};
 use super::law::slip::{SlipModel, SlipRule, Tangential};
@@ -11,6 +12,8 @@ use super::law::slip::{SlipModel, SlipRule, Tangential};
 pub struct Laws {
     /// Pressure against gap.
     pub normal: NormalModel,
+    /// Pressure while surfaces approach or part.
+    pub damping: DampingModel,
     /// Limit of the shear traction.
     pub friction: FrictionModel,
     /// Stick and slip.
@@ -189,6 +192,7 @@ impl Laws {
             pressure: response.traction[0],
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
+            sticking: true,
         });
         let motion = Tangential {
             smoothing: at.softness * limit.value / at.dt,

@@ -4,6 +4,7 @@ use super::{prose, schema};
 use crate::body::loads::LoadKind;
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
@@ -58,6 +59,7 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<Material>("[material.NAME.KIND]"),
         listing::<ObstacleShape>("[obstacle.NAME.KIND]"),
         listing::<NormalModel>("[interface.NAME] normal.KIND"),
+        listing::<DampingModel>("[interface.NAME] damping.KIND"),
         listing::<FrictionModel>("[interface.NAME] friction.KIND"),
         listing::<SlipModel>("[interface.NAME] slip.KIND"),
         listing::<EnforcementModel>("[interface.NAME] enforcement.KIND"),

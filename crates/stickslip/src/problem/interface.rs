@@ -3,6 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
@@ -19,6 +20,9 @@ pub struct Interface {
     /// How the surfaces resist being pressed together.
     #[serde(default)]
     pub normal: NormalModel,
+    /// What resists surfaces while they approach or part.
+    #[serde(default)]
+    pub damping: DampingModel,
     /// How much shear the interface carries.
     #[serde(default)]
     pub friction: FrictionModel,

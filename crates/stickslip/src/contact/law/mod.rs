@@ -1,8 +1,9 @@
 //! Laws of the interface: scalar physics, numbers in, numbers and derivatives out. No mesh, no matrix.
 //!
-//! *Normal* laws relate pressure and gap; *friction* laws state the largest shear traction; *slip* rules turn limit
-//! and motion into traction.
+//! *Normal* laws relate pressure and gap; *damping* adds pressure while surfaces approach; *friction* laws state the
+//! largest shear traction; *slip* rules turn limit and motion into traction.
 
+pub mod damping;
 pub mod friction;
 pub mod normal;
 pub mod slip;

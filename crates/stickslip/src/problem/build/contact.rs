@@ -84,6 +84,7 @@ pub(super) fn build(
             primary,
             laws: Laws {
                 normal: table.normal.clone(),
+                damping: table.damping.clone(),
                 friction: table.friction.clone(),
                 slip: table.slip.clone(),
                 enforcement: table.enforcement.clone(),

@@ -3,6 +3,7 @@
 use super::super::{FacetShape, Interface, Problem, Select, SpaceKind};
 use super::Findings;
 use crate::body::Formulation;
+use crate::contact::enforcement::Multipliers;
 use crate::math::normalize;
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError};
@@ -119,6 +120,7 @@ fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Selec
 fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
     let Interface {
         normal,
+        damping,
         friction,
         slip,
         enforcement,
@@ -126,6 +128,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
     } = interface;
     let mut add = |stage, kind, faults| findings.faults(&["interface", name, stage, kind], faults);
     add("normal", normal.kind(), normal.as_dyn().faults());
+    add("damping", damping.kind(), damping.as_dyn().faults());
     add("friction", friction.kind(), friction.as_dyn().faults());
     add("slip", slip.kind(), slip.as_dyn().faults());
     add(
@@ -144,8 +147,18 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
             "write facets = \"triangles\", or remove the key",
         );
     }
+    let set_valued = normal.as_dyn().pressure(0.0).is_none();
+    let multipliers = enforcement.as_dyn().multipliers() != Multipliers::None;
+    // A multiplier takes whatever pressure closes the gap: damping would change nothing.
+    if damping.as_dyn().active() && set_valued && multipliers {
+        findings.add(
+            &["interface", name, "damping"],
+            "damping needs a pressure that follows from the gap",
+            "choose a compliant normal law or enforcement.penalty",
+        );
+    }
     // An exact law has no penetration of its own: what there is comes from the enforcement and means nothing.
-    if friction.as_dyn().needs_penetration() && normal.as_dyn().pressure(0.0).is_none() {
+    if friction.as_dyn().needs_penetration() && set_valued {
         findings.add(
             &["interface", name, "friction"],
             format!(

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
-use crate::contact::law::normal::positive;
+use crate::contact::law::normal::{not_negative, positive};
 use crate::registry::Samples;
 
 /// Coulomb friction: limit `μ p`, at most `cap`.
@@ -31,10 +31,7 @@ impl FrictionLaw for Coulomb {
     }
 
     fn faults(&self) -> Vec<(&'static str, String)> {
-        let mut faults = Vec::new();
-        if !(self.mu >= 0.0 && self.mu.is_finite()) {
-            faults.push(("mu", format!("must not be negative, but is {}", self.mu)));
-        }
+        let mut faults: Vec<_> = not_negative("mu", self.mu).into_iter().collect();
         faults.extend(self.cap.and_then(|cap| positive("cap", cap)));
         faults
     }

@@ -1,12 +1,20 @@
 //! Friction laws: the largest shear traction the interface carries.
 
 mod coulomb;
+mod exponential_decay;
 mod frictionless;
 mod power_law;
+mod static_kinetic;
+mod stribeck;
+mod tabular;
 
 pub use coulomb::Coulomb;
+pub use exponential_decay::ExponentialDecay;
 pub use frictionless::Frictionless;
 pub use power_law::PowerLaw;
+pub use static_kinetic::StaticKinetic;
+pub use stribeck::Stribeck;
+pub use tabular::Tabular;
 
 /// What a friction law may depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,6 +25,8 @@ pub struct FrictionPoint {
     pub penetration: f64,
     /// Sliding speed `[m/s]`.
     pub speed: f64,
+    /// The point stuck, or was open, at the last accepted state.
+    pub sticking: bool,
 }
 
 /// The limit of the shear traction and its derivatives.
@@ -73,6 +83,14 @@ crate::family! {
         Coulomb(Coulomb) = "coulomb",
         /// Shear limit a power of the penetration.
         PowerLaw(PowerLaw) = "power-law",
+        /// One coefficient to start with, another to slide with.
+        StaticKinetic(StaticKinetic) = "static-kinetic",
+        /// A coefficient that decays with speed.
+        ExponentialDecay(ExponentialDecay) = "exponential-decay",
+        /// A coefficient that falls with speed, and viscous drag.
+        Stribeck(Stribeck) = "stribeck",
+        /// Measured coefficients over pressure and speed.
+        Tabular(Tabular) = "tabular",
     }
 }
 
@@ -87,39 +105,91 @@ mod tests {
     use super::*;
     use crate::registry::Family;
 
+    /// Points from light to heavy load and from rest to fast sliding, off the corners of the samples.
+    fn points() -> Vec<FrictionPoint> {
+        let mut out = Vec::new();
+        for (pressure, penetration) in [(4.3e4, 1.3e-8), (3.7e7, 4.1e-7), (3.1e8, 2.3e-6)] {
+            for speed in [0.0, 3e-6, 0.02, 0.2, 3.1] {
+                for sticking in [true, false] {
+                    out.push(FrictionPoint {
+                        pressure,
+                        penetration,
+                        speed,
+                        sticking,
+                    });
+                }
+            }
+        }
+        out
+    }
+
     #[test]
     fn derivatives_agree_with_differences() {
         for model in FrictionModel::samples() {
             let law = model.as_dyn();
             assert!(law.faults().is_empty(), "{model:?}");
-            let at = FrictionPoint {
-                pressure: 3.7e7,
-                penetration: 4.1e-7,
-                speed: 0.2,
-            };
-            let limit = law.limit(&at);
-            let probe = |change: &dyn Fn(&mut FrictionPoint, f64), h: f64| {
-                let (mut a, mut b) = (at, at);
-                change(&mut a, -h);
-                change(&mut b, h);
-                (law.limit(&b).value - law.limit(&a).value) / (2.0 * h)
-            };
-            let close = |a: f64, b: f64| (a - b).abs() <= 1e-7 * b.abs().max(1e-9);
-            assert!(
-                close(limit.d_pressure, probe(&|p, h| p.pressure += h, 1e2)),
-                "{model:?}"
-            );
-            assert!(
-                close(
-                    limit.d_penetration,
-                    probe(&|p, h| p.penetration += h, 1e-12)
-                ),
-                "{model:?}"
-            );
-            assert!(
-                close(limit.d_speed, probe(&|p, h| p.speed += h, 1e-6)),
-                "{model:?}"
-            );
+            for at in points() {
+                let limit = law.limit(&at);
+                let value = |change: &dyn Fn(&mut FrictionPoint, f64), h: f64| {
+                    let mut moved = at;
+                    change(&mut moved, h);
+                    law.limit(&moved).value
+                };
+                let probe = |change: &dyn Fn(&mut FrictionPoint, f64), h: f64| {
+                    (value(change, h) - value(change, -h)) / (2.0 * h)
+                };
+                // what rounding of the limit leaves of a difference
+                let close = |a: f64, b: f64, h: f64| {
+                    (a - b).abs() <= 1e-7 * b.abs() + 4.0 * f64::EPSILON * limit.value / h
+                };
+                let h = 1e-5 * at.pressure;
+                assert!(
+                    close(limit.d_pressure, probe(&|p, h| p.pressure += h, h), h),
+                    "{model:?} {at:?}"
+                );
+                let h = 1e-5 * at.penetration;
+                assert!(
+                    close(limit.d_penetration, probe(&|p, h| p.penetration += h, h), h),
+                    "{model:?} {at:?}"
+                );
+                // there is no speed below zero: at rest it is the derivative to the right
+                let faster: &dyn Fn(&mut FrictionPoint, f64) = &|p, h| p.speed += h;
+                let h = 1e-6;
+                let slope = if at.speed > h {
+                    probe(faster, h)
+                } else {
+                    let ahead = 4.0 * value(faster, h) - value(faster, 2.0 * h);
+                    (ahead - 3.0 * limit.value) / (2.0 * h)
+                };
+                assert!(close(limit.d_speed, slope, h / 4.0), "{model:?} {at:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn limits_are_finite_and_never_negative() {
+        for model in FrictionModel::samples() {
+            let law = model.as_dyn();
+            for pressure in [f64::MIN_POSITIVE, 1.0, 1e12] {
+                for speed in [0.0, f64::MIN_POSITIVE, 1.0, 1e200] {
+                    for sticking in [true, false] {
+                        let limit = law.limit(&FrictionPoint {
+                            pressure,
+                            penetration: 1e-6,
+                            speed,
+                            sticking,
+                        });
+                        let all = [
+                            limit.value,
+                            limit.d_pressure,
+                            limit.d_penetration,
+                            limit.d_speed,
+                        ];
+                        assert!(all.iter().all(|x| x.is_finite()), "{model:?} {limit:?}");
+                        assert!(limit.value >= 0.0, "{model:?} {limit:?}");
+                    }
+                }
+            }
         }
     }
 }

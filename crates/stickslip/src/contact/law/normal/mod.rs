@@ -57,6 +57,17 @@ pub(crate) fn positive(key: &'static str, value: f64) -> Option<(&'static str, S
         .then(|| (key, format!("must be positive and finite, not {value}")))
 }
 
+/// A finding if `value` is negative or not finite.
+pub(crate) fn not_negative(key: &'static str, value: f64) -> Option<(&'static str, String)> {
+    if !value.is_finite() {
+        Some((key, format!("must be finite, not {value}")))
+    } else if value < 0.0 {
+        Some((key, format!("must not be negative, but is {value}")))
+    } else {
+        None
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 mod regularised;
 mod return_mapping;
 
-pub use regularised::{Regularised, phi, psi};
+pub use regularised::{Regularised, creep, phi, psi};
 pub use return_mapping::ReturnMapping;
 
 /// The tangential motion of a contact point over an increment, in the two directions of its frame.

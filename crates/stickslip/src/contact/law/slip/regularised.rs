@@ -8,8 +8,9 @@ use crate::registry::Samples;
 /// The smooth friction of [Pop 1995](crate::references::pop_1995), eq. (14)-(20): `t = -limit φ_ε(w)` with the sliding velocity
 /// `w = slip / dt`.
 ///
-/// It never quite sticks: under a steady shear `q` below the limit `T` the interface creeps at
-/// `ε (1 - √(1 - q/T))`. In a quasi-static analysis "velocity" is slip per unit of the problem's time.
+/// It never quite sticks: under a steady shear `q` below the limit `T` the interface
+/// [creeps](crate::contact::law::slip::creep) at `ε (1 - √(1 - q/T))`, which it reports in the summary. In a quasi-static
+/// analysis "velocity" is slip per unit of the problem's time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Regularised {
@@ -35,6 +36,16 @@ pub fn phi(epsilon: f64, xi: f64) -> (f64, f64) {
     } else {
         (1.0, 0.0)
     }
+}
+
+/// The velocity `[m/s]` at which an interface creeps under a steady shear that is `ratio` of the limit, 0 to 1:
+/// `ε (1 - √(1 - ratio))`, the inverse of [`phi`] below ε, from eq. (20) of [Pop 1995](crate::references::pop_1995).
+///
+/// Ratios outside, as rounding may give them, are taken as 0 or 1. Beyond the limit nothing is steady.
+pub fn creep(epsilon: f64, ratio: f64) -> f64 {
+    let ratio = ratio.clamp(0.0, 1.0);
+    // 1 - √(1 - q) without the difference, which would lose the digits of a small ratio
+    epsilon * ratio / (1.0 + (1.0 - ratio).sqrt())
 }
 
 impl SlipRule for Regularised {
@@ -116,5 +127,22 @@ mod tests {
             assert!((slope - f).abs() < 1e-6);
             assert!(xi - psi(1.0, xi) <= 1.0 / 3.0 + 1e-15);
         }
+    }
+
+    #[test]
+    fn creep_is_where_the_shear_is_carried() {
+        for epsilon in [1e-6, 0.05, 3.0] {
+            for ratio in [0.0, 1e-12, 0.1, 0.5, 0.75, 0.999, 1.0] {
+                let v = creep(epsilon, ratio);
+                assert!((phi(epsilon, v).0 - ratio).abs() <= 4e-16, "{ratio}");
+            }
+            assert_eq!(creep(epsilon, 1.0), epsilon);
+            assert_eq!(creep(epsilon, 1.0 + 1e-15), epsilon);
+            // half of the ratio to first order, with all digits
+            assert!((creep(epsilon, 1e-14) / (0.5e-14 * epsilon) - 1.0).abs() < 1e-13);
+        }
+        // VERIFICATION S7: a block on an incline of 20° with μ = 0.5, ε = 0.05
+        let ratio = 20.0_f64.to_radians().tan() / 0.5;
+        assert!((creep(0.05, ratio) - 0.023_920_336_88).abs() < 5e-12);
     }
 }
