@@ -35,6 +35,13 @@ references! {
     hunt_crossley_1975: "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445.",
     armstrong_1994: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.",
     klarbring_1990: "A. Klarbring, Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems with friction, Ingenieur-Archiv 60 (1990) 529-541.",
+    newmark_1959: "N. M. Newmark, A method of computation for structural dynamics, Journal of the Engineering Mechanics Division ASCE 85 (1959) 67-94.",
+    hht_1977: "H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Improved numerical dissipation for time integration algorithms in structural dynamics, Earthquake Engineering and Structural Dynamics 5 (1977) 283-292.",
+    chung_hulbert_1993: "J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical dissipation: the generalized-α method, Journal of Applied Mechanics 60 (1993) 371-375.",
+    zienkiewicz_xie_1991: "O. C. Zienkiewicz, Y. M. Xie, A simple error estimator and adaptive time stepping procedure for dynamic analysis, Earthquake Engineering and Structural Dynamics 20 (1991) 871-887.",
+    hinton_1976: "E. Hinton, T. Rock, O. C. Zienkiewicz, A note on mass lumping and related processes in the finite element method, Earthquake Engineering and Structural Dynamics 4 (1976) 245-249.",
+    khenous_2008: "H. B. Khenous, P. Laborde, Y. Renard, Mass redistribution method for finite element contact problems in elastodynamics, European Journal of Mechanics A/Solids 27 (2008) 918-932.",
+    doyen_2011: "D. Doyen, A. Ern, S. Piperno, Time-integration schemes for the finite element dynamic Signorini problem, SIAM Journal on Scientific Computing 33 (2011) 223-249.",
     lanczos_1950: "C. Lanczos, An iteration method for the solution of the eigenvalue problem of linear differential and integral operators, Journal of Research of the National Bureau of Standards 45 (1950) 255-282.",
     paige_1980: "C. C. Paige, Accuracy and effectiveness of the Lanczos algorithm for the symmetric eigenproblem, Linear Algebra and its Applications 34 (1980) 235-258.",
 }

@@ -89,6 +89,7 @@ fn attempt(interface: &mut Interface, from: &State, at: &State) -> [Bits; 3] {
         from,
         at,
         dt: at.t - from.t,
+        rate: None,
     };
     let mut out = Assembler::new(interface.dofs.count());
     let mut evaluate = |interface: &mut Interface, tangent: bool| {
@@ -146,6 +147,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
             from: &start,
             at: &pressed,
             dt: 1.0,
+            rate: None,
         };
         interface.commit(&stage);
         let energy = interface.energy();
@@ -170,6 +172,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
             from: &pressed,
             at: &slid,
             dt: 1.0,
+            rate: None,
         };
         interface.commit(&stage);
         assert!(interface.energy().dissipated > energy.dissipated, "{what}");

@@ -30,13 +30,18 @@ pub(super) struct Table<const N: usize> {
 impl<const N: usize> Table<N> {
     /// For a kind of `N` nodes.
     pub fn new(kind: ElementKind, space: Space) -> Self {
+        Self::with_rule(kind, cell_rule(kind, space))
+    }
+
+    /// For a kind of `N` nodes and any rule.
+    pub fn with_rule(kind: ElementKind, rule: &[QuadraturePoint]) -> Self {
         let mut table = Table {
             values: Vec::new(),
             gradients: Vec::new(),
             weights: Vec::new(),
         };
         let element = kind.reference();
-        for point in cell_rule(kind, space) {
+        for point in rule {
             let mut n = [0.0; N];
             element.values(point.xi, &mut n);
             let mut d = [[0.0; 3]; N];

@@ -11,15 +11,19 @@ mod geometry;
 pub mod internal;
 mod kernel;
 pub mod loads;
+mod mass;
 mod operator;
 mod recover;
+mod redistribution;
 mod rigid;
 mod space;
 mod waves;
 
 pub use elastic::{Elastic, Part};
 pub use facets::{positive_areas, tributary_areas};
+pub use mass::MassKind;
 pub use recover::StressPoint;
+pub use redistribution::redistribute;
 pub use rigid::{RigidMode, rigid_modes};
 pub use space::{Formulation, Space};
 

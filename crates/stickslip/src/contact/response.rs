@@ -47,8 +47,17 @@ pub struct Circumstances {
     pub softness: f64,
     /// Slack of the slip rule, see [`Tangential::slack`].
     pub slack: f64,
-    /// Displacement of the belt since the last accepted state, along the frame `[m]`.
-    pub belt: [f64; 2],
+    /// What friction sees as slip over the increment, along the frame, belt included `[m]`: velocity at its end times its
+    /// length in dynamics, the slip itself in statics.
+    pub slip: [f64; 2],
+    /// The slip itself, belt included `[m]`, where it is not what friction sees.
+    pub path: Option<[f64; 2]>,
+    /// Whether the multipliers are unknowns.
+    pub unknown: bool,
+    /// Whether the point did not slide at the last accepted state.
+    pub sticking: bool,
+    /// Closing velocity over the increment `[m/s]`.
+    pub closing: f64,
 }
 
 /// Status of a contact point.
@@ -68,7 +77,7 @@ pub enum Status {
 pub struct Response {
     /// Pressure and shear `[Pa]`.
     pub traction: [f64; 3],
-    /// Derivatives with respect to gap and slips `[Pa/m]`.
+    /// Derivatives with respect to gap and slips (as friction sees them) `[Pa/m]`.
     pub d_gap: [[f64; 3]; 3],
     /// Derivatives with respect to the skew `[Pa]`.
     pub d_skew: [f64; 3],
@@ -80,6 +89,8 @@ pub struct Response {
     pub status: Status,
     /// Irreversible slip since the last accepted state `[m]`.
     pub sliding_path: [f64; 2],
+    /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
+    pub damping: f64,
 }
 
 impl Laws {
@@ -120,7 +131,7 @@ impl Laws {
     /// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
     /// send points from slip in one direction to slip in the other.
     pub fn respond(&self, stencil: &Stencil, at: &Circumstances) -> Response {
-        let unknown = self.unknown_multipliers();
+        let unknown = at.unknown;
         let mut response = self.press(stencil.gap, at, unknown);
         let pressure = response.traction[0];
         let friction: &dyn FrictionLaw = self.friction.as_dyn();
@@ -160,7 +171,29 @@ impl Laws {
         let p = pressure(normal, gap, at.normal_stiffness);
         response.traction[0] = p.value;
         response.d_gap[0][0] = p.slope;
+        self.damp(at, &mut response);
         response
+    }
+
+    /// Adds what damping does to a pressure that follows from the gap. Surfaces do not pull: what would is cut off.
+    fn damp(&self, at: &Circumstances, response: &mut Response) {
+        let damping = self.damping.as_dyn();
+        let elastic = response.traction[0];
+        if !damping.active() || elastic <= 0.0 {
+            return;
+        }
+        let extra = damping.extra(elastic, at.closing);
+        if elastic + extra.value <= 0.0 {
+            response.damping = -elastic;
+            response.traction[0] = 0.0;
+            response.d_gap[0][0] = 0.0;
+            return;
+        }
+        response.damping = extra.value;
+        response.traction[0] += extra.value;
+        // the closing velocity falls with the gap
+        response.d_gap[0][0] =
+            response.d_gap[0][0] * (1.0 + extra.d_pressure) - extra.d_rate / at.dt;
     }
 
     /// The tangential part, added to a response with pressure.
@@ -171,7 +204,7 @@ impl Laws {
             0.0
         };
         let motion = Tangential {
-            slip: [stencil.slip[0] - at.belt[0], stencil.slip[1] - at.belt[1]],
+            slip: at.slip,
             dt: at.dt,
             stiffness: if unknown {
                 at.weight
@@ -192,7 +225,7 @@ impl Laws {
             pressure: response.traction[0],
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
-            sticking: true,
+            sticking: at.sticking,
         });
         let motion = Tangential {
             smoothing: at.softness * limit.value / at.dt,
@@ -201,7 +234,7 @@ impl Laws {
         let rule: &dyn SlipRule = self.slip.as_dyn();
         let shear = rule.traction(limit.value, &motion);
         response.limit = limit.value;
-        response.sliding_path = shear.sliding_path;
+        response.sliding_path = at.path.unwrap_or(shear.sliding_path);
         if shear.sliding {
             response.status = Status::Slip;
         }

@@ -141,6 +141,36 @@ impl BlockCsr {
         }
     }
 
+    /// Adds `factor` times the rows of these points of `other`, a matrix with the same pattern.
+    pub fn add_scaled_rows(
+        &mut self,
+        factor: f64,
+        other: &BlockCsr,
+        points: std::ops::Range<usize>,
+    ) {
+        let size = self.block * self.block;
+        let rows = self.pattern.starts[points.start] * size..self.pattern.starts[points.end] * size;
+        for (v, o) in self.values[rows.clone()]
+            .iter_mut()
+            .zip(&other.values[rows])
+        {
+            *v += factor * o;
+        }
+    }
+
+    /// Sets the rows and columns of these points to zero.
+    pub fn remove_points(&mut self, gone: &[bool]) {
+        let size = self.block * self.block;
+        for row in 0..self.points() {
+            let (start, end) = (self.pattern.starts[row], self.pattern.starts[row + 1]);
+            for at in start..end {
+                if gone[row] || gone[self.pattern.columns[at] as usize] {
+                    self.values[at * size..(at + 1) * size].fill(0.0);
+                }
+            }
+        }
+    }
+
     /// The diagonal, by dof.
     pub fn diagonal(&self) -> Vec<f64> {
         (0..self.rows())

@@ -33,6 +33,15 @@ pub struct Linearised {
 }
 
 impl Linearised {
+    /// The same without numbers, for another matrix with the same pattern.
+    pub(super) fn without_factor(&self) -> Self {
+        Linearised {
+            fixed: self.fixed.clone(),
+            symbolic: self.symbolic.clone(),
+            ..Linearised::default()
+        }
+    }
+
     fn matches(&self, fixed: &[bool]) -> bool {
         self.symbolic.is_some() && self.fixed == fixed
     }

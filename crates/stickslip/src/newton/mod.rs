@@ -9,4 +9,4 @@ mod solve;
 
 pub use linearised::{Linearised, Operator};
 pub use settings::{Progress, Settings, Statistics};
-pub use solve::{Converged, Newton, System};
+pub use solve::{Converged, Newton, Origin, System};

@@ -4,10 +4,14 @@ use super::linearised::{Linearised, Operator};
 use super::settings::{Progress, Settings, Statistics};
 use crate::linear::BlockCsr;
 use crate::system::{
-    Assembler, Augmentation, Cause, Constraints, Dofs, Force, Stage, State, StepFailure, Tally,
+    Assembler, Augmentation, Cause, Constraints, Dofs, Force, Rate, Stage, State, StepFailure,
+    Tally,
 };
 
-/// What is solved: `K u + contact(u) = external` with prescribed displacements.
+/// What is solved: `A u + contact(u) = external` with prescribed displacements.
+///
+/// In statics `A` is the stiffness. In dynamics it is the stiffness and what inertia and damping add, and the bulk is given by its
+/// [`Origin`].
 pub struct System<'a> {
     /// Numbering.
     pub dofs: Dofs,
@@ -19,8 +23,27 @@ pub struct System<'a> {
     pub contact: Vec<&'a mut dyn Force>,
     /// External forces at the time of evaluation.
     pub external: Vec<f64>,
+    /// How velocities follow from displacements, for friction.
+    pub rate: Option<Rate<'a>>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
+    /// Where the forces of the bulk are known; `None`: they are `A u`.
+    pub origin: Option<Origin>,
+    /// Tells matrices apart: a factor is used again for the key it was made with.
+    pub key: u64,
+}
+
+/// The forces of the bulk at some displacements, from which they follow as `forces + A (u - at)`.
+///
+/// With a time step much smaller than the periods of the bodies `A u` is the difference of large numbers; inertia from the
+/// velocities themselves is not.
+pub struct Origin {
+    /// Displacements.
+    pub at: Vec<f64>,
+    /// Internal and inertial forces of the bulk there, without external ones.
+    pub forces: Vec<f64>,
+    /// Size of the forces that balance each other there.
+    pub scale: f64,
 }
 
 /// An equilibrium.
@@ -34,6 +57,8 @@ pub struct Converged {
     pub residual: f64,
     /// Internal minus external forces: reactions at the fixed dofs.
     pub forces: Vec<f64>,
+    /// The part of the interfaces.
+    pub contact: Vec<f64>,
     /// Points by status.
     pub tally: Tally,
 }
@@ -45,8 +70,12 @@ pub struct Newton {
     pub settings: Settings,
     /// Counts since the start.
     pub statistics: Statistics,
-    linearised: Linearised,
+    /// By the key of the matrix, the last used last.
+    linearised: Vec<(u64, Linearised)>,
 }
+
+/// Most matrices whose factors are kept.
+const MOST_FACTORS: usize = 4;
 
 /// A residual and what it is compared with.
 struct Balance {
@@ -114,6 +143,25 @@ impl Newton {
         outcome.map_err(|_| failure)
     }
 
+    /// The factor for the matrix with this key. The least recently used one is dropped when there are too many.
+    fn linearised(&mut self, key: u64) -> &mut Linearised {
+        let kept = self.linearised.iter().position(|(k, _)| *k == key);
+        let last = match kept {
+            Some(i) => self.linearised.remove(i),
+            None => {
+                // the symbolic factorisation serves all
+                let symbolic = self.linearised.last().map(|(_, l)| l.without_factor());
+                (key, symbolic.unwrap_or_default())
+            }
+        };
+        if self.linearised.len() == MOST_FACTORS {
+            self.linearised.remove(0);
+        }
+        self.linearised.push(last);
+        let i = self.linearised.len() - 1;
+        &mut self.linearised[i].1
+    }
+
     fn continuation(
         &mut self,
         system: &mut System,
@@ -149,10 +197,12 @@ impl Newton {
         loop {
             let mut converged = self.equilibrium(system, from, at, round, log)?;
             total += converged.iterations;
+            let rate = system.rate;
             let stage = Stage {
                 from,
                 at,
                 dt: at.t - from.t,
+                rate,
             };
             let mut worst: f64 = 0.0;
             for force in &mut system.contact {
@@ -206,6 +256,7 @@ impl Newton {
                     residual: relative,
                     tally: tally(system),
                     forces: balance.forces,
+                    contact: std::mem::take(&mut out.residual),
                 });
             }
             if iteration == settings.max_iterations {
@@ -225,7 +276,8 @@ impl Newton {
             } else {
                 0.1 * target / norm(&b).max(f64::MIN_POSITIVE)
             };
-            let (du, krylov) = self.linearised.solve(
+            let mut statistics = self.statistics;
+            let solved = self.linearised(system.key).solve(
                 Operator {
                     matrix: system.matrix,
                     fixed: &system.constraints.fixed,
@@ -235,8 +287,10 @@ impl Newton {
                 &b,
                 wanted.clamp(1e-13, loose.max(1e-13)),
                 &settings,
-                &mut self.statistics,
-            )?;
+                &mut statistics,
+            );
+            self.statistics = statistics;
+            let (du, krylov) = solved?;
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);
             let reported = before / balance.scale.max(f64::MIN_POSITIVE);
@@ -339,6 +393,7 @@ impl Newton {
             from,
             at,
             dt: at.t - from.t,
+            rate: system.rate,
         };
         out.reset(tangent);
         for force in &mut system.contact {
@@ -347,7 +402,16 @@ impl Newton {
         }
         self.statistics.seconds_contact += started.elapsed().as_secs_f64();
         let mut forces = vec![0.0; at.u.len()];
-        system.matrix.mul(&at.u, &mut forces);
+        match &system.origin {
+            None => system.matrix.mul(&at.u, &mut forces),
+            Some(origin) => {
+                let moved: Vec<f64> = at.u.iter().zip(&origin.at).map(|(u, o)| u - o).collect();
+                system.matrix.mul(&moved, &mut forces);
+                for (f, known) in forces.iter_mut().zip(&origin.forces) {
+                    *f += known;
+                }
+            }
+        }
         let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
         let mut bulk = 0.0;
         for (i, f) in forces.iter_mut().enumerate() {
@@ -362,7 +426,9 @@ impl Newton {
                 norm += *f * *f;
             }
         }
+        let known = system.origin.as_ref().map_or(0.0, |o| o.scale);
         let scale = f64::max(internal, f64::max(external, contact)).sqrt();
+        let scale = scale.max(known);
         Ok(Balance {
             forces,
             norm: norm.sqrt(),

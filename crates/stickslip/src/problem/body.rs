@@ -27,6 +27,9 @@ pub struct Body {
     /// Shift of the mesh `[length]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub translate: Option<Vec<f64>>,
+    /// Damping of its own in dynamic steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rayleigh: Option<Rayleigh>,
     /// Where the mesh comes from.
     #[serde(flatten)]
     pub mesh: MeshSource,
@@ -34,6 +37,18 @@ pub struct Body {
 
 fn one() -> f64 {
     1.0
+}
+
+/// Rayleigh damping `C = mass M + stiffness K`: the damping ratio at the angular frequency ω is `mass / (2 ω) + stiffness ω / 2`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Rayleigh {
+    /// Factor of the mass matrix `[1/time]`.
+    #[schemars(range(min = 0))]
+    pub mass: f64,
+    /// Factor of the stiffness matrix `[time]`.
+    #[schemars(range(min = 0))]
+    pub stiffness: f64,
 }
 
 /// Where the mesh of a body comes from.

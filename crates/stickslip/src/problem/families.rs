@@ -12,6 +12,7 @@ use crate::contact::obstacle::ObstacleShape;
 use crate::material::Material;
 use crate::mesh::generators::Generator;
 use crate::registry::{Entry, Family};
+use crate::time::scheme::SchemeModel;
 
 /// A model family as the problem file sees it.
 #[derive(Debug, Clone)]
@@ -65,5 +66,6 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<EnforcementModel>("[interface.NAME] enforcement.KIND"),
         listing::<KinematicsModel>("[interface.NAME] kinematics.KIND"),
         listing::<LoadKind>("[load.NAME.KIND]"),
+        listing::<SchemeModel>("[step.dynamic] scheme.KIND"),
     ]
 }

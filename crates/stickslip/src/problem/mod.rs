@@ -12,7 +12,9 @@ mod body;
 mod build;
 mod check;
 mod document;
+mod dynamic;
 mod families;
+mod initial;
 mod interface;
 mod key;
 mod load;
@@ -41,9 +43,11 @@ use crate::error::{Diagnostic, Error, ProblemError};
 use crate::material::Material;
 
 pub use amplitude::AmplitudeTable;
-pub use body::{Body, GmshFile, MeshSource};
+pub use body::{Body, GmshFile, MeshSource, Rayleigh};
 pub use document::Document;
+pub use dynamic::Dynamic;
 pub use families::{FamilyListing, ModelListing, families};
+pub use initial::Initial;
 pub use interface::{FacetShape, Interface};
 pub use load::Load;
 pub use model::{Model, SpaceKind};
@@ -54,7 +58,7 @@ pub use schema::schema;
 pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
 pub use step::{Increments, Step};
-pub use support::Support;
+pub use support::{Component, Support};
 
 /// The format of the problem file that this version reads.
 pub const FORMAT: u32 = 1;
@@ -96,6 +100,9 @@ pub struct Problem {
     /// Factors over time, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub amplitude: BTreeMap<String, AmplitudeTable>,
+    /// Initial displacements and velocities, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub initial: BTreeMap<String, Initial>,
     /// The steps of the analysis, in order.
     #[schemars(length(min = 1))]
     pub step: Vec<Step>,

@@ -18,6 +18,10 @@ pub struct Solver {
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_change: Option<f64>,
+    /// Largest residual of the energy balance, as a fraction of the energies in play, that counts as good; the summary says whether it was
+    /// kept.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub energy_limit: f64,
     /// Systems of linear equations.
     pub linear: Linear,
 }
@@ -30,6 +34,7 @@ impl Default for Solver {
             max_iterations: settings.max_iterations,
             line_search: settings.line_search,
             largest_change: None,
+            energy_limit: 0.01,
             linear: Linear::default(),
         }
     }

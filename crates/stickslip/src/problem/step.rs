@@ -1,6 +1,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Dynamic;
+
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
 /// order of the file; a step starts from the state at the end of the one before.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +28,9 @@ pub struct Step {
     /// How the step is divided.
     #[serde(default)]
     pub increments: Increments,
+    /// Makes the step dynamic; quasi-static if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamic: Option<Dynamic>,
 }
 
 fn one() -> f64 {

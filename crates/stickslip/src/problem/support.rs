@@ -19,9 +19,24 @@ pub struct Support {
     /// Displacement along z `[length]`, in 3D.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z: Option<f64>,
+    /// Components that are held where they are when the support begins to act: `hold = ["y"]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hold: Vec<Component>,
     /// An `[amplitude.NAME]` over the time of the analysis, by which the displacements are multiplied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<String>,
+}
+
+/// A direction of space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Component {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z.
+    Z,
 }
 
 impl Support {

@@ -102,3 +102,14 @@ pub trait ReferenceElement: Sync {
     /// The rule for the stiffness: exact for an undistorted element.
     fn quadrature(&self) -> &'static [QuadraturePoint];
 }
+
+/// A rule that integrates products of two shape functions exactly over an undistorted cell, around an axis too: for masses.
+pub fn mass_rule(kind: ElementKind) -> Vec<QuadraturePoint> {
+    match kind {
+        ElementKind::Line2 | ElementKind::Line3 => gauss::LINE_3.to_vec(),
+        ElementKind::Quad4 | ElementKind::Quad8 => gauss::QUAD_3X3.to_vec(),
+        ElementKind::Hex8 | ElementKind::Hex20 => gauss::HEX_3X3X3.to_vec(),
+        ElementKind::Tri3 | ElementKind::Tri6 => gauss::collapsed(2),
+        ElementKind::Tet4 | ElementKind::Tet10 => gauss::collapsed(3),
+    }
+}

@@ -210,6 +210,7 @@ impl Simulation {
             from: &start,
             at: &end,
             dt: end.t - start.t,
+            rate: None,
         };
         let interfaces = self
             .model

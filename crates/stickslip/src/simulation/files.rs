@@ -82,6 +82,19 @@ pub fn fields(simulation: &Simulation) -> Fields {
         components: 3,
         values: vectors(&simulation.state.u),
     });
+    for (name, values) in [("V", &simulation.state.v), ("A", &simulation.state.a)] {
+        if model.moves() {
+            fields.all.push(Field {
+                name: name.into(),
+                location: Location::Point,
+                components: 3,
+                values: match values.is_empty() {
+                    true => vec![0.0; 3 * dofs.points],
+                    false => vectors(values),
+                },
+            });
+        }
+    }
     let fixed = simulation.constraints(simulation.state.t).fixed;
     let reactions: Vec<f64> = simulation
         .forces

@@ -67,8 +67,14 @@ pub(super) fn row(
     row.push("ALLCE", e.contact);
     row.push("ALLFD", e.friction);
     row.push("ALLWK", e.external_work + e.belt_work);
-    let left = e.external_work + e.belt_work - e.strain - e.contact - e.friction;
-    row.push("ERESIDUAL", left);
+    row.push("ERESIDUAL", e.residual);
+    if simulation.model.moves() {
+        row.push("ALLKE", e.kinetic);
+        row.push("ALLVD", e.rayleigh_damping);
+        row.push("ALLCD", e.contact_damping);
+        row.push("ALLND", e.numerical);
+        row.push("EINITIAL", e.initial);
+    }
     let dim = simulation.model.dofs.dim;
     for interface in &simulation.model.interfaces {
         let r = interface.resultant(&simulation.state.u);
@@ -127,6 +133,17 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
         let u = model.dofs.vector(&simulation.state.u, point);
         for (c, u) in u.iter().enumerate().take(dim) {
             row.push(format!("{}.U{}", probe.name, c + 1), *u);
+        }
+        if model.moves() {
+            for (letter, values) in [("V", &simulation.state.v), ("A", &simulation.state.a)] {
+                let x = match values.is_empty() {
+                    true => [0.0; 3],
+                    false => model.dofs.vector(values, point),
+                };
+                for (c, x) in x.iter().enumerate().take(dim) {
+                    row.push(format!("{}.{letter}{}", probe.name, c + 1), *x);
+                }
+            }
         }
         if let Some(s) = fields.get("S") {
             for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {

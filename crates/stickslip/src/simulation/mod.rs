@@ -2,8 +2,12 @@
 
 pub mod compare;
 mod diagnosis;
+mod dynamic;
+mod explicit;
 mod files;
 mod history;
+mod inertia;
+mod ledger;
 mod model;
 mod run;
 mod summary;
@@ -11,6 +15,7 @@ mod summary;
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};
 pub use history::Row;
-pub use model::{Body, Model, OutputPlan, Prescribed, Probe, Step, Support};
+pub use ledger::EnergyLedger;
+pub use model::{Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Step, Support};
 pub use run::{Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

@@ -2,12 +2,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::body::loads::{Load, Spring};
-use crate::body::{Elastic, Space};
+use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
 use crate::mesh::Mesh;
 use crate::newton::Settings;
 use crate::system::{Dofs, Schedule};
 use crate::time::Increments;
+use crate::time::scheme::Method;
+pub use crate::time::{ContactAt, ContactMass};
 
 /// Everything that is simulated.
 pub struct Model {
@@ -29,6 +31,8 @@ pub struct Model {
     pub supports: Vec<Support>,
     /// Interfaces.
     pub interfaces: Vec<Interface>,
+    /// Initial displacements and velocities.
+    pub initials: Vec<Initial>,
     /// Steps, in order of time.
     pub steps: Vec<Step>,
     /// Quantities for the history.
@@ -39,6 +43,8 @@ pub struct Model {
     pub settings: Settings,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,
+    /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
+    pub energy_limit: f64,
 }
 
 /// A body: a range of points and blocks of the mesh.
@@ -51,6 +57,54 @@ pub struct Body {
     pub blocks: Range<usize>,
     /// Its elasticity.
     pub elastic: Elastic,
+    /// Rayleigh damping: factors of mass `[1/s]` and stiffness `[s]`.
+    pub rayleigh: [f64; 2],
+}
+
+/// Initial values of some dofs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial {
+    /// Name in the problem file.
+    pub name: String,
+    /// Displacements at the start of the analysis, by dof `[m]`.
+    pub displacements: Vec<(usize, f64)>,
+    /// Velocities at the start of a step, by dof `[m/s]`.
+    pub velocities: Vec<(usize, f64)>,
+    /// The step, a dynamic one.
+    pub step: usize,
+}
+
+/// How a dynamic step is integrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dynamic {
+    /// The scheme.
+    pub method: Method,
+    /// How masses are given to points; always lumped in an explicit scheme.
+    pub mass: MassKind,
+    /// Whether points in contact have mass; `None`: only where the normal law is compliant.
+    pub contact_mass: Option<ContactMass>,
+    /// Where in the increment interfaces act.
+    pub contact_at: ContactAt,
+    /// Largest local error of the displacements relative to the motion so far `[-]`.
+    pub error: Option<f64>,
+    /// Time to which changes of status are located `[s]`.
+    pub events: Option<f64>,
+}
+
+impl Model {
+    /// Whether any step is dynamic.
+    pub fn moves(&self) -> bool {
+        self.steps.iter().any(|s| s.dynamic.is_some())
+    }
+
+    /// Sets the velocities that are given for the start of a step.
+    pub(super) fn apply_initial_velocities(&self, step: usize, v: &mut [f64]) {
+        for initial in self.initials.iter().filter(|i| i.step == step) {
+            for &(dof, value) in &initial.velocities {
+                v[dof] = value;
+            }
+        }
+    }
 }
 
 /// Prescribed displacements of a set.
@@ -72,8 +126,10 @@ pub struct Support {
 pub struct Prescribed {
     /// The dof.
     pub dof: usize,
-    /// Displacement `[m]`.
+    /// Displacement `[m]`; without meaning where held.
     pub value: f64,
+    /// Stays where it is when the support begins to act.
+    pub hold: bool,
 }
 
 /// A step.
@@ -89,6 +145,10 @@ pub struct Step {
     pub increments: Increments,
     /// Times that increments must land on.
     pub milestones: Vec<f64>,
+    /// Whether increments are of one given length.
+    pub fixed: bool,
+    /// How motion is integrated; `None` in a quasi-static step.
+    pub dynamic: Option<Dynamic>,
 }
 
 /// A point whose displacement and stress go into the history.
@@ -107,4 +167,6 @@ pub struct OutputPlan {
     pub every: usize,
     /// Times of field output.
     pub times: Vec<f64>,
+    /// A row of the history after every so many increments, and at times of output; at least 1.
+    pub history_every: usize,
 }

@@ -1,13 +1,17 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use super::model::Model;
+use super::dynamic::Motion;
+use super::explicit::Explicit;
+use super::inertia::strain_energy;
+use super::model::{Dynamic, Model, Step};
 use super::summary::{Phases, Summary};
-use super::{diagnosis, history};
+use super::{diagnosis, history, inertia};
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::{Newton, Progress, System};
-use crate::system::{Cause, Constraints, Force, State, StepFailure, Tally};
+use crate::newton::{Converged, Newton, Progress, System};
+use crate::system::{Cause, Constraints, Force, Rate, Stage, State, StepFailure, Tally};
+use crate::time::scheme::Method;
 use crate::time::{Stepper, Trial};
 
 /// A model being run.
@@ -20,13 +24,18 @@ pub struct Simulation {
     pub forces: Vec<f64>,
     /// Energies and counts so far.
     pub summary: Summary,
-    matrix: BlockCsr,
+    pub(super) matrix: BlockCsr,
     diagonal: Vec<f64>,
-    newton: Newton,
+    pub(super) newton: Newton,
+    /// What interfaces add to the residual, and the external forces, at the last accepted state.
+    pub(super) contact: Vec<f64>,
+    pub(super) load: Vec<f64>,
+    pub(super) motion: Option<Motion>,
+    pub(super) explicit: Option<Explicit>,
     previous: Option<(f64, Vec<f64>)>,
     held: BTreeMap<String, Vec<f64>>,
     released: Vec<(usize, f64)>,
-    step: usize,
+    pub(super) step: usize,
     started: Instant,
 }
 
@@ -70,10 +79,18 @@ impl Simulation {
         }
         let n = model.dofs.count();
         let newton = Newton::new(model.settings);
+        let mut u = vec![0.0; n];
+        for &(dof, value) in model.initials.iter().flat_map(|i| &i.displacements) {
+            u[dof] = value;
+        }
         let mut simulation = Simulation {
+            contact: vec![0.0; n],
+            load: vec![0.0; n],
+            motion: None,
+            explicit: None,
             state: State {
                 t: model.steps.first().map_or(0.0, |s| s.start),
-                u: vec![0.0; n],
+                u,
                 ..State::default()
             },
             forces: vec![0.0; n],
@@ -88,6 +105,11 @@ impl Simulation {
             started,
             model,
         };
+        let strain = strain_energy(&simulation.matrix, &simulation.state.u);
+        simulation.summary.energy.initial = strain;
+        simulation.summary.energy.strain = strain;
+        simulation.summary.energy_quality.limit = simulation.model.energy_limit;
+        simulation.summary.energy_quality.met = true;
         simulation.summary.phases.assemble = started.elapsed().as_secs_f64();
         Ok(simulation)
     }
@@ -112,6 +134,19 @@ impl Simulation {
         for step in 0..self.model.steps.len() {
             self.step = step;
             self.begin_step();
+            match self.model.steps[step].dynamic {
+                Some(dynamic) => {
+                    self.explicit = None;
+                    for interface in &mut self.model.interfaces {
+                        interface.use_springs(false);
+                    }
+                    match dynamic.method {
+                        Method::Implicit(_) => self.start_motion(&dynamic)?,
+                        Method::Explicit { .. } => self.start_explicit(&dynamic)?,
+                    }
+                }
+                None => self.rest(),
+            }
             self.run_step(observers)?;
         }
         Ok(())
@@ -144,6 +179,10 @@ impl Simulation {
         }
         self.previous = None;
         self.released.clear();
+        if step.dynamic.is_some() {
+            // In motion what lets go lets go at once.
+            return;
+        }
         let mut seen = vec![false; self.state.u.len()];
         for support in self.model.supports.iter().filter(|s| was(s)) {
             for e in &support.entries {
@@ -155,30 +194,70 @@ impl Simulation {
         }
     }
 
+    /// A quasi-static step knows no velocities: what motion there was ends.
+    fn rest(&mut self) {
+        let energy = &mut self.summary.energy;
+        energy.numerical += energy.kinetic;
+        energy.kinetic = 0.0;
+        self.state.v.clear();
+        self.state.a.clear();
+        self.motion = None;
+        self.explicit = None;
+        for interface in &mut self.model.interfaces {
+            interface.use_springs(false);
+        }
+    }
+
     fn run_step(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let step = self.model.steps[self.step].clone();
         let mut stepper = Stepper::new(step.start, step.milestones.clone(), step.increments);
+        if step.dynamic.is_some() {
+            stepper = stepper.doubling();
+        }
         let mut increment = 0;
         let mut attempt = 1;
-        while let Some(trial) = stepper.next() {
-            match self.attempt(trial, observers) {
-                Ok((state, forces, accepted)) => {
+        loop {
+            if let Some(bound) = self.bound() {
+                stepper.bound(bound);
+            }
+            let Some(trial) = stepper.next() else {
+                break;
+            };
+            let outcome = match step.dynamic {
+                None => self.attempt(trial, observers),
+                Some(
+                    dynamic @ Dynamic {
+                        method: Method::Implicit(alphas),
+                        ..
+                    },
+                ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
+                Some(_) => self.attempt_explicit(trial),
+            };
+            match outcome {
+                Ok(accepted) => {
                     increment += 1;
-                    let row = self.accept(trial, state, forces, &accepted, increment, attempt);
-                    stepper.accept(trial, accepted.iterations);
+                    let iterations = accepted.iterations;
+                    let effort = self.accept(trial, accepted);
+                    stepper.accept(trial, iterations);
                     if step.milestones.contains(&trial.to) {
                         // Tables have their corners here.
                         self.previous = None;
                     }
-                    attempt = 1;
-                    for observer in observers.iter_mut() {
-                        observer.see(self, Event::Increment(&row))?;
-                    }
                     let plan = &self.model.output;
                     let last = stepper.next().is_none();
-                    let due = plan.times.contains(&trial.to)
+                    let due = last
+                        || plan.times.contains(&trial.to)
                         || (plan.every > 0 && increment % plan.every == 0);
-                    if last || due {
+                    if due || increment % plan.history_every == 0 {
+                        let row = history::row(self, trial, effort, (increment, attempt));
+                        let named = row.names.iter().cloned().zip(row.values.iter().copied());
+                        self.summary.last = named.collect();
+                        for observer in observers.iter_mut() {
+                            observer.see(self, Event::Increment(&row))?;
+                        }
+                    }
+                    attempt = 1;
+                    if due {
                         for observer in observers.iter_mut() {
                             observer.see(self, Event::Output)?;
                         }
@@ -186,13 +265,7 @@ impl Simulation {
                 }
                 Err(failure) => {
                     attempt += 1;
-                    self.summary.cutbacks += 1;
-                    self.summary.cutback_reasons.push(format!(
-                        "{} ({:.6e} to {:.6e}): {}",
-                        step.name, trial.from, trial.to, failure.message
-                    ));
-                    // What the last increment did is no guide any more.
-                    self.previous = None;
+                    self.reject(&step, &trial, &failure);
                     if !stepper.reject(trial) {
                         return Err(self.give_up(failure).into());
                     }
@@ -203,6 +276,24 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// Takes note of an attempt that failed.
+    fn reject(&mut self, step: &Step, trial: &Trial, failure: &StepFailure) {
+        // What the last increment did is no guide any more.
+        self.previous = None;
+        let summary = &mut self.summary;
+        if failure.cause == Cause::Event {
+            summary.events += 1;
+            return;
+        }
+        summary.cutbacks += 1;
+        if summary.cutback_reasons.len() < MOST_REASONS {
+            summary.cutback_reasons.push(format!(
+                "{} ({:.6e} to {:.6e}): {}",
+                step.name, trial.from, trial.to, failure.message
+            ));
+        }
     }
 
     fn give_up(&self, failure: StepFailure) -> RunError {
@@ -228,7 +319,9 @@ impl Simulation {
             let held = self.held.get(&support.name);
             for (i, e) in support.entries.iter().enumerate() {
                 let start = held.and_then(|h| h.get(i)).copied().unwrap_or(0.0);
-                let value = if support.table {
+                let value = if e.hold {
+                    start
+                } else if support.table {
                     s * e.value
                 } else {
                     start + s * (e.value - start)
@@ -240,7 +333,7 @@ impl Simulation {
     }
 
     /// External forces at a time, with the fading forces of supports that let go in this step.
-    fn external(&self, t: f64) -> Vec<f64> {
+    pub(super) fn external(&self, t: f64) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
         for load in &self.model.loads {
             load.external(t, &mut external);
@@ -253,15 +346,41 @@ impl Simulation {
         external
     }
 
-    #[allow(clippy::type_complexity)]
+    /// Tells observers about iterations.
+    pub(super) fn tell(&self, seen: &[Progress], observers: &mut [&mut dyn Observer]) {
+        for p in seen {
+            for observer in observers.iter_mut() {
+                // An observer that cannot keep up with iterations does not stop the run.
+                let _ = observer.see(self, Event::Iteration(p));
+            }
+        }
+    }
+
+    /// Refuses solutions that are too far from the last one.
+    pub(super) fn check_change(&self, u: &[f64]) -> Result<(), StepFailure> {
+        let pairs = u.iter().zip(&self.state.u);
+        let change = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        if change > self.model.largest_change * self.model.mesh.diameter() {
+            return Err(StepFailure::new(
+                Cause::TooFar,
+                format!(
+                    "two successive solutions are {change:.3e} apart, more than `largest-change` allows"
+                ),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Tries a quasi-static increment.
     fn attempt(
         &mut self,
         trial: Trial,
         observers: &mut [&mut dyn Observer],
-    ) -> Result<(State, Vec<f64>, Accepted), StepFailure> {
+    ) -> Result<Accepted, StepFailure> {
         let dt = trial.to - trial.from;
         let external = self.external(trial.to);
         let constraints = self.constraints(trial.to);
+        let fixed = constraints.fixed.clone();
         let mut at = State {
             t: trial.to,
             u: self.state.u.clone(),
@@ -284,101 +403,82 @@ impl Simulation {
                 state,
                 ..
             } = self;
-            let contact = model
-                .interfaces
-                .iter_mut()
-                .map(|i| i as &mut dyn Force)
-                .collect();
             let mut system = System {
                 dofs: model.dofs,
                 matrix,
                 diagonal,
-                contact,
                 external: external.clone(),
+                rate: None,
                 constraints,
+                origin: None,
+                key: 0,
+                contact: inertia::contact(model),
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
         };
-        for p in &seen {
-            for observer in observers.iter_mut() {
-                // An observer that cannot keep up with iterations does not stop the run.
-                let _ = observer.see(self, Event::Iteration(p));
-            }
-        }
+        self.tell(&seen, observers);
         let converged = converged?;
-        let change =
-            at.u.iter()
-                .zip(&self.state.u)
-                .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        if change > self.model.largest_change * self.model.mesh.diameter() {
-            return Err(StepFailure::new(
-                Cause::TooFar,
-                format!(
-                    "two successive solutions are {change:.3e} apart, more than `largest-change` allows"
-                ),
-            ));
+        self.check_change(&at.u)?;
+        // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
+        let before = self.external(trial.from);
+        let mut work = 0.0;
+        for (i, (before, after)) in before.iter().zip(&external).enumerate() {
+            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
         }
-        let accepted = Accepted {
-            iterations: converged.iterations,
-            rounds: converged.rounds,
-            residual: converged.residual,
-            tally: converged.tally,
+        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
+            let mean = 0.5 * (self.forces[i] + converged.forces[i]);
+            work += mean * (at.u[i] - self.state.u[i]);
+        }
+        Ok(Accepted {
+            forces: converged.forces.clone(),
+            contact: converged.contact.clone(),
             external,
-        };
-        Ok((at, converged.forces, accepted))
+            flow: Flow {
+                work,
+                ..Flow::default()
+            },
+            state: at,
+            ..Accepted::from_newton(&converged)
+        })
     }
 
-    fn accept(
-        &mut self,
-        trial: Trial,
-        at: State,
-        forces: Vec<f64>,
-        accepted: &Accepted,
-        increment: usize,
-        attempt: usize,
-    ) -> history::Row {
-        let stage = crate::system::Stage {
+    /// Makes an attempt the last accepted state.
+    fn accept(&mut self, trial: Trial, accepted: Accepted) -> history::Effort {
+        let effort = accepted.summary();
+        let stage = Stage {
             from: &self.state,
-            at: &at,
+            at: &accepted.state,
             dt: trial.to - trial.from,
+            rate: accepted
+                .rate
+                .as_ref()
+                .map(|(gain, shift)| Rate { gain, shift }),
         };
         for interface in &mut self.model.interfaces {
             interface.commit(&stage);
         }
-        // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
-        let before = self.external(trial.from);
-        let mut work = 0.0;
-        for (i, (before, after)) in before.iter().zip(&accepted.external).enumerate() {
-            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
-        }
-        let fixed = self.constraints(trial.to).fixed;
-        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            work += 0.5 * (self.forces[i] + forces[i]) * (at.u[i] - self.state.u[i]);
-        }
-        self.summary.energy.external_work += work;
         self.previous = Some((trial.to - trial.from, std::mem::take(&mut self.state.u)));
-        self.state = at;
-        self.forces = forces;
-        self.summary.increments += 1;
-        self.summary.iterations += accepted.iterations;
-        let mut ku = vec![0.0; self.state.u.len()];
-        self.matrix.mul(&self.state.u, &mut ku);
-        let strain: f64 = ku.iter().zip(&self.state.u).map(|(f, u)| f * u).sum();
-        let energy = &mut self.summary.energy;
-        energy.strain = 0.5 * strain;
+        self.state = accepted.state;
+        self.forces = accepted.forces;
+        self.contact = accepted.contact;
+        self.load = accepted.external;
+        let summary = &mut self.summary;
+        summary.increments += 1;
+        summary.iterations += effort.iterations;
+        let kinetic = match (&self.motion, accepted.kinetic) {
+            (_, Some(kinetic)) => kinetic,
+            (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),
+            (None, None) => 0.0,
+        };
+        let strain = accepted
+            .strain
+            .unwrap_or_else(|| strain_energy(&self.matrix, &self.state.u));
         let contact: Vec<_> = self.model.interfaces.iter().map(|i| i.energy()).collect();
-        energy.contact = contact.iter().map(|e| e.stored).sum();
-        energy.friction = contact.iter().map(|e| e.dissipated).sum();
-        energy.belt_work = contact.iter().map(|e| e.work).sum();
-        let names = (increment, attempt);
-        let row = history::row(self, trial, accepted.summary(), names);
-        self.summary.last = row
-            .names
-            .iter()
-            .cloned()
-            .zip(row.values.iter().copied())
-            .collect();
-        row
+        summary
+            .energy
+            .enter(accepted.flow, kinetic, strain, &contact);
+        summary.energy_quality.note(&summary.energy);
+        effort
     }
 
     /// The step being run.
@@ -405,15 +505,50 @@ impl Simulation {
     }
 }
 
-struct Accepted {
-    iterations: usize,
-    rounds: usize,
-    residual: f64,
-    tally: Tally,
-    external: Vec<f64>,
+/// Most reasons of cut-backs that the summary lists.
+const MOST_REASONS: usize = 200;
+
+/// Energy that flows over an increment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Flow {
+    /// Work of loads and reactions.
+    pub work: f64,
+    /// Dissipated by Rayleigh damping.
+    pub damped: f64,
+    /// Dissipated by the scheme.
+    pub numerical: f64,
+}
+
+/// An increment that may be accepted.
+#[derive(Default)]
+pub(super) struct Accepted {
+    pub state: State,
+    /// Out-of-balance forces: reactions at fixed dofs.
+    pub forces: Vec<f64>,
+    pub contact: Vec<f64>,
+    pub external: Vec<f64>,
+    pub flow: Flow,
+    pub rate: Option<(Vec<f64>, Vec<f64>)>,
+    /// Energies, where the attempt knows them already.
+    pub kinetic: Option<f64>,
+    pub strain: Option<f64>,
+    pub iterations: usize,
+    pub rounds: usize,
+    pub residual: f64,
+    pub tally: Tally,
 }
 
 impl Accepted {
+    pub(super) fn from_newton(converged: &Converged) -> Self {
+        Accepted {
+            iterations: converged.iterations,
+            rounds: converged.rounds,
+            residual: converged.residual,
+            tally: converged.tally,
+            ..Accepted::default()
+        }
+    }
+
     fn summary(&self) -> history::Effort {
         history::Effort {
             iterations: self.iterations,

@@ -1,5 +1,6 @@
 use serde::Serialize;
 
+use super::ledger::{EnergyLedger, EnergyQuality};
 use super::model::Model;
 use crate::contact::interface::Quality;
 use crate::error::Error;
@@ -23,10 +24,16 @@ pub struct Summary {
     pub increments: usize,
     /// Newton iterations of accepted increments.
     pub iterations: usize,
-    /// Rejected attempts.
+    /// Attempts rejected to locate changes of status in time.
+    pub events: usize,
+    /// Attempts rejected for other reasons.
     pub cutbacks: usize,
     /// Why, one line each.
     pub cutback_reasons: Vec<String>,
+    /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
+    pub stable_increment: f64,
+    /// Mass added by mass scaling, relative to the mass there is.
+    pub mass_added: f64,
     /// Counts and times of the solver.
     pub solver: Statistics,
     /// Seconds by phase.
@@ -37,6 +44,8 @@ pub struct Summary {
     pub threads: usize,
     /// Energies at the end.
     pub energy: EnergyLedger,
+    /// How well the balance of energies closes.
+    pub energy_quality: EnergyQuality,
     /// Interfaces at the end.
     pub interfaces: Vec<InterfaceSummary>,
     /// Last row of the history.
@@ -77,22 +86,6 @@ pub struct Phases {
     pub write: f64,
     /// Wall time of the run.
     pub total: f64,
-}
-
-/// Energies `[J]` (per unit of thickness or over 2π as the model has it).
-#[derive(Debug, Clone, Copy, Default, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct EnergyLedger {
-    /// Elastic energy of the bodies and springs.
-    pub strain: f64,
-    /// Recoverable energy of the interfaces.
-    pub contact: f64,
-    /// Dissipated by friction.
-    pub friction: f64,
-    /// Work of loads and supports.
-    pub external_work: f64,
-    /// Work of moving primary surfaces.
-    pub belt_work: f64,
 }
 
 /// An interface at the end of a run.

@@ -13,8 +13,10 @@ pub enum Cause {
     LinearSolver,
     /// A cell is inverted or collapsed.
     CollapsedCell,
-    /// Two successive solutions are too far apart.
+    /// Two successive solutions are too far apart, or the local error is too large.
     TooFar,
+    /// Points change status, and the time at which they do is wanted more precisely.
+    Event,
 }
 
 /// A place to look at.

@@ -22,6 +22,20 @@ pub struct Stage<'a> {
     pub at: &'a State,
     /// `at.t - from.t`, positive.
     pub dt: f64,
+    /// How the velocities at the end follow from the displacements; `None` where inertia plays no part.
+    pub rate: Option<Rate<'a>>,
+}
+
+/// The velocity at the end of an increment as the integrator has it: `dt v = gain (u - u_from) + shift`, dof by dof.
+///
+/// Friction depends on velocity. In statics the mean velocity of the increment is all there is; in dynamics friction that looked at
+/// the mean would fall behind by half a step, and a mass that sticks would swing about the velocity it sticks at.
+#[derive(Debug, Clone, Copy)]
+pub struct Rate<'a> {
+    /// By dof `[-]`.
+    pub gain: &'a [f64],
+    /// By dof `[m]`.
+    pub shift: &'a [f64],
 }
 
 /// On which side of the seam a force stands: bulk is assembled and factored once, contact in every iteration.
@@ -51,6 +65,8 @@ pub struct Energy {
     pub dissipated: f64,
     /// Work done by this force on the bodies since the start, for loads and moving obstacles or belts.
     pub work: f64,
+    /// Dissipated by damping in normal direction since the start, never falling.
+    pub damped: f64,
 }
 
 /// Anything that acts on the degrees of freedom: elasticity, loads, springs, interfaces.
@@ -102,6 +118,11 @@ pub trait Force: Send {
     /// Multiplier update between equilibrium solves.
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         Augmentation::Done
+    }
+
+    /// How many points have another status in the present attempt than at the last accepted state.
+    fn switched(&self) -> usize {
+        0
     }
 
     /// Accepts the attempt: committed history := trial.

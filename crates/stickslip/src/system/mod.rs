@@ -15,5 +15,5 @@ pub use constraints::Constraints;
 pub use dofs::Dofs;
 pub use failure::{Cause, Culprit, StepFailure};
 pub use fields::{Field, Fields, Location};
-pub use force::{Augmentation, Energy, Force, Role, Stage, State, Tally};
+pub use force::{Augmentation, Energy, Force, Rate, Role, Stage, State, Tally};
 pub use schedule::{Course, Piece, Schedule};

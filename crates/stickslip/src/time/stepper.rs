@@ -28,6 +28,7 @@ pub struct Stepper {
     now: f64,
     wish: f64,
     easy: usize,
+    growth: f64,
 }
 
 /// Newton iterations up to which an increment counts as easy.
@@ -48,7 +49,22 @@ impl Stepper {
             now: start,
             wish: increments.initial,
             easy: 0,
+            growth: GROWTH,
         }
+    }
+
+    /// Doubles increments when they grow, so that halving and growing lead to the same few lengths and the matrices made for them serve
+    /// again.
+    pub fn doubling(self) -> Self {
+        Stepper {
+            growth: 2.0,
+            ..self
+        }
+    }
+
+    /// Sets the increment that is wanted next, for schemes that know it.
+    pub fn bound(&mut self, wish: f64) {
+        self.wish = wish.min(self.increments.largest);
     }
 
     /// The next increment to try; `None` at the end.
@@ -70,7 +86,7 @@ impl Stepper {
         self.now = trial.to;
         self.easy = if iterations <= EASY { self.easy + 1 } else { 0 };
         if self.easy >= 2 {
-            self.wish = (self.wish * GROWTH).min(self.increments.largest);
+            self.wish = (self.wish * self.growth).min(self.increments.largest);
             self.easy = 0;
         }
     }

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::newton::Progress;
 use stickslip::problem::Problem;
-use stickslip::simulation::{Event, Observer, Row, Simulation};
+pub use stickslip::simulation::Row;
+use stickslip::simulation::{Event, Observer, Simulation};
 
 /// The problem in `text`, which must be sound.
 pub fn problem(text: &str) -> Problem {

@@ -256,6 +256,7 @@ fn loads_follow_their_schedule_and_springs_store_energy() {
         from: &state,
         at: &state,
         dt: 1.0,
+        rate: None,
     });
     assert_eq!(spring.energy().stored, 7.0);
 }

@@ -5,9 +5,10 @@ use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
 use crate::contact::obstacle::Pose;
 use crate::contact::pairing::{FacetPoint, beyond, facet_distance, project};
-use crate::contact::response::{Circumstances, Response};
+use crate::contact::response::{Circumstances, Response, Status};
 use crate::contact::surface::Facet;
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
+use crate::system::Rate;
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
@@ -28,8 +29,13 @@ pub(super) struct Scene<'a> {
     pub before: &'a [Vec3],
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,
+    /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
     pub belt: Vec3,
+    pub belt_end: Vec3,
+    pub rate: Option<Rate<'a>>,
     pub dt: f64,
+    /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
+    pub initial: bool,
     pub tangent: bool,
 }
 
@@ -61,6 +67,8 @@ pub(super) struct Evaluation {
     pub carried: [f64; 2],
     /// Multipliers as components in the frame, where they are unknowns.
     pub multiplier: [f64; 3],
+    /// Gradients of the slip as friction sees it; empty where they are those of the slip.
+    pub rated: [Vec<f64>; 2],
 }
 
 /// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
@@ -234,7 +242,8 @@ impl Interface {
         let mut stencil = Stencil::default();
         kinematics.stencil(&pair, &mut stencil);
         stencil.reach = now.iter().map(|&x| norm(x)).fold(norm(position), f64::max);
-        let mut e = self.respond(i, &stencil, scene);
+        let nodes = point.nodes.iter().chain(&facet.nodes);
+        let mut e = self.respond(i, &stencil, nodes, scene);
         e.facet = Some(f);
         e.facet_weights = facet
             .nodes
@@ -242,8 +251,7 @@ impl Interface {
             .copied()
             .zip(foot.n[..facet.nodes.len()].iter().copied())
             .collect();
-        let nodes = point.nodes.iter().chain(&facet.nodes);
-        self.finish(i, &stencil, nodes, scene, &mut e, |weights, out| {
+        self.finish(i, &stencil, scene, &mut e, |weights, out| {
             kinematics.add_hessian(&pair, &stencil, weights, out);
         });
         e
@@ -276,32 +284,47 @@ impl Interface {
             0.0
         };
         stencil.reach = norm(x) + 2.0 * radius;
-        let mut e = self.respond(i, &stencil, scene);
-        self.finish(
-            i,
-            &stencil,
-            point.nodes.iter(),
-            scene,
-            &mut e,
-            |weights, out| {
-                add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out);
-            },
-        );
+        let mut e = self.respond(i, &stencil, point.nodes.iter(), scene);
+        self.finish(i, &stencil, scene, &mut e, |weights, out| {
+            add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out);
+        });
         e
     }
 
+    /// Closing velocity over the increment; zero for a point that had no gap before.
+    fn closing(&self, i: usize, gap: f64, dt: f64) -> f64 {
+        let before = &self.memory.committed[i];
+        if before.normal == [0.0; 3] || !before.gap.is_finite() {
+            return 0.0;
+        }
+        (before.gap - gap) / dt
+    }
+
     /// Laws at a stencil.
-    fn respond(&self, i: usize, stencil: &Stencil, scene: &Scene) -> Evaluation {
+    fn respond<'a>(
+        &self,
+        i: usize,
+        stencil: &Stencil,
+        nodes: impl Iterator<Item = &'a usize>,
+        scene: &Scene,
+    ) -> Evaluation {
         let dim = self.dofs.dim;
         let point = &self.points[i];
+        let nodes: Vec<usize> = nodes.copied().collect();
+        let dofs: Vec<usize> = nodes
+            .iter()
+            .flat_map(|&node| (0..dim).map(move |c| (node, c)))
+            .map(|(node, c)| self.dofs.of(self.nodes[node], c))
+            .collect();
+        let unknown = self.unknown();
         let enforcement = self.laws.enforcement.as_dyn();
         let normal_stiffness = if self.laws.needs_normal_stiffness() {
-            enforcement.normal().resolve(point.stiffness)
+            self.spring(enforcement.normal(), point.stiffness)
         } else {
             f64::INFINITY
         };
         let tangential_stiffness = if self.laws.needs_tangential_stiffness() {
-            enforcement.tangential().resolve(point.stiffness)
+            self.spring(enforcement.tangential(), point.stiffness)
         } else {
             f64::INFINITY
         };
@@ -318,6 +341,8 @@ impl Interface {
             }
             _ => [0.0, carried[0], carried[1]],
         };
+        let belt = stencil.frame_before.map(|e| dot(e, scene.belt));
+        let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
         let at = Circumstances {
             dt: scene.dt,
             normal_stiffness,
@@ -340,11 +365,30 @@ impl Interface {
             } else {
                 0.0
             },
-            belt: stencil.frame_before.map(|e| dot(e, scene.belt)),
+            slip: slid,
+            path: None,
+            unknown,
+            sticking: self.memory.committed[i].status != Status::Slip,
+            closing: self.closing(i, stencil.gap, scene.dt),
+        };
+        let mut rated = [Vec::new(), Vec::new()];
+        let at = match scene.rate {
+            Some(rate) => {
+                let (seen, rows) = rate_slip(stencil, &nodes, &dofs, scene, rate);
+                rated = rows;
+                let belt = stencil.frame_before.map(|e| dot(e, scene.belt_end));
+                Circumstances {
+                    slip: [seen[0] - belt[0], seen[1] - belt[1]],
+                    path: Some(slid),
+                    ..at
+                }
+            }
+            None => at,
         };
         let response = self.laws.respond(stencil, &at);
-        let slid = [stencil.slip[0] - at.belt[0], stencil.slip[1] - at.belt[1]];
         Evaluation {
+            dofs,
+            rated,
             response,
             gap: stencil.gap,
             normal: stencil.normal,
@@ -364,24 +408,18 @@ impl Interface {
     }
 
     /// Residual and tangent from stencil and response.
-    fn finish<'a>(
+    fn finish(
         &self,
         i: usize,
         stencil: &Stencil,
-        nodes: impl Iterator<Item = &'a usize>,
         scene: &Scene,
         e: &mut Evaluation,
         hessian: impl FnOnce([f64; 3], &mut [f64]),
     ) {
         let r = &e.response;
-        let unknown = self.laws.unknown_multipliers();
+        let unknown = self.unknown() && !scene.initial;
         let traction = if unknown { e.multiplier } else { r.traction };
-        let (dim, n, area) = (self.dofs.dim, stencil.n, self.points[i].area);
-        for &node in nodes {
-            for c in 0..dim {
-                e.dofs.push(self.dofs.of(self.nodes[node], c));
-            }
-        }
+        let (n, area) = (stencil.n, self.points[i].area);
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
         }
@@ -402,8 +440,13 @@ impl Interface {
         e.rounding = 4.0 * f64::EPSILON * stencil.reach * slope * area;
         let rows = &stencil.rows;
         // d_gap · B (+ the skew), shape (3, n)
+        let seen: [&[f64]; 3] = if e.rated[0].is_empty() {
+            [&rows[0], &rows[1], &rows[2]]
+        } else {
+            [&rows[0], &e.rated[0], &e.rated[1]]
+        };
         let change = |q: usize, k: usize| -> f64 {
-            let mut c: f64 = (0..3).map(|p| r.d_gap[q][p] * rows[p][k]).sum();
+            let mut c: f64 = (0..3).map(|p| r.d_gap[q][p] * seen[p][k]).sum();
             if !stencil.skew_row.is_empty() {
                 c += r.d_skew[q] * stencil.skew_row[k];
             }
@@ -435,7 +478,10 @@ impl Interface {
             .as_ref()
             .map(|s| condensed_slope(&s.k_ll_inverse, &r.d_gap));
         let d = condensed.as_ref().unwrap_or(&r.d_gap);
-        let [t11, t22, t12] = positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]);
+        // Friction that looks at velocities is stiffer by the gain.
+        let gain = stencil_gain(stencil, &e.rated);
+        let [t11, t22, t12] =
+            positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]).map(|t| gain * t);
         let normal = (-d[0][0]).max(0.0);
         let mut surrogate = vec![0.0; n * n];
         for k in 0..n {
@@ -452,6 +498,42 @@ impl Interface {
         e.tangent = tangent;
         e.surrogate = surrogate;
     }
+}
+
+/// The slip as friction sees it, `dt v` along the frame, and its gradients: `s + Σ row ((gain - 1) Δu + shift)`.
+fn rate_slip(
+    stencil: &Stencil,
+    nodes: &[usize],
+    dofs: &[usize],
+    scene: &Scene,
+    rate: Rate,
+) -> ([f64; 2], [Vec<f64>; 2]) {
+    let dim = dofs.len() / nodes.len();
+    let mut slip = stencil.slip;
+    let rows = [0, 1].map(|i| {
+        let row = &stencil.rows[i + 1];
+        row.iter()
+            .zip(dofs)
+            .enumerate()
+            .map(|(k, (&r, &dof))| {
+                let node = nodes[k / dim];
+                let moved = scene.x[node][k % dim] - scene.before[node][k % dim];
+                slip[i] += r * ((rate.gain[dof] - 1.0) * moved + rate.shift[dof]);
+                r * rate.gain[dof]
+            })
+            .collect()
+    });
+    (slip, rows)
+}
+
+/// The largest ratio of what friction sees of a displacement to the slip it is.
+fn stencil_gain(stencil: &Stencil, rated: &[Vec<f64>; 2]) -> f64 {
+    let pairs = (0..2).flat_map(|i| stencil.rows[i + 1].iter().zip(&rated[i]));
+    let ratio = pairs
+        .filter(|(row, _)| **row != 0.0)
+        .map(|(row, seen)| seen / row);
+    let largest = ratio.fold(0.0_f64, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
 }
 
 /// `K_ll⁻¹ ∂T/∂gap`: the slope of the multipliers after their elimination.

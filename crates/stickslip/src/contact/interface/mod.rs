@@ -74,9 +74,14 @@ pub struct Memory {
     frozen: Vec<Option<(usize, FacetPoint)>>,
     dissipated: f64,
     belt_work: f64,
+    damped: f64,
+    /// Largest velocity of slip below the limit over the last increment.
+    creep: f64,
     changed: usize,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
     untouched: bool,
+    /// Explicit dynamics: springs, whatever the enforcement.
+    explicit: bool,
     softening: Option<f64>,
 }
 
@@ -92,6 +97,8 @@ struct History {
     normal: Vec3,
     status: Status,
     facet: Option<usize>,
+    /// The part of the pressure that damping added.
+    damping: f64,
 }
 
 /// Multipliers of a contact point in the current attempt.
@@ -130,17 +137,95 @@ impl Interface {
             .collect()
     }
 
-    /// Belt displacement over the increment.
-    fn belt_path(&self, stage: &Stage) -> Vec3 {
+    /// Whether multipliers are unknowns of the present attempt.
+    fn unknown(&self) -> bool {
+        self.laws.unknown_multipliers() && !self.memory.explicit
+    }
+
+    /// Enforces contact and stick by springs in explicit dynamics, whatever the enforcement: those of a penalty, or as stiff as the cells
+    /// beneath.
+    pub fn use_springs(&mut self, springs: bool) {
+        self.memory.explicit = springs;
+    }
+
+    /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the
+    /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own.
+    pub fn highest_frequency(&self, inverse_mass: &[f64]) -> f64 {
+        let mut rows: Vec<f64> = vec![0.0; self.nodes.len()];
+        let sides = if self.rigid() { 1.0 } else { 2.0 };
+        let enforcement = self.laws.enforcement.as_dyn();
+        for (i, point) in self.points.iter().enumerate() {
+            let last = self.memory.last.get(i);
+            let own = if self.laws.needs_normal_stiffness() {
+                self.spring(enforcement.normal(), point.stiffness)
+            } else {
+                0.0
+            };
+            let now = last.map_or(0.0, |e| {
+                let d = &e.response.d_gap;
+                d[0][0].abs().max(d[1][1].abs()).max(d[2][2].abs())
+            });
+            let stiffness = sides * point.area * own.max(now);
+            if stiffness == 0.0 {
+                continue;
+            }
+            for (&node, &w) in point.nodes.iter().zip(&point.weights) {
+                rows[node] += stiffness * w.abs();
+            }
+            for &(node, w) in last.map_or(&[][..], |e| &e.facet_weights) {
+                rows[node] += stiffness * w.abs();
+            }
+        }
+        rows.iter()
+            .zip(&self.nodes)
+            .map(|(k, &node)| k * inverse_mass[self.dofs.of(node, 0)])
+            .fold(0.0, f64::max)
+    }
+
+    /// A stiffness of the enforcement, or of the cell beneath where the enforcement is not by springs.
+    fn spring(&self, stiffness: super::enforcement::Stiffness, own: f64) -> f64 {
+        if self.memory.explicit && self.laws.enforcement.as_dyn().multipliers() != Multipliers::None
+        {
+            own
+        } else {
+            stiffness.resolve(own)
+        }
+    }
+
+    /// Velocity of the belt.
+    fn belt_velocity(&self, t: f64) -> Vec3 {
         if self.belt.is_empty() {
             return [0.0; 3];
         }
         std::array::from_fn(|i| {
             let table = self.belt.iter().map(|row| [row[0], row[i + 1]]).collect();
-            crate::system::Amplitude::new(table).map_or(0.0, |v| {
-                0.5 * (v.at(stage.from.t) + v.at(stage.at.t)) * stage.dt
-            })
+            crate::system::Amplitude::new(table).map_or(0.0, |v| v.at(t))
         })
+    }
+
+    /// Belt displacement over the increment; exact, as increments land on the rows of its table.
+    fn belt_path(&self, stage: &Stage) -> Vec3 {
+        let sum = add(
+            self.belt_velocity(stage.from.t),
+            self.belt_velocity(stage.at.t),
+        );
+        scale(0.5 * stage.dt, sum)
+    }
+
+    /// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
+    /// history: for the acceleration at the start.
+    pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<(), StepFailure> {
+        if !self.schedule.active(stage.at.t) {
+            return Ok(());
+        }
+        self.prepare(stage)?;
+        self.begin();
+        for e in self.evaluate_all(stage, false, true) {
+            for (&dof, r) in e.dofs.iter().zip(&e.residual) {
+                residual[dof] += r;
+            }
+        }
+        Ok(())
     }
 
     fn poses(&self, stage: &Stage) -> Option<(Pose, Pose)> {
@@ -196,11 +281,12 @@ impl Interface {
             .collect();
     }
 
-    fn evaluate_all(&self, stage: &Stage, tangent: bool) -> Vec<Evaluation> {
+    fn evaluate_all(&self, stage: &Stage, tangent: bool, initial: bool) -> Vec<Evaluation> {
         let x = self.coordinates(&stage.at.u);
         let before = self.coordinates(&stage.from.u);
         let poses = self.poses(stage);
         let belt = self.belt_path(stage);
+        let belt_end = scale(stage.dt, self.belt_velocity(stage.at.t));
         let indices: Vec<usize> = (0..self.points.len()).collect();
         indices
             .par_chunks(CHUNK)
@@ -210,8 +296,11 @@ impl Interface {
                     before: &before,
                     poses: poses.as_ref(),
                     belt,
+                    belt_end,
+                    rate: stage.rate,
                     dt: stage.dt,
                     tangent,
+                    initial,
                 };
                 chunk
                     .iter()
@@ -263,8 +352,8 @@ impl Force for Interface {
             self.memory.last.clear();
             return Ok(());
         }
-        let evaluations = self.evaluate_all(stage, out.wants_tangent);
-        let unknown = self.laws.unknown_multipliers();
+        let evaluations = self.evaluate_all(stage, out.wants_tangent, false);
+        let unknown = self.unknown();
         for (i, e) in evaluations.iter().enumerate() {
             if out.wants_tangent && !e.dofs.is_empty() {
                 out.couplings.push(e.dofs.clone());
@@ -336,7 +425,7 @@ impl Force for Interface {
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
-        if !self.laws.unknown_multipliers() {
+        if !self.unknown() {
             return;
         }
         let memory = &mut self.memory;
@@ -395,6 +484,16 @@ impl Force for Interface {
         }
     }
 
+    fn switched(&self) -> usize {
+        let memory = &self.memory;
+        memory
+            .committed
+            .iter()
+            .zip(&memory.last)
+            .filter(|(h, e)| h.status != e.response.status)
+            .count()
+    }
+
     fn commit(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
@@ -408,6 +507,8 @@ impl Force for Interface {
             }
             return;
         }
+        memory.creep = 0.0;
+        let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
         for ((h, e), point) in memory
             .committed
             .iter_mut()
@@ -422,6 +523,18 @@ impl Force for Interface {
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
             memory.dissipated += (-work * point.area).max(0.0);
             memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * point.area;
+            if creeps && r.status == Status::Stick {
+                memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
+            }
+            if r.damping != 0.0 || h.damping != 0.0 {
+                let closed = if h.normal == [0.0; 3] {
+                    0.0
+                } else {
+                    h.gap - e.gap
+                };
+                let work = 0.5 * (h.damping + r.damping) * closed;
+                memory.damped += (work * point.area).max(0.0);
+            }
             let slid = if r.status == Status::Open {
                 [0.0; 3]
             } else {
@@ -435,6 +548,7 @@ impl Force for Interface {
                 normal: e.normal,
                 status: r.status,
                 facet: e.facet,
+                damping: r.damping,
             };
         }
     }
@@ -444,6 +558,7 @@ impl Force for Interface {
             stored: self.stored_energy(),
             dissipated: self.memory.dissipated,
             work: self.memory.belt_work,
+            damped: self.memory.damped,
         }
     }
 

@@ -33,6 +33,9 @@ pub struct Quality {
     pub relative_to_size: f64,
     /// Largest false slip of a sticking point over the last increment `[m]`.
     pub false_slip: f64,
+    /// Largest velocity of slip at a point that carries less than its limit, over the last increment `[m/s]`: the creep of a regularised
+    /// slip rule, see [`creep`](crate::contact::law::slip::creep).
+    pub creep: f64,
 }
 
 /// Two output directions in a surface: the x axis (or y, z where the normal is along it) laid into it, and the one across.
@@ -61,7 +64,7 @@ impl Interface {
                 let spring = if e.normal_stiffness.is_finite() && self.laws.needs_normal_stiffness()
                 {
                     // what is left of the constraint's violation, a spring from λ to p
-                    0.5 * h.pressure * (-h.gap).max(0.0)
+                    0.5 * (h.pressure - h.damping) * (-h.gap).max(0.0)
                 } else {
                     0.0
                 };
@@ -98,7 +101,10 @@ impl Interface {
 
     /// How well contact and stick hold at the last committed state.
     pub fn quality(&self) -> Quality {
-        let mut q = Quality::default();
+        let mut q = Quality {
+            creep: self.memory.creep,
+            ..Quality::default()
+        };
         let law = self.laws.normal.as_dyn();
         let evaluations = self.memory.last.iter();
         for ((p, h), e) in self
@@ -300,7 +306,7 @@ impl Interface {
     pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
         let _ = self.prepare(stage);
         self.begin();
-        let evaluations = self.evaluate_all(stage, false);
+        let evaluations = self.evaluate_all(stage, false, false);
         let opposite = |e: &Evaluation| e.facet.is_some() || self.rigid();
         evaluations
             .iter()

@@ -1,6 +1,7 @@
 //! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
 
 mod contact;
+mod initial;
 mod meshes;
 mod schedules;
 mod sets;
@@ -45,11 +46,16 @@ impl Problem {
             }
             let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
                 .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+            let part_name = part.name.clone();
             bodies.push(Body {
                 name: part.name,
                 points: part.points,
                 blocks: part.blocks,
                 elastic,
+                rayleigh: match self.body[&part_name].rayleigh {
+                    Some(r) => [r.mass, r.stiffness],
+                    None => [0.0; 2],
+                },
             });
         }
         let sets = Sets::new(self, &mesh, &bodies)?;
@@ -62,6 +68,8 @@ impl Problem {
         let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
         let supports = supports(self, &sets, dofs, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
+        let initials = initial::build(self, &sets, &mesh, dofs, folder)?;
+        initial::agree_with_supports(self, &initials, &supports, &mesh, dofs)?;
         let probes = probes(self, &sets, &bodies)?;
         Ok(Model {
             title: self.title.clone().unwrap_or_default(),
@@ -72,11 +80,13 @@ impl Problem {
             springs,
             supports,
             interfaces,
+            initials,
             steps: timeline.steps(self),
             probes,
             output: OutputPlan {
                 every: self.output.every,
                 times: self.output.times.clone(),
+                history_every: self.output.history_every,
             },
             settings: Settings {
                 tolerance: self.solver.tolerance,
@@ -85,6 +95,7 @@ impl Problem {
                 krylov_patience: self.solver.linear.patience,
                 linear_tolerance: self.solver.linear.tolerance,
             },
+            energy_limit: self.solver.energy_limit,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,
         })
@@ -168,18 +179,20 @@ fn supports(
     let mut out = Vec::new();
     for (name, support) in &problem.support {
         let points = sets.points(&support.set, &format!("support.{name}.set"))?;
-        let given: Vec<(usize, f64)> = support
+        let mut given: Vec<(usize, f64, bool)> = support
             .components()
             .iter()
             .enumerate()
-            .filter_map(|(c, (_, value))| value.map(|v| (c, v)))
+            .filter_map(|(c, (_, value))| value.map(|v| (c, v, false)))
             .collect();
+        given.extend(support.hold.iter().map(|&c| (c as usize, 0.0, true)));
         let entries = points
             .iter()
             .flat_map(|&p| {
-                given.iter().map(move |&(c, value)| Prescribed {
+                given.iter().map(move |&(c, value, hold)| Prescribed {
                     dof: dofs.of(p, c),
                     value,
+                    hold,
                 })
             })
             .collect();

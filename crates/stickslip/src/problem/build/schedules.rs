@@ -1,7 +1,7 @@
 //! When what acts, and with which factor.
 
 use super::super::Problem;
-use crate::simulation::Step;
+use crate::simulation::{Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
 
@@ -52,7 +52,8 @@ impl Timeline {
         Schedule { pieces }
     }
 
-    /// Loads grow from zero over the first step in which they act, stay, and fall to zero over the first in which they do not.
+    /// Loads grow from zero over the first step in which they act, stay, and fall to zero over the first in which they do not; in a
+    /// dynamic step they come and go at once.
     pub fn load(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
         let active: Vec<bool> = problem
             .step
@@ -60,7 +61,13 @@ impl Timeline {
             .map(|s| listed(s.loads.as_ref(), name))
             .collect();
         let table = table(problem, amplitude);
+        let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
         self.schedule(&active, |on, factor, _| match (on, &table) {
+            (on, table) if sudden.next().unwrap_or(false) => match (on, table) {
+                (true, Some(table)) => Course::Table(table.clone()),
+                (true, None) => Course::Ramp(1.0, 1.0),
+                (false, _) => Course::Off,
+            },
             (true, Some(table)) => Course::Table(table.clone()),
             (true, None) => Course::Ramp(factor, 1.0),
             (false, _) if factor != 0.0 => Course::Ramp(factor, 0.0),
@@ -155,6 +162,15 @@ impl Timeline {
                     end,
                     increments,
                     milestones,
+                    fixed: inc.fixed.is_some(),
+                    dynamic: step.dynamic.as_ref().map(|d| Dynamic {
+                        method: d.scheme.as_dyn().method(),
+                        mass: d.mass,
+                        contact_mass: d.contact_mass,
+                        contact_at: d.contact_at,
+                        error: d.error,
+                        events: d.events,
+                    }),
                 }
             })
             .collect()

@@ -1,8 +1,10 @@
 //! Rules that bind the tables of a problem to each other.
 //!
-//! One file per kind of rule: names that are used (`names.rs`), tables on their own (`tables.rs`), time (`steps.rs`).
+//! One file per kind of rule: names that are used (`names.rs`), tables on their own (`tables.rs`), time (`steps.rs`),
+//! motion (`motion.rs`).
 //! Ranges of single numbers are stated where the key is declared and checked with the schema.
 
+mod motion;
 mod names;
 mod steps;
 mod tables;
@@ -20,6 +22,7 @@ pub(super) fn check(problem: &Problem) -> Vec<Diagnostic> {
     names::check(problem, &mut findings);
     tables::check(problem, &mut findings);
     steps::check(problem, &mut findings);
+    motion::check(problem, &mut findings);
     findings.0
 }
 

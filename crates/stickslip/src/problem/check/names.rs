@@ -33,6 +33,9 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             &problem.amplitude,
         );
     }
+    for (name, initial) in &problem.initial {
+        set(problem, findings, &["initial", name, "set"], &initial.set);
+    }
     probes(problem, findings);
 }
 

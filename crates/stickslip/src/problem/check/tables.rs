@@ -1,6 +1,6 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
-use super::super::{FacetShape, Interface, Problem, Select, SpaceKind};
+use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
 use super::Findings;
 use crate::body::Formulation;
 use crate::contact::enforcement::Multipliers;
@@ -51,8 +51,51 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             amplitude.table.clone(),
         );
     }
+    for (name, initial) in &problem.initial {
+        let vectors = [
+            ("displacement", &initial.displacement),
+            ("velocity", &initial.velocity),
+        ];
+        for (key, value) in vectors {
+            if let Some(value) = value {
+                findings.vector(problem, &["initial", name, key], value);
+            }
+        }
+        spin(problem, findings, name, initial);
+    }
     for (name, probe) in &problem.probe {
         findings.vector(problem, &["probe", name, "point"], &probe.point);
+    }
+}
+
+fn spin(problem: &Problem, findings: &mut Findings, name: &str, initial: &Initial) {
+    let Initial {
+        displacement,
+        velocity,
+        spin,
+        result,
+        ..
+    } = initial;
+    let wanted = if problem.model.space.dim() == 2 { 1 } else { 3 };
+    if let Some(spin) = spin
+        && spin.len() != wanted
+    {
+        let message = format!("expected {wanted} numbers, found {}", spin.len());
+        findings.add(&["initial", name, "spin"], message, "");
+    }
+    let given = displacement.is_some() || velocity.is_some() || spin.is_some();
+    match (result, given) {
+        (Some(_), true) => findings.add(
+            &["initial", name, "result"],
+            "`result` excludes `displacement`, `velocity` and `spin`",
+            "keep one of the two",
+        ),
+        (None, false) => findings.add(
+            &["initial", name],
+            "nothing is given",
+            "give displacement, velocity, spin or result",
+        ),
+        _ => {}
     }
 }
 
@@ -204,7 +247,22 @@ fn velocity(problem: &Problem, findings: &mut Findings, name: &str, interface: &
 
 fn supports(problem: &Problem, findings: &mut Findings) {
     for (name, support) in &problem.support {
-        if support.components().iter().all(|(_, x)| x.is_none()) {
+        for &held in &support.hold {
+            let (letter, value) = support.components()[held as usize];
+            if value.is_some() {
+                findings.add(
+                    &["support", name, "hold"],
+                    format!("`{letter}` is both held and prescribed"),
+                    "keep one of the two",
+                );
+            }
+            if held as usize >= problem.model.space.dim() {
+                let message = format!("there is no component {letter} in the plane");
+                findings.add(&["support", name, "hold"], message, "");
+            }
+        }
+        let free = support.components().iter().all(|(_, x)| x.is_none());
+        if free && support.hold.is_empty() {
             findings.add(
                 &["support", name],
                 format!("the support `{name}` holds no component"),

@@ -1,0 +1,204 @@
+//! Initial displacements and velocities.
+
+use std::path::Path;
+
+use super::super::Problem;
+use super::problem_error;
+use super::sets::Sets;
+use crate::error::{Diagnostic, Error};
+use crate::io::vtu;
+use crate::math::{Vec3, add, cross, distance, scale, sub};
+use crate::mesh::Mesh;
+use crate::simulation::{Initial, Support};
+use crate::system::Dofs;
+
+fn vec3(v: &[f64]) -> Vec3 {
+    std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))
+}
+
+pub(super) fn build(
+    problem: &Problem,
+    sets: &Sets,
+    mesh: &Mesh,
+    dofs: Dofs,
+    folder: &Path,
+) -> Result<Vec<Initial>, Error> {
+    let mut out = Vec::new();
+    for (name, initial) in &problem.initial {
+        let points = sets.points(&initial.set, &format!("initial.{name}.set"))?;
+        let by_dof = |value: &dyn Fn(usize) -> Vec3| -> Vec<(usize, f64)> {
+            let values = points.iter().flat_map(|&p| {
+                let v = value(p);
+                (0..dofs.dim).map(move |c| (dofs.of(p, c), v[c]))
+            });
+            values.collect()
+        };
+        let displacements = match &initial.displacement {
+            Some(u) => by_dof(&|_| vec3(u)),
+            None => Vec::new(),
+        };
+        let spin = match (initial.spin.as_deref(), dofs.dim) {
+            (Some([w]), 2) => [0.0, 0.0, *w],
+            (Some(w), _) => vec3(w),
+            (None, _) => [0.0; 3],
+        };
+        let sum = points.iter().fold([0.0; 3], |s, &p| add(s, mesh.points[p]));
+        let centre = scale(1.0 / points.len().max(1) as f64, sum);
+        let v0 = vec3(initial.velocity.as_deref().unwrap_or_default());
+        let velocities = if initial.velocity.is_some() || initial.spin.is_some() {
+            by_dof(&|p| add(v0, cross(spin, sub(mesh.points[p], centre))))
+        } else {
+            Vec::new()
+        };
+        let (displacements, velocities) = match &initial.result {
+            Some(file) => from_result(name, &folder.join(file), &points, mesh, dofs)?,
+            None => (displacements, velocities),
+        };
+        let step = problem.step.iter().position(|s| match &initial.step {
+            Some(wanted) => s.name.as_ref() == Some(wanted),
+            None => s.dynamic.is_some(),
+        });
+        out.push(Initial {
+            name: name.clone(),
+            displacements,
+            velocities,
+            step: step.unwrap_or(0),
+        });
+    }
+    Ok(out)
+}
+
+type ByDof = Vec<(usize, f64)>;
+
+/// Displacements and velocities of these points from a result file, matched by their coordinates.
+fn from_result(
+    name: &str,
+    path: &Path,
+    points: &[usize],
+    mesh: &Mesh,
+    dofs: Dofs,
+) -> Result<(ByDof, ByDof), Error> {
+    let key = format!("initial.{name}.result");
+    let fields = vtu::read(path)?;
+    let found = match_points(points, mesh, &fields.points).map_err(|p| {
+        let x: Vec<String> = mesh.points[p][..dofs.dim]
+            .iter()
+            .map(f64::to_string)
+            .collect();
+        problem_error(vec![
+            Diagnostic::new(
+                &key,
+                format!(
+                    "{} has no point at ({}), where node {} is",
+                    path.display(),
+                    x.join(", "),
+                    mesh.point_ids[p]
+                ),
+            )
+            .help("the result must come from the same mesh"),
+        ])
+    })?;
+    let take = |array: &str| -> Option<ByDof> {
+        let a = fields.arrays.get(array).filter(|a| a.components == 3)?;
+        let mut out = Vec::new();
+        for (&p, &at) in points.iter().zip(&found) {
+            for c in 0..dofs.dim {
+                out.push((dofs.of(p, c), a.values[3 * at + c]));
+            }
+        }
+        Some(out)
+    };
+    let Some(displacements) = take("U") else {
+        return Err(problem_error(vec![
+            Diagnostic::new(&key, format!("{} has no displacements U", path.display()))
+                .help("name a file fields_*.vtu of an earlier run"),
+        ]));
+    };
+    // A quasi-static result has no velocities: the bodies start from rest.
+    Ok((displacements, take("V").unwrap_or_default()))
+}
+
+/// For every point the index of the one at the same place, or the first that has none.
+fn match_points(points: &[usize], mesh: &Mesh, others: &[Vec3]) -> Result<Vec<usize>, usize> {
+    let reach = 1e-6 * mesh.diameter();
+    let mut order: Vec<usize> = (0..others.len()).collect();
+    order.sort_by(|&a, &b| others[a][0].total_cmp(&others[b][0]));
+    points
+        .iter()
+        .map(|&p| {
+            let x = mesh.points[p];
+            if others.get(p).is_some_and(|&o| distance(o, x) <= reach) {
+                return Ok(p);
+            }
+            let first = order.partition_point(|&i| others[i][0] < x[0] - reach);
+            order[first..]
+                .iter()
+                .copied()
+                .take_while(|&i| others[i][0] <= x[0] + reach)
+                .find(|&i| distance(others[i], x) <= reach)
+                .ok_or(p)
+        })
+        .collect()
+}
+
+/// A point that is supported moves as its support says.
+pub(super) fn agree_with_supports(
+    problem: &Problem,
+    initials: &[Initial],
+    supports: &[Support],
+    mesh: &Mesh,
+    dofs: Dofs,
+) -> Result<(), Error> {
+    let mut findings = Vec::new();
+    let mut starts = vec![0.0];
+    for step in &problem.step {
+        starts.push(starts[starts.len() - 1] + step.duration);
+    }
+    for initial in initials {
+        let largest = initial
+            .velocities
+            .iter()
+            .fold(0.0_f64, |m, (_, v)| m.max(v.abs()));
+        let (start, end) = (starts[initial.step], starts[initial.step + 1]);
+        let soon = start + 1e-6 * (end - start);
+        for support in supports.iter().filter(|s| s.schedule.active(soon)) {
+            let rate = (support.schedule.at(soon)
+                - support.schedule.at(start + 1e-9 * (end - start)))
+                / (soon - start - 1e-9 * (end - start));
+            let wrong: Vec<usize> = support
+                .entries
+                .iter()
+                .filter(|e| {
+                    let wanted = if e.hold { 0.0 } else { rate * e.value };
+                    initial
+                        .velocities
+                        .iter()
+                        .any(|(dof, v)| *dof == e.dof && (v - wanted).abs() > 1e-6 * largest)
+                })
+                .map(|e| e.dof)
+                .collect();
+            let Some(&first) = wrong.first() else {
+                continue;
+            };
+            let (point, component) = dofs.locate(first);
+            findings.push(
+                Diagnostic::new(
+                    format!("initial.{}.velocity", initial.name),
+                    format!(
+                        "the velocity does not agree with support `{}` at {} points, the first being node {} in {}",
+                        support.name,
+                        wrong.len(),
+                        mesh.point_ids[point],
+                        ["x", "y", "z"][component]
+                    ),
+                )
+                .help("leave supported points out of the set, or give the support the motion by an amplitude"),
+            );
+        }
+    }
+    if findings.is_empty() {
+        Ok(())
+    } else {
+        Err(problem_error(findings))
+    }
+}

@@ -1,0 +1,386 @@
+//! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
+
+use super::inertia::{self, Inertia, dot, times};
+use super::model::{ContactAt, Dynamic};
+use super::run::{Accepted, Flow, Observer, Simulation};
+use crate::error::Error;
+use crate::newton::{Origin, System};
+use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
+use crate::time::Trial;
+use crate::time::newmark::{Increment, error_factor};
+use crate::time::scheme::Alphas;
+
+/// What motion needs beside the state.
+pub(super) struct Motion {
+    pub inertia: Inertia,
+    /// Displacements at the start of the step, and the farthest the bodies have been from there (in the norm of the mass).
+    start: Vec<f64>,
+    reach: f64,
+}
+
+/// Fraction of the duration of a step after its start at which loads that begin with the step are read.
+pub(super) const AFTER: f64 = 1e-9;
+
+/// One implicit increment that has converged.
+struct Solved {
+    state: State,
+    /// Out-of-balance force at the stage: reactions at fixed dofs.
+    reactions: Vec<f64>,
+    contact: Vec<f64>,
+    external: Vec<f64>,
+}
+
+impl Simulation {
+    /// Makes masses, initial velocities and the acceleration at the start of a dynamic step ready.
+    pub(super) fn start_motion(&mut self, dynamic: &Dynamic) -> Result<(), Error> {
+        let n = self.state.u.len();
+        if self.state.v.is_empty() {
+            self.state.v = vec![0.0; n];
+        }
+        self.state.a = vec![0.0; n];
+        let suits = self
+            .motion
+            .as_ref()
+            .is_some_and(|m| m.inertia.suits(dynamic));
+        let inertia = match self.motion.take() {
+            Some(motion) if suits => motion.inertia,
+            old => {
+                let keys = old.map_or(0, |m| m.inertia.keys());
+                Inertia::new(&self.model, &self.matrix, dynamic, keys)
+            }
+        };
+        let before = inertia.kinetic_energy(&self.state.v);
+        self.model
+            .apply_initial_velocities(self.step, &mut self.state.v);
+        let energy = &mut self.summary.energy;
+        energy.kinetic = inertia.kinetic_energy(&self.state.v);
+        energy.initial += energy.kinetic - before;
+        let step = &self.model.steps[self.step];
+        let (t, dt) = (
+            step.start + AFTER * (step.end - step.start),
+            step.increments.initial,
+        );
+        self.load = self.external(t);
+        self.motion = Some(Motion {
+            inertia,
+            start: self.state.u.clone(),
+            reach: 0.0,
+        });
+        self.contact = self.initial_contact(t, dt)?;
+        self.initial_acceleration(t)
+    }
+
+    /// Forces of the interfaces at the start, slip at the velocities of the start.
+    pub(super) fn initial_contact(&mut self, t: f64, dt: f64) -> Result<Vec<f64>, Error> {
+        let State { u, v, .. } = &self.state;
+        let before = State {
+            t: t - dt,
+            u: u.iter().zip(v).map(|(u, v)| u - dt * v).collect(),
+            ..State::default()
+        };
+        let at = State {
+            t,
+            u: u.clone(),
+            ..State::default()
+        };
+        let stage = Stage {
+            from: &before,
+            at: &at,
+            dt,
+            rate: None,
+        };
+        let mut contact = vec![0.0; u.len()];
+        for interface in &mut self.model.interfaces {
+            interface
+                .add_initial(&stage, &mut contact)
+                .map_err(|e| e.at(t))?;
+        }
+        Ok(contact)
+    }
+
+    /// `M a₀ = f(u₀, v₀)`.
+    fn initial_acceleration(&mut self, t: f64) -> Result<(), Error> {
+        let Some(motion) = &self.motion else {
+            return Ok(());
+        };
+        let inertia = &motion.inertia;
+        let internal = times(&self.matrix, &self.state.u);
+        let damping = inertia.damping_force(&self.state.v);
+        let force: Vec<f64> = (0..internal.len())
+            .map(|i| self.load[i] - internal[i] - damping[i] - self.contact[i])
+            .collect();
+        let fixed = self.constraints(t).fixed;
+        self.state.a = inertia.acceleration(&force, &fixed).map_err(|e| e.at(t))?;
+        Ok(())
+    }
+
+    /// Tries one implicit increment.
+    pub(super) fn attempt_implicit(
+        &mut self,
+        trial: Trial,
+        dynamic: &Dynamic,
+        alphas: Alphas,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Accepted, StepFailure> {
+        let constraints = self.constraints(trial.to);
+        let external = self.external(trial.to);
+        let Some(mut motion) = self.motion.take() else {
+            return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
+        };
+        let outcome = self.advance(
+            &mut motion,
+            trial,
+            dynamic,
+            alphas,
+            (constraints, external),
+            observers,
+        );
+        self.motion = Some(motion);
+        outcome
+    }
+
+    fn advance(
+        &mut self,
+        motion: &mut Motion,
+        trial: Trial,
+        dynamic: &Dynamic,
+        alphas: Alphas,
+        (constraints, external): (Constraints, Vec<f64>),
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Accepted, StepFailure> {
+        // The weight that the forces of the interfaces at the end have in the balance at the stage.
+        let weight = match dynamic.contact_at {
+            ContactAt::End => 1.0,
+            ContactAt::Stage => 1.0 - alphas.alpha_f,
+        };
+        let inertia = &mut motion.inertia;
+        let dt = inertia.ready(&self.matrix, alphas, trial.to - trial.from, weight);
+        let inertia = &motion.inertia;
+        let plain = inertia.plain(&constraints.fixed);
+        let fixed = constraints.fixed.clone();
+        let from = self.state.clone();
+        let increment = Increment {
+            alphas,
+            dt,
+            from: &from,
+            plain: &plain,
+        };
+        let mut guess = increment.predict();
+        constraints.impose(&mut guess);
+        let balance = Balance {
+            simulation: self,
+            inertia,
+            alphas,
+            weight,
+            external: &external,
+        };
+        let (mut forces, scale) = balance.at(&increment, &guess);
+        forces.iter_mut().for_each(|f| *f /= weight);
+        let (gain, shift) = increment.rate();
+        let mut at = State {
+            t: trial.to,
+            u: guess.clone(),
+            ..State::default()
+        };
+        let mut seen = Vec::new();
+        let converged = {
+            let Simulation { model, newton, .. } = self;
+            let Some((matrix, diagonal, key)) = inertia.matrix() else {
+                return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
+            };
+            let mut system = System {
+                dofs: model.dofs,
+                matrix,
+                diagonal,
+                external: vec![0.0; guess.len()],
+                constraints,
+                origin: Some(Origin {
+                    at: guess,
+                    forces,
+                    scale: scale / weight,
+                }),
+                key,
+                rate: Some(Rate {
+                    gain: &gain,
+                    shift: &shift,
+                }),
+                contact: inertia::contact(model),
+            };
+            newton.solve(&mut system, &from, &mut at, &mut |p| seen.push(*p))
+        };
+        self.tell(&seen, observers);
+        let converged = converged?;
+        (at.v, at.a) = increment.motion(&at.u);
+        for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
+            *a = 0.0;
+        }
+        let solved = Solved {
+            reactions: converged.forces.iter().map(|f| weight * f).collect(),
+            contact: converged.contact.clone(),
+            external: external.clone(),
+            state: at,
+        };
+        self.judge(motion, dynamic, alphas, (dt, trial), &solved)?;
+        let flow = self.flow(&motion.inertia, alphas, weight, &fixed, &solved);
+        Ok(Accepted {
+            forces: solved.reactions.clone(),
+            contact: solved.contact,
+            external,
+            flow,
+            rate: Some((gain, shift)),
+            state: solved.state,
+            ..Accepted::from_newton(&converged)
+        })
+    }
+
+    /// Whether the increment is small enough for the errors and events that are to be resolved.
+    fn judge(
+        &self,
+        motion: &mut Motion,
+        dynamic: &Dynamic,
+        alphas: Alphas,
+        (dt, trial): (f64, Trial),
+        solved: &Solved,
+    ) -> Result<(), StepFailure> {
+        self.check_change(&solved.state.u)?;
+        let mass = &motion.inertia.mass;
+        let norm = |x: &[f64]| dot(x, &times(mass, x)).max(0.0).sqrt();
+        let smallest = self.model.steps[self.step].increments.smallest;
+        if let Some(limit) = dynamic.error {
+            let moved: Vec<f64> = difference(&solved.state.u, &motion.start);
+            motion.reach = motion.reach.max(norm(&moved));
+            let turn = difference(&solved.state.a, &self.state.a);
+            let error = error_factor(alphas.beta) * dt * dt * norm(&turn);
+            let relative = error / motion.reach.max(f64::MIN_POSITIVE);
+            if relative > limit && 0.5 * dt >= smallest {
+                return Err(StepFailure::new(
+                    Cause::TooFar,
+                    format!("local error {relative:.1e} of the motion, more than `error` allows"),
+                ));
+            }
+        }
+        self.locate(dynamic, trial)
+    }
+
+    /// Rejects an increment over which points change status until it is as short as `events` asks for.
+    pub(super) fn locate(&self, dynamic: &Dynamic, trial: Trial) -> Result<(), StepFailure> {
+        let Some(tolerance) = dynamic.events else {
+            return Ok(());
+        };
+        let dt = trial.to - trial.from;
+        let smallest = self.model.steps[self.step].increments.smallest;
+        let switched: usize = self
+            .model
+            .interfaces
+            .iter()
+            .map(crate::system::Force::switched)
+            .sum();
+        if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
+            return Err(StepFailure::new(
+                Cause::Event,
+                format!("{switched} points open, close, stick or slip: the time is being located"),
+            ));
+        }
+        Ok(())
+    }
+
+    /// What flows in and out over the increment. With `Δ` for differences and bars for means of the two ends,
+    ///
+    /// ```text
+    /// ΔT + ΔU = v̄ᵀ M Δv + ūᵀ K Δu
+    /// ```
+    ///
+    /// and the balance at the stage times `Δu` gives what the scheme itself takes:
+    ///
+    /// ```text
+    /// D = Δuᵀ M a_m - v̄ᵀ M Δv + (½ - α_f) (Δuᵀ K Δu + Δvᵀ C Δu) + (w - ½) ΔRᵀ Δu - (½ - α_f) ΔFᵀ Δu
+    /// ```
+    ///
+    /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
+    fn flow(
+        &self,
+        inertia: &Inertia,
+        alphas: Alphas,
+        weight: f64,
+        fixed: &[bool],
+        solved: &Solved,
+    ) -> Flow {
+        let (from, to) = (&self.state, &solved.state);
+        let du = difference(&to.u, &from.u);
+        let dv = difference(&to.v, &from.v);
+        let mean_v: Vec<f64> = mix(0.5, &from.v, &to.v);
+        let stage_a = mix(alphas.alpha_m, &from.a, &to.a);
+        let half = 0.5 - alphas.alpha_f;
+        let mean_f = mix(0.5, &self.load, &solved.external);
+        let mut work = dot(&mean_f, &du);
+        for (i, _) in fixed.iter().enumerate().filter(|(_, f)| **f) {
+            work += solved.reactions[i] * du[i];
+        }
+        let contact = difference(&solved.contact, &self.contact);
+        let load = difference(&solved.external, &self.load);
+        let mut numerical = dot(&du, &times(&inertia.mass, &stage_a))
+            - dot(&mean_v, &times(&inertia.mass, &dv))
+            + half * dot(&du, &times(&self.matrix, &du))
+            + (weight - 0.5) * dot(&contact, &du)
+            - half * dot(&load, &du);
+        let mut damped = 0.0;
+        if let Some(damping) = &inertia.damping {
+            damped = dot(&du, &times(damping, &mean_v));
+            numerical += half * dot(&dv, &times(damping, &du));
+        }
+        Flow {
+            work,
+            damped,
+            numerical,
+        }
+    }
+}
+
+/// The balance at the stage without the interfaces' forces at the end.
+struct Balance<'a> {
+    simulation: &'a Simulation,
+    inertia: &'a Inertia,
+    alphas: Alphas,
+    weight: f64,
+    external: &'a [f64],
+}
+
+impl Balance<'_> {
+    /// Forces with displacements `u` at the end, and the size of what balances in them.
+    fn at(&self, increment: &Increment, u: &[f64]) -> (Vec<f64>, f64) {
+        let Alphas {
+            alpha_m, alpha_f, ..
+        } = self.alphas;
+        let from = &self.simulation.state;
+        let (v, a) = increment.motion(u);
+        let mut a = mix(alpha_m, &from.a, &a);
+        for (a, _) in a.iter_mut().zip(&self.inertia.light).filter(|(_, l)| **l) {
+            *a = 0.0;
+        }
+        let inertial = times(&self.inertia.mass, &a);
+        let internal = times(&self.simulation.matrix, &mix(alpha_f, &from.u, u));
+        let damping = self.inertia.damping_force(&mix(alpha_f, &from.v, &v));
+        let load = mix(alpha_f, &self.simulation.load, self.external);
+        let old = 1.0 - self.weight;
+        let forces = (0..u.len())
+            .map(|i| {
+                inertial[i] + internal[i] + damping[i] - load[i] + old * self.simulation.contact[i]
+            })
+            .collect();
+        let size = |x: &[f64]| dot(x, x).sqrt();
+        let scale = size(&inertial).max(size(&load)).max(size(&internal));
+        (forces, scale)
+    }
+}
+
+/// `(1 - old) b + old a`.
+fn mix(old: f64, a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| old * a + (1.0 - old) * b)
+        .collect()
+}
+
+pub(super) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}

@@ -1,0 +1,272 @@
+//! Mass and damping of the bodies, and the matrices of implicit increments made of them.
+
+use super::model::{ContactMass, Dynamic, Model};
+use crate::body::{MassKind, redistribute};
+use crate::linear::{BlockCsr, GmresSettings, gmres};
+use crate::system::{Cause, Force, StepFailure};
+use crate::time::scheme::Alphas;
+
+/// What resists acceleration and velocity.
+pub(super) struct Inertia {
+    mass_kind: MassKind,
+    contact_mass: Option<ContactMass>,
+    /// `M`, over all dofs.
+    pub mass: BlockCsr,
+    /// `C`, where a body has Rayleigh damping.
+    pub damping: Option<BlockCsr>,
+    /// Dofs whose mass was given to their neighbours.
+    pub light: Vec<bool>,
+    matrices: Vec<Matrix>,
+    keys: u64,
+}
+
+/// The matrix of increments of one length.
+struct Matrix {
+    key: u64,
+    dt: f64,
+    alphas: Alphas,
+    weight: f64,
+    values: BlockCsr,
+    diagonal: Vec<f64>,
+}
+
+/// Most matrices that are kept.
+const MOST_MATRICES: usize = 4;
+
+/// Lengths that differ by less than this part of themselves are one: what rounding of times leaves.
+const SAME: f64 = 1e-9;
+
+impl Inertia {
+    /// Assembles the mass; `stiffness` gives the pattern.
+    pub fn new(model: &Model, stiffness: &BlockCsr, dynamic: &Dynamic, before: u64) -> Self {
+        let dim = model.dofs.dim;
+        let mut mass = stiffness.zeros_like();
+        match dynamic.mass {
+            MassKind::Consistent => {
+                for body in &model.bodies {
+                    body.elastic.add_consistent_mass(&mut mass);
+                }
+            }
+            MassKind::Lumped => {
+                for (point, m) in lumped(model).into_iter().enumerate() {
+                    for i in 0..dim {
+                        mass.add_diagonal(point * dim + i, m);
+                    }
+                }
+            }
+        }
+        let damping = damping(model, stiffness, &mass);
+        let mut light = vec![false; model.dofs.points];
+        for interface in &model.interfaces {
+            let wanted = match dynamic.contact_mass {
+                Some(ContactMass::Redistributed) => true,
+                Some(ContactMass::AsMeshed) => false,
+                // A compliant law stops a mass gently.
+                None => interface.laws.normal.as_dyn().pressure(0.0).is_none(),
+            };
+            if wanted {
+                for point in &interface.points {
+                    for &node in &point.nodes {
+                        light[interface.nodes[node]] = true;
+                    }
+                }
+            }
+        }
+        for body in &model.bodies {
+            let points: Vec<usize> = body.points.clone().collect();
+            let touched = points.iter().any(|&p| light[p]);
+            if touched && !redistribute(&mut mass, &model.mesh.points, &points, &light) {
+                points.iter().for_each(|&p| light[p] = false);
+            }
+        }
+        Inertia {
+            mass_kind: dynamic.mass,
+            contact_mass: dynamic.contact_mass,
+            mass,
+            damping,
+            light: light
+                .iter()
+                .flat_map(|&l| std::iter::repeat_n(l, dim))
+                .collect(),
+            matrices: Vec::new(),
+            keys: before,
+        }
+    }
+
+    /// Whether it serves a step with these settings.
+    pub fn suits(&self, dynamic: &Dynamic) -> bool {
+        self.mass_kind == dynamic.mass && self.contact_mass == dynamic.contact_mass
+    }
+
+    /// The last key given to a matrix.
+    pub fn keys(&self) -> u64 {
+        self.keys
+    }
+
+    /// Dofs that have the mean velocity of an increment.
+    pub fn plain(&self, fixed: &[bool]) -> Vec<bool> {
+        let light = self.light.iter().map(|&l| l && self.damping.is_none());
+        light.zip(fixed).map(|(l, &f)| l || f).collect()
+    }
+
+    /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.
+    ///
+    /// `A = [(1 - α_m) / (β dt²) M + (1 - α_f) (γ / (β dt) C + K)] / weight`, the derivative of the balance at the stage with respect to the
+    /// displacement at the end, over the weight that the interfaces have in it.
+    pub fn ready(&mut self, stiffness: &BlockCsr, alphas: Alphas, dt: f64, weight: f64) -> f64 {
+        let found = self.matrices.iter().position(|m| {
+            (m.dt - dt).abs() <= SAME * dt && m.alphas == alphas && m.weight == weight
+        });
+        let matrix = match found {
+            Some(i) => self.matrices.remove(i),
+            None => {
+                let Alphas {
+                    alpha_m,
+                    alpha_f,
+                    beta,
+                    gamma,
+                } = alphas;
+                let mut values = self.mass.zeros_like();
+                values.add_scaled((1.0 - alpha_m) / (beta * dt * dt * weight), &self.mass);
+                if let Some(damping) = &self.damping {
+                    values.add_scaled((1.0 - alpha_f) * gamma / (beta * dt * weight), damping);
+                }
+                values.add_scaled((1.0 - alpha_f) / weight, stiffness);
+                self.keys += 1;
+                Matrix {
+                    key: self.keys,
+                    dt,
+                    alphas,
+                    weight,
+                    diagonal: values.diagonal(),
+                    values,
+                }
+            }
+        };
+        if self.matrices.len() == MOST_MATRICES {
+            self.matrices.remove(0);
+        }
+        let dt = matrix.dt;
+        self.matrices.push(matrix);
+        dt
+    }
+
+    /// The matrix made ready last, its diagonal and its key.
+    pub fn matrix(&self) -> Option<(&BlockCsr, &[f64], u64)> {
+        let m = self.matrices.last()?;
+        Some((&m.values, &m.diagonal, m.key))
+    }
+
+    /// `C v`.
+    pub fn damping_force(&self, v: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; v.len()];
+        if let Some(damping) = &self.damping {
+            damping.mul(v, &mut out);
+        }
+        out
+    }
+
+    /// `vᵀ M v / 2`.
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        0.5 * dot(v, &times(&self.mass, v))
+    }
+
+    /// The acceleration that a force gives to the dofs that are neither fixed nor light: `M a = f`.
+    pub fn acceleration(&self, force: &[f64], fixed: &[bool]) -> Result<Vec<f64>, StepFailure> {
+        let out: Vec<bool> = fixed.iter().zip(&self.light).map(|(f, l)| f | l).collect();
+        let diagonal = self.mass.diagonal();
+        let b: Vec<f64> = force
+            .iter()
+            .zip(&out)
+            .map(|(f, &out)| if out { 0.0 } else { *f })
+            .collect();
+        let mut a = vec![0.0; b.len()];
+        let report = gmres(
+            &mut |v, result| {
+                self.mass.mul(v, result);
+                for (r, &out) in result.iter_mut().zip(&out) {
+                    if out {
+                        *r = 0.0;
+                    }
+                }
+            },
+            &mut |v| {
+                for ((v, d), &out) in v.iter_mut().zip(&diagonal).zip(&out) {
+                    *v = if out { 0.0 } else { *v / d };
+                }
+            },
+            &b,
+            &mut a,
+            GmresSettings {
+                tolerance: 1e-13,
+                max_iterations: 400,
+                restart: 60,
+            },
+        );
+        if !(report.relative_residual <= 1e-9) {
+            return Err(StepFailure::new(
+                Cause::Singular,
+                "the acceleration at the start cannot be found: the mass matrix is singular",
+            )
+            .help("give every material a density"));
+        }
+        Ok(a)
+    }
+}
+
+/// Lumped masses of the elastic bodies, by point.
+pub(super) fn lumped(model: &Model) -> Vec<f64> {
+    let mut masses = vec![0.0; model.dofs.points];
+    for body in &model.bodies {
+        body.elastic.add_lumped_mass(&mut masses);
+    }
+    masses
+}
+
+/// `Σ α M + β K` over the bodies that have Rayleigh damping.
+fn damping(model: &Model, stiffness: &BlockCsr, mass: &BlockCsr) -> Option<BlockCsr> {
+    if model.bodies.iter().all(|b| b.rayleigh == [0.0; 2]) {
+        return None;
+    }
+    let mut out = stiffness.zeros_like();
+    for body in &model.bodies {
+        let [alpha, beta] = body.rayleigh;
+        if beta != 0.0 {
+            body.elastic.element_matrices(&mut |points, dense| {
+                let dense: Vec<f64> = dense.iter().map(|k| beta * k).collect();
+                out.add_group(points, &dense);
+            });
+        }
+        if alpha != 0.0 {
+            // Bodies share no points: the rows of a body in `mass` are its own.
+            out.add_scaled_rows(alpha, mass, body.points.clone());
+        }
+    }
+    Some(out)
+}
+
+/// `A x`.
+pub(super) fn times(matrix: &BlockCsr, x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; x.len()];
+    matrix.mul(x, &mut out);
+    out
+}
+
+/// `a · b`.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The energy of springs and bodies at `u`.
+pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
+    0.5 * dot(u, &times(stiffness, u))
+}
+
+/// All interfaces as forces.
+pub(super) fn contact(model: &mut Model) -> Vec<&mut dyn Force> {
+    model
+        .interfaces
+        .iter_mut()
+        .map(|i| i as &mut dyn Force)
+        .collect()
+}

@@ -1,0 +1,100 @@
+//! The energy ledger: what there is, where it came from and where it went, and what is left of the balance.
+
+use serde::Serialize;
+
+use super::run::Flow;
+use crate::system::Energy;
+
+/// Energies `[J]` (per unit of thickness or over 2π as the model has it).
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergyLedger {
+    /// Kinetic energy of the bodies.
+    pub kinetic: f64,
+    /// Elastic energy of the bodies and springs.
+    pub strain: f64,
+    /// Recoverable energy of the interfaces.
+    pub contact: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by damping of the interfaces.
+    pub contact_damping: f64,
+    /// Dissipated by Rayleigh damping.
+    pub rayleigh_damping: f64,
+    /// Dissipated by the scheme that integrates the motion; negative if it fed energy in.
+    pub numerical: f64,
+    /// Work of loads and supports.
+    pub external_work: f64,
+    /// Work of moving primary surfaces.
+    pub belt_work: f64,
+    /// Energy brought in by initial velocities and displacements.
+    pub initial: f64,
+    /// What is left of the balance: supplied less stored and dissipated.
+    pub residual: f64,
+}
+
+/// How well the balance of energies closes over the whole analysis.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergyQuality {
+    /// Largest energy in play so far: stored and dissipated `[J]`.
+    pub scale: f64,
+    /// Largest residual so far relative to it `[-]`.
+    pub residual: f64,
+    /// What the residual should not exceed.
+    pub limit: f64,
+    /// Whether it did not.
+    pub met: bool,
+}
+
+impl EnergyLedger {
+    /// Enters an increment: its flows, and what is stored at its end.
+    pub(super) fn enter(&mut self, flow: Flow, kinetic: f64, strain: f64, interfaces: &[Energy]) {
+        self.external_work += flow.work;
+        self.rayleigh_damping += flow.damped;
+        self.numerical += flow.numerical;
+        self.kinetic = kinetic;
+        self.strain = strain;
+        let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
+        self.contact = sum(|e| e.stored);
+        self.friction = sum(|e| e.dissipated);
+        self.contact_damping = sum(|e| e.damped);
+        self.belt_work = sum(|e| e.work);
+        self.close();
+    }
+
+    /// Works out the residual.
+    pub(super) fn close(&mut self) {
+        self.residual = self.initial + self.external_work + self.belt_work
+            - self.kinetic
+            - self.strain
+            - self.contact
+            - self.friction
+            - self.contact_damping
+            - self.rayleigh_damping
+            - self.numerical;
+    }
+
+    /// Everything stored and dissipated.
+    fn in_play(&self) -> f64 {
+        self.kinetic
+            + self.strain
+            + self.contact
+            + self.friction
+            + self.contact_damping
+            + self.rayleigh_damping
+            + self.numerical.abs()
+    }
+}
+
+impl EnergyQuality {
+    /// Takes note of the ledger after an increment.
+    pub(super) fn note(&mut self, ledger: &EnergyLedger) {
+        self.scale = self.scale.max(ledger.in_play());
+        let relative = ledger.residual.abs() / self.scale.max(f64::MIN_POSITIVE);
+        if self.scale > 0.0 {
+            self.residual = self.residual.max(relative);
+        }
+        self.met = self.residual <= self.limit;
+    }
+}

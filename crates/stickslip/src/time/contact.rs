@@ -1,0 +1,27 @@
+//! How interfaces stand in the equations of motion.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Whether points in contact have mass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactMass {
+    /// The mass of the points of secondary surfaces is given to their neighbours
+    /// ([`khenous_2008`](crate::references::khenous_2008)); mass, centre of mass and inertia of the body stay. Contact forces do
+    /// not chatter, and no energy is gained or lost at impact.
+    Redistributed,
+    /// Every point has the mass that the cells give it: the classical scheme.
+    AsMeshed,
+}
+
+/// Where in the increment the forces of the interfaces are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactAt {
+    /// At its end: nothing overlaps there and friction opposes the velocity there.
+    #[default]
+    End,
+    /// As the mean over the increment with which the scheme weighs all other forces. For Newmark's method it is the same.
+    Stage,
+}

@@ -1,0 +1,102 @@
+//! Schemes that integrate the equations of motion, one file each.
+//!
+//! The implicit ones are one kernel with four numbers, [`Alphas`]; see [`newmark`](super::newmark).
+
+mod central_difference;
+mod generalised_alpha;
+mod hht;
+mod trapezoidal;
+
+pub use central_difference::CentralDifference;
+pub use generalised_alpha::GeneralisedAlpha;
+pub use hht::Hht;
+pub use trapezoidal::Newmark;
+
+/// The parameters of the implicit kernel `[-]`.
+///
+/// Balance is asked for at a stage between the ends of the increment,
+/// `M a_m + C v_f + f(u_f) = F_f` with `x_f = (1 - α_f) x₁ + α_f x₀` and `a_m = (1 - α_m) a₁ + α_m a₀`, and displacements and velocities follow
+/// [`newmark_1959`](crate::references::newmark_1959).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alphas {
+    /// Weight of the old acceleration.
+    pub alpha_m: f64,
+    /// Weight of the old displacement, velocity and load.
+    pub alpha_f: f64,
+    /// Newmark's β.
+    pub beta: f64,
+    /// Newmark's γ.
+    pub gamma: f64,
+}
+
+/// What a scheme comes down to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Equations are solved in every increment.
+    Implicit(Alphas),
+    /// No equations; the increment is bounded by stability.
+    Explicit {
+        /// Fraction of the stable increment that is used.
+        safety: f64,
+        /// Increment `[s]` to which masses are raised where the stable one is smaller.
+        mass_scaling: Option<f64>,
+    },
+}
+
+/// A scheme.
+pub trait Scheme: Send + Sync {
+    /// How it integrates.
+    fn method(&self) -> Method;
+
+    /// What is wrong with the parameters, as `(key, message)`; empty if nothing.
+    fn faults(&self) -> Vec<(&'static str, String)>;
+}
+
+crate::family! {
+    /// How the equations of motion are integrated.
+    SchemeModel: "scheme", dyn Scheme {
+        /// Newmark's method.
+        Newmark(Newmark) = "newmark",
+        /// Hilber, Hughes and Taylor.
+        Hht(Hht) = "hht",
+        /// Chung and Hulbert.
+        GeneralisedAlpha(GeneralisedAlpha) = "generalised-alpha",
+        /// Explicit.
+        CentralDifference(CentralDifference) = "central-difference",
+    }
+}
+
+impl Default for SchemeModel {
+    fn default() -> Self {
+        SchemeModel::GeneralisedAlpha(GeneralisedAlpha::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::Family;
+
+    #[test]
+    fn implicit_samples_are_second_order_and_stable() {
+        for model in SchemeModel::samples() {
+            assert!(model.as_dyn().faults().is_empty(), "{model:?}");
+            let Method::Implicit(a) = model.as_dyn().method() else {
+                continue;
+            };
+            if matches!(model, SchemeModel::Newmark(n) if n.gamma != 0.5) {
+                continue;
+            }
+            // Chung and Hulbert 1993, eq. (17) and (18)
+            assert!(
+                (a.gamma - (0.5 - a.alpha_m + a.alpha_f)).abs() < 1e-15,
+                "{model:?}"
+            );
+            assert!(a.alpha_m <= a.alpha_f && a.alpha_f <= 0.5, "{model:?}");
+            assert!(
+                a.beta >= 0.25 + 0.5 * (a.alpha_f - a.alpha_m) - 1e-15,
+                "{model:?}"
+            );
+        }
+    }
+}

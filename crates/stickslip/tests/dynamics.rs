@@ -1,0 +1,298 @@
+//! Motion: order of accuracy, energy, initial conditions, and what is refused.
+
+mod support;
+
+use stickslip::Error;
+use stickslip::problem::Document;
+use support::{problem, run};
+
+/// A rod of four cells, held at one end and pulled at the other at once. `SCHEME` and `STEPS` are filled in.
+const ROD: &str = r#"
+format = 1
+model.space = "plane-stress"
+body.rod = { generate.rectangle = { to = [4, 1], cells = [4, 1] }, material = "soft" }
+material.soft.isotropic = { young = 100.0, poisson = 0.3, density = 1.0 }
+support.wall = { set = "rod.left", x = 0, y = 0 }
+load.pull = { set = "rod.right", traction = { value = [1, 0.2] } }
+probe.end = { of = "rod", point = [4, 1] }
+output.every = 0
+[[step]]
+duration = 1.6
+increments.fixed = STEPS
+dynamic = { DYNAMIC }
+"#;
+
+fn rod(dynamic: &str, steps: usize) -> Vec<support::Row> {
+    let text = ROD
+        .replace("STEPS", &steps.to_string())
+        .replace("DYNAMIC", dynamic);
+    let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{dynamic}: {e}"));
+    record.increments.into_iter().map(|(_, row)| row).collect()
+}
+
+fn end(rows: &[support::Row]) -> [f64; 4] {
+    let last = rows.last().expect("a row");
+    ["end.U1", "end.U2", "end.V1", "end.V2"].map(|name| last.get(name).expect("a column"))
+}
+
+fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
+    let sum: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    sum.sqrt()
+}
+
+/// The error of every scheme falls with the square of the increment.
+#[test]
+fn schemes_are_of_second_order() {
+    for mass in ["consistent", "lumped"] {
+        let with = |scheme: &str| format!("scheme.{scheme}, mass = \"{mass}\"");
+        // Richardson extrapolation of a run much finer than the others
+        let [a, b] = [3200, 6400].map(|n| end(&rod(&with("newmark = {}"), n)));
+        let exact: [f64; 4] = std::array::from_fn(|i| (4.0 * b[i] - a[i]) / 3.0);
+        let mut schemes = vec![
+            "newmark = {}",
+            "hht = { alpha = -0.1 }",
+            "generalised-alpha = {}",
+            "generalised-alpha = { rho = 0.3 }",
+        ];
+        if mass == "lumped" {
+            schemes.push("central-difference = {}");
+        }
+        for scheme in schemes {
+            let errors = [200, 400, 800].map(|n| apart(end(&rod(&with(scheme), n)), exact));
+            for pair in errors.windows(2) {
+                let order = (pair[0] / pair[1]).log2();
+                assert!(
+                    (1.85..2.2).contains(&order),
+                    "{scheme}, {mass}: order {order:.2}, errors {errors:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Without contact the trapezoidal rule neither gains nor loses energy, and the ledger closes for every scheme.
+#[test]
+fn the_ledger_closes() {
+    for dynamic in [
+        "scheme.newmark = {}",
+        "scheme.hht = { alpha = -0.3 }",
+        "scheme.generalised-alpha = {}",
+        "scheme.newmark = { beta = 0.3025, gamma = 0.6 }",
+        "scheme.central-difference = {}",
+    ] {
+        let rows = rod(dynamic, 400);
+        let scale = rows.iter().map(|r| value(r, "ALLKE") + value(r, "ALLSE"));
+        let scale = scale.fold(0.0, f64::max);
+        let mut lost: f64 = 0.0;
+        for row in &rows {
+            let left = value(row, "ERESIDUAL");
+            assert!(left.abs() <= 1e-9 * scale, "{dynamic}: {left:e} of {scale}");
+            lost = lost.max(value(row, "ALLND").abs());
+        }
+        match dynamic {
+            "scheme.newmark = {}" => assert!(lost <= 1e-9 * scale, "{lost:e}"),
+            _ => assert!(lost > 1e-7 * scale, "{dynamic}: {lost:e}"),
+        }
+    }
+}
+
+fn value(row: &support::Row, name: &str) -> f64 {
+    row.get(name).unwrap_or_else(|| panic!("no column {name}"))
+}
+
+/// Rayleigh damping takes out what the ledger says it does, and as fast as theory says.
+#[test]
+fn rayleigh_damping_decays() {
+    // One cell as a mass on its own stiffness: 2 m ü + k u = 0 with ζ = (α/ω + β ω) / 2.
+    let text = r#"
+format = 1
+model.space = "plane-stress"
+body.cell = { generate.rectangle = { to = [1, 1], cells = [1, 1] }, material = "m", rayleigh = { mass = 0.3, stiffness = 0.01 } }
+material.m.isotropic = { young = 50.0, poisson = 0.0, density = 1.0 }
+support.wall = { set = "cell.left", x = 0, y = 0 }
+support.rail = { set = "cell.right", y = 0 }
+initial.push = { set = "cell.right", velocity = [1, 0] }
+probe.end = { of = "cell", point = [1, 1] }
+output.every = 0
+[[step]]
+duration = 2.0
+increments.fixed = 4000
+dynamic = { SCHEME }
+"#;
+    for scheme in [
+        "scheme.newmark = {}, mass = \"lumped\"",
+        "scheme.central-difference = {}",
+    ] {
+        let record =
+            run(&problem(&text.replace("SCHEME", scheme))).unwrap_or_else(|e| panic!("{e}"));
+        let row = &record.increments.last().expect("a row").1;
+        let omega = (50.0_f64 / 0.5).sqrt();
+        let zeta = 0.5 * (0.3 / omega + 0.01 * omega);
+        let damped = omega * (1.0 - zeta * zeta).sqrt();
+        let exact = (-zeta * omega * 2.0_f64).exp() * (damped * 2.0).sin() / damped;
+        let u = value(row, "end.U1");
+        assert!((u / exact - 1.0).abs() < 2e-3, "{scheme}: {u} {exact}");
+        assert!(value(row, "ALLVD") > 0.2);
+        assert!(value(row, "ERESIDUAL").abs() < 1e-9);
+    }
+}
+
+/// A block thrown up comes back as the parabola says, whatever the increment.
+#[test]
+fn free_flight_is_exact() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [1, 1], cells = [2, 2] }, material = "m" }
+material.m.isotropic = { young = 1e4, poisson = 0.3, density = 2.0 }
+load.weight = { set = "block", gravity = { acceleration = [0, -10] } }
+initial.throw = { set = "block", velocity = [3, 4], displacement = [0.5, 0] }
+probe.corner = { of = "block", point = [0, 0] }
+output.every = 0
+[[step]]
+duration = 0.6
+increments.fixed = 7
+dynamic = {}
+"#;
+    let record = run(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    let row = &record.increments.last().expect("a row").1;
+    assert!((value(row, "corner.U1") - (0.5 + 1.8)).abs() < 1e-9);
+    assert!((value(row, "corner.U2") - (2.4 - 1.8)).abs() < 1e-9);
+    assert!((value(row, "corner.V2") + 2.0).abs() < 1e-9);
+    assert!(value(row, "ERESIDUAL").abs() < 1e-9);
+}
+
+/// Energy of a rod that bounces on a wall, and the force it meets, with and without mass in the point of contact.
+#[test]
+fn redistributed_mass_cures_impact() {
+    let text = r#"
+format = 1
+model = { space = "plane-stress", thickness = 1.0 }
+body.bar = { generate.rectangle = { from = [0, 0], to = [1, 0.05], cells = [20, 1] }, material = "m" }
+material.m.isotropic = { young = 1.0, poisson = 0.0, density = 1.0 }
+obstacle.wall.plane = { point = [-1e-3, 0], normal = [1, 0] }
+interface.hit = { secondary = "bar.left", primary = "wall" }
+support.rail = { set = "bar", y = 0 }
+initial.throw = { set = "bar", velocity = [-0.01, 0] }
+output.every = 0
+[[step]]
+duration = 2.8
+increments.fixed = 560
+dynamic = { scheme.newmark = {}, contact-mass = "KIND" }
+"#;
+    let [cured, classical] = ["redistributed", "as-meshed"].map(|kind| {
+        let record = run(&problem(&text.replace("KIND", kind))).unwrap_or_else(|e| panic!("{e}"));
+        let energy: Vec<f64> = record
+            .increments
+            .iter()
+            .map(|(_, r)| value(r, "ALLKE") + value(r, "ALLSE"))
+            .collect();
+        let start = 0.5 * 0.05 * 1e-4;
+        let worst = energy
+            .iter()
+            .map(|e| (e / start - 1.0).abs())
+            .fold(0.0, f64::max);
+        let forces = record.increments.iter().filter(|(_, r)| {
+            let t = value(r, "TIME");
+            t > 0.7 && t < 1.9
+        });
+        // the plane wave: ρ c v A
+        let chatter = forces
+            .map(|(_, r)| (value(r, "hit.CFN1") / (0.01 * 0.05) - 1.0).abs())
+            .fold(0.0, f64::max);
+        [worst, chatter]
+    });
+    assert!(cured[0] < 5e-3 && cured[1] < 0.2, "{cured:?}");
+    assert!(classical[1] > 0.5, "{classical:?}");
+}
+
+/// What an earlier run left goes on where it ended.
+#[test]
+fn a_result_is_an_initial_condition() {
+    let folder = support::folder("a-result-is-an-initial-condition");
+    let whole = rod("scheme.newmark = {}", 160);
+    let write = |text: &str, out: &str| {
+        let model = problem(text)
+            .build(&folder)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let mut simulation = stickslip::simulation::Simulation::new(model).expect("sound");
+        let mut record = support::Record::default();
+        let mut files =
+            stickslip::simulation::ResultFiles::new(&folder.join(out)).expect("a folder");
+        simulation
+            .run(&mut [&mut record, &mut files])
+            .unwrap_or_else(|e| panic!("{e}"));
+        record
+    };
+    let half = |n: usize| {
+        ROD.replace("STEPS", &n.to_string())
+            .replace("DYNAMIC", "scheme.newmark = {}")
+            .replace("duration = 1.6", "duration = 0.8")
+    };
+    write(&half(80), "first");
+    let more = format!(
+        "{}\n[initial.rest]\nset = \"rod\"\nresult = \"first/fields_00000.vtu\"\n",
+        half(80)
+    );
+    let record = write(&more, "second");
+    let a = end(&whole);
+    let b = end(&[record.increments.last().expect("a row").1.clone()]);
+    assert!(apart(a, b) < 1e-9, "{a:?} {b:?}");
+}
+
+fn complaint(text: &str) -> String {
+    let document = Document::new(text, None);
+    match document.problem() {
+        Err(e) => e.to_string(),
+        Ok(problem) => match support::build(&problem) {
+            Err(Error::Problem(e)) => document.error(e.findings).to_string(),
+            Err(e) => e.to_string(),
+            Ok(mut simulation) => match simulation.run(&mut []) {
+                Err(e) => e.to_string(),
+                Ok(()) => panic!("no complaint about\n{text}"),
+            },
+        },
+    }
+}
+
+#[test]
+fn mistakes_of_motion_are_refused() {
+    let rod = |dynamic: &str| ROD.replace("STEPS", "100").replace("DYNAMIC", dynamic);
+    let has = |text: String, parts: &[&str]| {
+        let message = complaint(&text);
+        for part in parts {
+            assert!(message.contains(part), "`{part}` is not in\n{message}");
+        }
+    };
+    has(
+        rod("").replace(", density = 1.0", ""),
+        &["has no density", "material.soft"],
+    );
+    has(
+        rod("").replace("density = 1.0", "density = 0.0"),
+        &["has no density"],
+    );
+    has(
+        rod("scheme.central-difference = {}").replace("= 100\n", "= 5\n"),
+        &["above the stable one", "increments.fixed ="],
+    );
+    has(
+        rod("") + "[initial.push]\nset = \"rod\"\nvelocity = [1, 0]\n",
+        &["does not agree with support `wall`", "node 1"],
+    );
+    has(
+        rod("").replace(
+            "traction = { value",
+            "amplitude = \"early\", traction = { value",
+        ) + "[amplitude.early]\ntable = [[0, 0], [1, 1]]\n",
+        &["the table goes from 0 to 1", "to 1.6"],
+    );
+    has(rod("scheme.newmark = { gamma = 0.4 }"), &["gamma", "0.5"]);
+    has(rod("scheme.hht = { alpha = 0.1 }"), &["alpha", "-1/3"]);
+    has(
+        ROD.replace("STEPS", "1")
+            .replace("dynamic = { DYNAMIC }", "")
+            + "[initial.push]\nset = \"rod.right\"\nvelocity = [1, 0]\n",
+        &["no step is dynamic"],
+    );
+}
