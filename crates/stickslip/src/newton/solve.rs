@@ -125,22 +125,28 @@ impl Newton {
             Err(failure) if failure.cause != Cause::NotFinite => failure,
             outcome => return outcome,
         };
-        // Continuation: stick that yields like the bodies first, then ever more stiffly, each from the solution before.
-        at.u = guess;
-        let mut softened = false;
-        for force in &mut system.contact {
-            force.begin();
-            softened |= force.soften(Some(1.0));
+        // Continuation: stick that yields like the bodies first, then ever more stiffly, each from the solution before. What holds a
+        // body may be far softer than the body itself: then so must stick be.
+        for first in [1.0, 1e-3, 1e-6, 1e-9] {
+            at.u.clone_from(&guess);
+            let mut softened = false;
+            for force in &mut system.contact {
+                force.begin();
+                softened |= force.soften(Some(first));
+            }
+            if !softened {
+                return Err(failure);
+            }
+            self.statistics.continuations += 1;
+            let outcome = self.continuation(first, system, from, at, log);
+            for force in &mut system.contact {
+                force.soften(None);
+            }
+            if outcome.is_ok() {
+                return outcome;
+            }
         }
-        if !softened {
-            return Err(failure);
-        }
-        self.statistics.continuations += 1;
-        let outcome = self.continuation(system, from, at, log);
-        for force in &mut system.contact {
-            force.soften(None);
-        }
-        outcome.map_err(|_| failure)
+        Err(failure)
     }
 
     /// The factor for the matrix with this key. The least recently used one is dropped when there are too many.
@@ -164,13 +170,20 @@ impl Newton {
 
     fn continuation(
         &mut self,
+        first: f64,
         system: &mut System,
         from: &State,
         at: &mut State,
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         let mut iterations = 0;
-        for factor in [1.0, 3.0, 1e1, 3e1, 1e2, 3e2, 1e3, 3e3, 1e4, 3e4] {
+        let last = 3e4;
+        for k in 0.. {
+            // 1, 3, 10, 30, …
+            let factor = first * 10_f64.powi(k / 2) * if k % 2 == 0 { 1.0 } else { 3.0 };
+            if factor > last {
+                break;
+            }
             for force in &mut system.contact {
                 force.soften(Some(factor));
             }

@@ -215,6 +215,17 @@ impl Simulation {
         for &(dof, k) in &explicit.springs {
             explicit.force[dof] += k * u[dof];
         }
+        // Without a matrix the energy of initial displacements is known only now.
+        let strain: f64 = 0.5
+            * explicit
+                .force
+                .iter()
+                .zip(u)
+                .map(|(f, u)| f * u)
+                .sum::<f64>();
+        let energy = &mut self.summary.energy;
+        energy.initial += strain - energy.strain;
+        energy.strain = strain;
         explicit.damp(&self.state.v);
         self.state.a = (0..n)
             .map(|i| match constraints.fixed[i] {

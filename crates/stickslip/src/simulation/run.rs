@@ -63,16 +63,31 @@ impl Simulation {
     /// Assembles the bulk and checks the model's own consistency.
     pub fn new(model: Model) -> Result<Self, Error> {
         let started = Instant::now();
+        // An explicit analysis needs no matrix of the bodies.
+        let explicit = |s: &Step| {
+            matches!(
+                s.dynamic,
+                Some(Dynamic {
+                    method: Method::Explicit { .. },
+                    ..
+                })
+            )
+        };
+        let bodies = if model.steps.iter().all(explicit) {
+            &[][..]
+        } else {
+            &model.bodies[..]
+        };
         let mut matrix =
             BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
-                for body in &model.bodies {
+                for body in bodies {
                     body.elastic.couplings(visit);
                 }
                 for spring in &model.springs {
                     spring.couplings(visit);
                 }
             });
-        let bulk = model.bodies.iter().map(|b| &b.elastic as &dyn Force);
+        let bulk = bodies.iter().map(|b| &b.elastic as &dyn Force);
         let bulk = bulk.chain(model.springs.iter().map(|s| s as &dyn Force));
         for force in bulk {
             force.stiffness(&mut matrix).map_err(|e| e.at(0.0))?;

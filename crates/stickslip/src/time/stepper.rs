@@ -73,7 +73,10 @@ impl Stepper {
         let left = target - self.now;
         // Equal parts up to the milestone, so that no sliver is left before it.
         let parts = (left / self.wish - 1e-6).ceil().max(1.0);
-        let to = if parts == 1.0 {
+        let to = if self.growth == 2.0 && parts > 2.0 {
+            // Lengths stay on the ladder of halves and doubles until the last two.
+            self.now + self.wish
+        } else if parts == 1.0 {
             target
         } else {
             self.now + left / parts
@@ -124,6 +127,25 @@ mod tests {
         let steps: Vec<f64> = ends.windows(2).map(|w| w[1] - w[0]).collect();
         assert!(steps.iter().all(|&d| d < 0.4 + 1e-12));
         assert!(steps.iter().any(|&d| d > 0.2));
+    }
+
+    #[test]
+    fn doubling_keeps_to_few_lengths() {
+        let mut s = Stepper::new(0.0, vec![1.0], increments(0.1, 0.1)).doubling();
+        let mut lengths = Vec::new();
+        let mut count = 0;
+        while let Some(trial) = s.next() {
+            count += 1;
+            if count == 4 {
+                s.reject(trial);
+                continue;
+            }
+            lengths.push(((trial.to - trial.from) / 0.1 * 1e6).round() / 1e6);
+            s.accept(trial, 2);
+        }
+        assert_eq!(s.next(), None);
+        let odd: Vec<_> = lengths.iter().filter(|&&l| l != 1.0 && l != 0.5).collect();
+        assert!(odd.len() <= 2, "{lengths:?}");
     }
 
     #[test]
