@@ -84,9 +84,32 @@ impl Observer for Progress {
 pub fn closing(simulation: &Simulation, directory: &Path) {
     let s = &simulation.summary;
     say(&format!(
-        "done: {} increments, {} iterations, {} cut-backs, {} factorisations, {:.2} s",
-        s.increments, s.iterations, s.cutbacks, s.solver.factorisations, s.phases.total
+        "done: {} increments, {} iterations, {} cut-backs, {}{} factorisations, {:.2} s",
+        s.increments,
+        s.iterations,
+        s.cutbacks,
+        match s.events {
+            0 => String::new(),
+            n => format!("{n} halvings to locate events, "),
+        },
+        s.solver.factorisations,
+        s.phases.total
     ));
+    if simulation.model.moves() {
+        let q = &s.energy_quality;
+        say(&format!(
+            "  energy: the balance is open by {:.1e} of the energies in play{}",
+            q.residual,
+            if q.met {
+                String::new()
+            } else {
+                format!(
+                    ", more than the {:.1e} of `solver.energy-limit`: use smaller increments",
+                    q.limit
+                )
+            }
+        ));
+    }
     for i in &s.interfaces {
         say(&format!(
             "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",

@@ -51,13 +51,31 @@ every = 1
 increments.fixed = 2
 "#;
 
-fn run(threads: usize, folder: &Path) {
+/// The same cubes thrown at each other, by an implicit and an explicit scheme.
+const MOTION: &str = r#"
+[initial.throw]
+set = "upper"
+velocity = [20, 10, -50]
+
+[[step]]
+name = "implicit"
+duration = 1e-5
+increments.fixed = 2
+dynamic = {}
+
+[[step]]
+name = "explicit"
+duration = 4e-5
+dynamic = { scheme.central-difference = {} }
+"#;
+
+fn run(case: &str, threads: usize, folder: &Path) {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("a pool of threads");
     pool.install(|| {
-        let problem = support::problem(CASE);
+        let problem = support::problem(case);
         let mut simulation: Simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
         let mut files = ResultFiles::new(folder).unwrap_or_else(|e| panic!("{e}"));
         simulation
@@ -86,9 +104,23 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn one_thread_and_four_give_the_same_files() {
+    same_files("statics", CASE);
+}
+
+#[test]
+fn one_thread_and_four_give_the_same_motion() {
+    let still = CASE.replace("poisson = 0.3", "poisson = 0.3\ndensity = 7800");
+    let (bodies, _) = still.split_once("[[step]]").expect("a step");
+    let (before, after) = bodies.split_once("[support.top]").expect("a support");
+    let (_, after) = after.split_once("[probe").expect("a probe");
+    let finer = before.replace("cells = [9, 9, 6]", "cells = [14, 14, 10]");
+    same_files("motion", &format!("{finer}[probe{after}{MOTION}"));
+}
+
+fn same_files(name: &str, case: &str) {
     let folders = [1, 4].map(|threads| {
-        let folder = support::folder(&format!("threads-{threads}"));
-        run(threads, &folder);
+        let folder = support::folder(&format!("threads-{name}-{threads}"));
+        run(case, threads, &folder);
         folder
     });
     let [one, four] = folders.each_ref().map(|f| contents(f));

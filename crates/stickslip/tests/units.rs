@@ -101,6 +101,35 @@ increments.initial = 0.25
     )
 }
 
+/// A rod thrown at a wall with friction, with inertia and damping; `scheme` integrates it. Seconds in both systems: masses in kg and t.
+fn impact(u: Units, scheme: &str) -> String {
+    let l = |x: f64| x * u.length;
+    format!(
+        r#"
+format = 1
+model = {{ space = "plane-strain", thickness = {one:?} }}
+body.rod = {{ generate.rectangle = {{ from = [0, 0], to = [{one:?}, {part:?}], cells = [10, 2] }}, material = "steel", rayleigh = {{ mass = 10.0, stiffness = 1e-7 }} }}
+material.steel.isotropic = {{ young = {young:?}, poisson = 0.3, density = {density:?} }}
+obstacle.wall.plane = {{ point = [{wall:?}, 0], normal = [1, 0] }}
+interface.hit = {{ secondary = "rod.left", primary = "wall", friction.coulomb = {{ mu = 0.3 }}, enforcement.penalty = {{ stiffness = {stiffness:?} }} }}
+initial.throw = {{ set = "rod", velocity = [{vx:?}, {vy:?}] }}
+probe.end = {{ of = "rod", point = [{one:?}, 0] }}
+
+[[step]]
+duration = 6e-4
+{scheme}
+"#,
+        one = l(1.0),
+        part = l(0.2),
+        wall = l(-1e-4),
+        young = 210e9 * u.stress,
+        density = 7800.0 * u.stress / (u.length * u.length),
+        vx = l(-10.0),
+        vy = l(4.0),
+        stiffness = 1e12 * u.stress / u.length,
+    )
+}
+
 /// What a column of the history holds, by its name, and the size of its unit.
 fn quantity(name: &str, u: Units) -> (&'static str, f64) {
     let force = u.stress * u.length * u.length;
@@ -108,11 +137,14 @@ fn quantity(name: &str, u: Units) -> (&'static str, f64) {
     let component = last.trim_end_matches(|c: char| c.is_ascii_digit());
     match component {
         "S" | "CPRESSMAX" => ("stress", u.stress),
-        "ALLSE" | "ALLCE" | "ALLFD" | "ALLWK" => ("energy", force * u.length),
+        "ALLSE" | "ALLCE" | "ALLFD" | "ALLWK" | "ALLKE" | "ALLVD" | "ALLCD" | "ALLND"
+        | "EINITIAL" => ("energy", force * u.length),
         "CFN" | "CFS" | "RF" => ("force", force),
         "CAREA" => ("area", u.length * u.length),
         "XN" => ("place", u.length),
         "U" => ("displacement", u.length),
+        "V" => ("velocity", u.length),
+        "A" => ("acceleration", u.length),
         "STEP" | "INC" | "ATT" | "ITRS" | "AUGMENTATIONS" | "OPEN" | "STICK" | "SLIP" => {
             ("count", 1.0)
         }
@@ -162,4 +194,14 @@ fn greco_in_millimetres() {
 #[test]
 fn press_and_slide_in_millimetres() {
     compare(press_and_slide);
+}
+
+#[test]
+fn impact_in_millimetres() {
+    compare(|u| impact(u, "increments.fixed = 60\ndynamic = { error = 1.0 }"));
+}
+
+#[test]
+fn explicit_impact_in_millimetres() {
+    compare(|u| impact(u, "dynamic = { scheme.central-difference = {} }"));
 }

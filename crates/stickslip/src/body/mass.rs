@@ -1,10 +1,11 @@
 //! Masses of the cells.
 
 use super::geometry::{Table, by_nodes, coordinates, point};
+use super::redistribution::{Cell, factors};
 use super::{Elastic, Space};
 use crate::linear::BlockCsr;
 use crate::mesh::{Block, Mesh};
-use crate::shape::{ElementKind, mass_rule};
+use crate::shape::mass_rule;
 
 /// How the mass of a cell is given to its nodes.
 #[derive(
@@ -28,127 +29,115 @@ pub enum MassKind {
     Lumped,
 }
 
-/// Masses of one cell.
-struct CellMass<const N: usize> {
-    /// `∫ ρ N_a N_b dV`.
-    m: [[f64; N]; N],
-    /// `∫ ρ dV`.
-    total: f64,
-}
-
-impl<const N: usize> CellMass<N> {
-    /// Shares of the nodes in a diagonal matrix.
-    fn lumped(&self) -> [f64; N] {
-        let trace: f64 = (0..N).map(|a| self.m[a][a]).sum();
-        std::array::from_fn(|a| self.m[a][a] / trace * self.total)
-    }
-}
-
 impl Elastic {
     /// Mass `[kg]` (in a plane body of its thickness, around an axis of the full ring).
     pub fn total_mass(&self) -> f64 {
         let mut total = 0.0;
-        self.each_mass(&mut |_, _, m| total += m);
+        self.cell_masses(MassKind::Consistent, &mut |_, m| {
+            total += m.iter().sum::<f64>();
+        });
         total
     }
 
-    /// Adds the masses to the diagonal, by point.
+    /// Adds the lumped masses, by point.
     pub fn add_lumped_mass(&self, by_point: &mut [f64]) {
-        self.each_mass(&mut |points, m, _| {
-            for (&p, m) in points.iter().zip(m) {
-                by_point[p] += m;
+        self.cell_masses(MassKind::Lumped, &mut |points, m| {
+            let n = points.len();
+            for (a, &p) in points.iter().enumerate() {
+                by_point[p] += m[a * n + a];
             }
         });
     }
 
-    /// Adds `∫ ρ N_a N_b` in every direction to a matrix with the pattern of the stiffness.
-    pub fn add_consistent_mass(&self, matrix: &mut BlockCsr) {
+    /// Adds the mass to a matrix with the pattern of the stiffness. Points that are `light` get none, and the rest of the body has it
+    /// instead; `false` if there is no rest that could, and they have theirs.
+    pub fn add_mass(&self, kind: MassKind, light: &[bool], matrix: &mut BlockCsr) -> bool {
         let dim = self.space.dim();
-        for part in &self.parts {
-            let block = &self.mesh.blocks[part.block];
-            by_nodes!(
-                block.kind,
-                consistent(&self.mesh, block, self.space, part.density, dim, matrix)
-            );
+        if !self.points().iter().any(|&p| light[p]) {
+            self.cell_masses(kind, &mut |points, m| spread(points, m, dim, matrix));
+            return true;
         }
+        let mut cells = Vec::new();
+        self.cell_masses(kind, &mut |points, m| {
+            cells.push(Cell {
+                points: points.to_vec(),
+                mass: m.to_vec(),
+            });
+        });
+        let factors = factors(&cells, &self.mesh.points, light, dim);
+        for (i, cell) in cells.iter_mut().enumerate() {
+            if let Some(factors) = &factors {
+                let n = cell.points.len();
+                for (k, m) in cell.mass.iter_mut().enumerate() {
+                    let gone = light[cell.points[k / n]] || light[cell.points[k % n]];
+                    *m *= if gone { 0.0 } else { factors[i] };
+                }
+            }
+            spread(&cell.points, &cell.mass, dim, matrix);
+        }
+        factors.is_some()
     }
 
-    /// Hands out the nodes of every cell, its lumped masses and its mass.
-    fn each_mass(&self, visit: &mut dyn FnMut(&[usize], &[f64], f64)) {
+    /// Hands out the mass matrix of every cell in one direction, shape `(n, n)` row by row, with the cell's points.
+    fn cell_masses(&self, kind: MassKind, visit: &mut dyn FnMut(&[usize], &[f64])) {
         for part in &self.parts {
             let block = &self.mesh.blocks[part.block];
             by_nodes!(
                 block.kind,
-                lumped(&self.mesh, block, self.space, part.density, visit)
+                masses(&self.mesh, block, self.space, part.density, kind, visit)
             );
         }
     }
 }
 
-fn table<const N: usize>(kind: ElementKind) -> Table<N> {
-    Table::with_rule(kind, &mass_rule(kind))
-}
-
-fn cell_mass<const N: usize>(
-    table: &Table<N>,
-    mesh: &Mesh,
-    block: &Block,
-    cell: usize,
-    space: Space,
-    density: f64,
-) -> CellMass<N> {
-    let x = coordinates(&mesh.points, block, cell);
-    let mut out = CellMass {
-        m: [[0.0; N]; N],
-        total: 0.0,
-    };
-    for (q, n) in table.values.iter().enumerate() {
-        let mass = density * point(table, q, &x, space).volume;
-        out.total += mass;
-        for (row, na) in out.m.iter_mut().zip(n) {
-            for (m, nb) in row.iter_mut().zip(n) {
-                *m += mass * na * nb;
+/// Adds the same matrix in every direction.
+fn spread(points: &[usize], mass: &[f64], dim: usize, matrix: &mut BlockCsr) {
+    let n = points.len();
+    let width = n * dim;
+    let mut dense = vec![0.0; width * width];
+    for a in 0..n {
+        for b in 0..n {
+            for i in 0..dim {
+                dense[(a * dim + i) * width + b * dim + i] = mass[a * n + b];
             }
         }
     }
-    out
+    matrix.add_group(points, &dense);
 }
 
-fn consistent<const N: usize>(
+fn masses<const N: usize>(
     mesh: &Mesh,
     block: &Block,
     space: Space,
     density: f64,
-    dim: usize,
-    matrix: &mut BlockCsr,
+    kind: MassKind,
+    visit: &mut dyn FnMut(&[usize], &[f64]),
 ) {
-    let table = table::<N>(block.kind);
-    let width = N * dim;
-    let mut dense = vec![0.0; width * width];
+    let table = Table::<N>::with_rule(block.kind, &mass_rule(block.kind));
     for cell in 0..block.connectivity.len() / N {
-        let mass = cell_mass(&table, mesh, block, cell, space, density);
-        for a in 0..N {
-            for b in 0..N {
-                for i in 0..dim {
-                    dense[(a * dim + i) * width + b * dim + i] = mass.m[a][b];
+        let x = coordinates(&mesh.points, block, cell);
+        let mut m = [[0.0; N]; N];
+        let mut total = 0.0;
+        for (q, n) in table.values.iter().enumerate() {
+            let mass = density * point(&table, q, &x, space).volume;
+            total += mass;
+            for (row, na) in m.iter_mut().zip(n) {
+                for (m, nb) in row.iter_mut().zip(n) {
+                    *m += mass * na * nb;
                 }
             }
         }
-        matrix.add_group(&block.connectivity[cell * N..(cell + 1) * N], &dense);
-    }
-}
-
-fn lumped<const N: usize>(
-    mesh: &Mesh,
-    block: &Block,
-    space: Space,
-    density: f64,
-    visit: &mut dyn FnMut(&[usize], &[f64], f64),
-) {
-    let table = table::<N>(block.kind);
-    for cell in 0..block.connectivity.len() / N {
-        let mass = cell_mass(&table, mesh, block, cell, space, density);
-        let points = &block.connectivity[cell * N..(cell + 1) * N];
-        visit(points, &mass.lumped(), mass.total);
+        if kind == MassKind::Lumped {
+            let trace: f64 = (0..N).map(|a| m[a][a]).sum();
+            for (a, row) in m.iter_mut().enumerate() {
+                let own = row[a] / trace * total;
+                *row = [0.0; N];
+                row[a] = own;
+            }
+        }
+        visit(
+            &block.connectivity[cell * N..(cell + 1) * N],
+            m.as_flattened(),
+        );
     }
 }

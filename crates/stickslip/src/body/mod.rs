@@ -23,7 +23,6 @@ pub use elastic::{Elastic, Part};
 pub use facets::{positive_areas, tributary_areas};
 pub use mass::MassKind;
 pub use recover::StressPoint;
-pub use redistribution::redistribute;
 pub use rigid::{RigidMode, rigid_modes};
 pub use space::{Formulation, Space};
 

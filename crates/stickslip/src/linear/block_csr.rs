@@ -158,19 +158,6 @@ impl BlockCsr {
         }
     }
 
-    /// Sets the rows and columns of these points to zero.
-    pub fn remove_points(&mut self, gone: &[bool]) {
-        let size = self.block * self.block;
-        for row in 0..self.points() {
-            let (start, end) = (self.pattern.starts[row], self.pattern.starts[row + 1]);
-            for at in start..end {
-                if gone[row] || gone[self.pattern.columns[at] as usize] {
-                    self.values[at * size..(at + 1) * size].fill(0.0);
-                }
-            }
-        }
-    }
-
     /// The diagonal, by dof.
     pub fn diagonal(&self) -> Vec<f64> {
         (0..self.rows())

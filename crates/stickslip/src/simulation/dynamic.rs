@@ -220,7 +220,7 @@ impl Simulation {
             external: external.clone(),
             state: at,
         };
-        self.judge(motion, dynamic, alphas, (dt, trial), &solved)?;
+        let easy = self.judge(motion, dynamic, alphas, (dt, trial), &solved)?;
         let flow = self.flow(&motion.inertia, alphas, weight, &fixed, &solved);
         Ok(Accepted {
             forces: solved.reactions.clone(),
@@ -228,12 +228,13 @@ impl Simulation {
             external,
             flow,
             rate: Some((gain, shift)),
+            hard: !easy,
             state: solved.state,
             ..Accepted::from_newton(&converged)
         })
     }
 
-    /// Whether the increment is small enough for the errors and events that are to be resolved.
+    /// Whether the increment is small enough for the errors and events that are to be resolved; `false` if only just.
     fn judge(
         &self,
         motion: &mut Motion,
@@ -241,8 +242,9 @@ impl Simulation {
         alphas: Alphas,
         (dt, trial): (f64, Trial),
         solved: &Solved,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<bool, StepFailure> {
         self.check_change(&solved.state.u)?;
+        let mut easy = true;
         let mass = &motion.inertia.mass;
         let norm = |x: &[f64]| dot(x, &times(mass, x)).max(0.0).sqrt();
         let smallest = self.model.steps[self.step].increments.smallest;
@@ -258,8 +260,11 @@ impl Simulation {
                     format!("local error {relative:.1e} of the motion, more than `error` allows"),
                 ));
             }
+            // It grows with the square of the increment: twice the length would be too much.
+            easy = relative <= 0.25 * limit;
         }
-        self.locate(dynamic, trial)
+        self.locate(dynamic, trial)?;
+        Ok(easy)
     }
 
     /// Rejects an increment over which points change status until it is as short as `events` asks for.

@@ -1,7 +1,7 @@
 //! Mass and damping of the bodies, and the matrices of implicit increments made of them.
 
 use super::model::{ContactMass, Dynamic, Model};
-use crate::body::{MassKind, redistribute};
+use crate::body::MassKind;
 use crate::linear::{BlockCsr, GmresSettings, gmres};
 use crate::system::{Cause, Force, StepFailure};
 use crate::time::scheme::Alphas;
@@ -40,22 +40,6 @@ impl Inertia {
     /// Assembles the mass; `stiffness` gives the pattern.
     pub fn new(model: &Model, stiffness: &BlockCsr, dynamic: &Dynamic, before: u64) -> Self {
         let dim = model.dofs.dim;
-        let mut mass = stiffness.zeros_like();
-        match dynamic.mass {
-            MassKind::Consistent => {
-                for body in &model.bodies {
-                    body.elastic.add_consistent_mass(&mut mass);
-                }
-            }
-            MassKind::Lumped => {
-                for (point, m) in lumped(model).into_iter().enumerate() {
-                    for i in 0..dim {
-                        mass.add_diagonal(point * dim + i, m);
-                    }
-                }
-            }
-        }
-        let damping = damping(model, stiffness, &mass);
         let mut light = vec![false; model.dofs.points];
         for interface in &model.interfaces {
             let wanted = match dynamic.contact_mass {
@@ -72,13 +56,13 @@ impl Inertia {
                 }
             }
         }
+        let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
-            let points: Vec<usize> = body.points.clone().collect();
-            let touched = points.iter().any(|&p| light[p]);
-            if touched && !redistribute(&mut mass, &model.mesh.points, &points, &light) {
-                points.iter().for_each(|&p| light[p] = false);
+            if !body.elastic.add_mass(dynamic.mass, &light, &mut mass) {
+                body.points.clone().for_each(|p| light[p] = false);
             }
         }
+        let damping = damping(model, stiffness, &mass);
         Inertia {
             mass_kind: dynamic.mass,
             contact_mass: dynamic.contact_mass,

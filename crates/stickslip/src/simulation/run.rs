@@ -251,7 +251,11 @@ impl Simulation {
             match outcome {
                 Ok(accepted) => {
                     increment += 1;
-                    let iterations = accepted.iterations;
+                    let iterations = if accepted.hard {
+                        usize::MAX
+                    } else {
+                        accepted.iterations
+                    };
                     let effort = self.accept(trial, accepted);
                     stepper.accept(trial, iterations);
                     if step.milestones.contains(&trial.to) {
@@ -551,6 +555,8 @@ pub(super) struct Accepted {
     pub rounds: usize,
     pub residual: f64,
     pub tally: Tally,
+    /// The increment must not grow.
+    pub hard: bool,
 }
 
 impl Accepted {

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case")]
 pub enum ContactMass {
     /// The mass of the points of secondary surfaces is given to their neighbours
-    /// ([`khenous_2008`](crate::references::khenous_2008)); mass, centre of mass and inertia of the body stay. Contact forces do
-    /// not chatter, and no energy is gained or lost at impact.
+    /// ([`khenous_2008`](crate::references::khenous_2008)); mass and centre of mass of the body stay. Contact forces do not chatter,
+    /// and hardly any energy is gained or lost at impact.
     Redistributed,
     /// Every point has the mass that the cells give it: the classical scheme.
     AsMeshed,
