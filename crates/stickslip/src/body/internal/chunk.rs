@@ -2,13 +2,14 @@
 //! and writes each of its points once.
 
 use super::lane::GROUP;
+use super::sweep::Padded;
 use crate::math::Vec3;
 use crate::mesh::Block;
 
 /// Most cells of a chunk.
 const CELLS: usize = 1024;
 
-/// Most points of a chunk: places, displacements and forces are 12 KiB each.
+/// Most points of a chunk: places, displacements and forces are 16 KiB each.
 pub const POINTS: usize = 512;
 
 /// Cells that one task computes.
@@ -34,7 +35,7 @@ pub struct Chunks {
     /// Points of the mesh by local number, ascending within a chunk.
     pub points: Vec<u32>,
     /// Their places `[m]`.
-    pub places: Vec<Vec3>,
+    pub places: Vec<Padded>,
     /// Number of cells.
     pub cells: usize,
 }
@@ -79,7 +80,8 @@ impl Chunks {
             self.points[first_point..].sort_unstable();
             for (number, &p) in self.points[first_point..].iter().enumerate() {
                 local.0[p as usize].1 = number as u16;
-                self.places.push(places[p as usize]);
+                let [x, y, z] = places[p as usize];
+                self.places.push([x, y, z, 0.0]);
             }
             let first_node = self.nodes.len();
             for group in rest[..count].chunks(GROUP) {

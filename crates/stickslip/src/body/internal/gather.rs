@@ -1,6 +1,7 @@
 //! From the forces of the chunks to those of the points of the mesh.
 
 use super::chunk::Chunks;
+use super::sweep::Padded;
 use crate::system::Dofs;
 
 /// Where the forces on every point are found, in a fixed order.
@@ -35,14 +36,14 @@ impl Incidence {
     }
 
     /// Writes the sums of the points from `first` on to `out`, as many as fit.
-    pub fn sum(&self, dofs: Dofs, first: usize, forces: &[[f64; 3]], out: &mut [f64]) {
+    pub fn sum(&self, dofs: Dofs, first: usize, forces: &[Padded], out: &mut [f64]) {
         match dofs.dim {
             2 => self.sum_components::<2>(first, forces, out),
             _ => self.sum_components::<3>(first, forces, out),
         }
     }
 
-    fn sum_components<const D: usize>(&self, first: usize, forces: &[[f64; 3]], out: &mut [f64]) {
+    fn sum_components<const D: usize>(&self, first: usize, forces: &[Padded], out: &mut [f64]) {
         for (i, target) in out.as_chunks_mut::<D>().0.iter_mut().enumerate() {
             let [begin, end] = [self.starts[first + i], self.starts[first + i + 1]];
             let mut sum = [0.0; D];

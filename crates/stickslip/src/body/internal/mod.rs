@@ -36,7 +36,7 @@ use crate::system::{Dofs, Force};
 use chunk::{Chunk, Chunks, Local};
 use gather::Incidence;
 pub use spectrum::largest_eigenvalue;
-use sweep::{Cells, Kernel};
+use sweep::{Cells, Kernel, Padded};
 
 /// Least number of cells that are worth the threads: some 20 µs of work.
 const CELLS_FOR_THREADS: usize = 1000;
@@ -54,7 +54,7 @@ pub struct InternalForce {
     /// Places of a chunk in `forces`.
     stride: usize,
     /// Forces on the points of the chunks, `stride` a chunk.
-    forces: Vec<[f64; 3]>,
+    forces: Vec<Padded>,
 }
 
 impl std::fmt::Debug for InternalForce {
@@ -70,7 +70,7 @@ impl std::fmt::Debug for InternalForce {
 impl InternalForce {
     /// For bodies of one mesh, whose dofs are `dofs`.
     ///
-    /// Keeps what it needs of them: a number of two bytes a node of a cell, and some forty bytes a point of a chunk.
+    /// Keeps what it needs of them: a number of two bytes a node of a cell, and some fifty bytes a point of a chunk.
     ///
     /// # Panics
     /// If a body has another dimension or number of points than `dofs`.
@@ -100,7 +100,7 @@ impl InternalForce {
             incidence: Incidence::new(dofs.points, &chunks, stride),
             // The chunk size of a parallel loop must not be zero.
             stride: stride.max(1),
-            forces: vec![[0.0; 3]; stride * chunks.chunks.len()],
+            forces: vec![[0.0; 4]; stride * chunks.chunks.len()],
             chunks,
         }
     }
@@ -125,7 +125,7 @@ impl InternalForce {
             forces,
         } = self;
         let (dofs, arch, chunks) = (*dofs, *arch, &*chunks);
-        let task = |(f, chunk): (&mut [[f64; 3]], &Chunk)| {
+        let task = |(f, chunk): (&mut [Padded], &Chunk)| {
             run_chunk(&*kernels[chunk.kernel], arch, dofs, chunks, chunk, u, f);
         };
         let width = POINTS_PER_TASK * dofs.dim;
@@ -160,16 +160,18 @@ fn run_chunk(
     chunks: &Chunks,
     chunk: &Chunk,
     u: &[f64],
-    f: &mut [[f64; 3]],
+    f: &mut [Padded],
 ) {
     let [begin, end] = chunk.points;
     let count = end - begin;
-    let mut displacements = [[0.0; 3]; chunk::POINTS];
-    for (value, &p) in displacements.iter_mut().zip(&chunks.points[begin..end]) {
-        *value = dofs.vector(u, p as usize);
+    let mut displacements = [[0.0; 4]; chunk::POINTS];
+    let points = &chunks.points[begin..end];
+    match dofs.dim {
+        2 => take::<2>(u, points, &mut displacements),
+        _ => take::<3>(u, points, &mut displacements),
     }
     let f = &mut f[..count];
-    f.fill([0.0; 3]);
+    f.fill([0.0; 4]);
     let cells = Cells {
         count: chunk.cells,
         nodes: &chunks.nodes[chunk.nodes[0]..chunk.nodes[1]],
@@ -177,4 +179,14 @@ fn run_chunk(
         u: &displacements[..count],
     };
     kernel.add(arch, cells, f);
+}
+
+/// The displacements of some points.
+fn take<const D: usize>(u: &[f64], points: &[u32], out: &mut [Padded]) {
+    let u = u.as_chunks::<D>().0;
+    for (value, &p) in out.iter_mut().zip(points) {
+        for (to, from) in value.iter_mut().zip(u[p as usize]) {
+            *to = from;
+        }
+    }
 }

@@ -71,6 +71,26 @@ fn the_force_is_that_of_the_matrix_for_every_cell_space_and_formulation() {
     }
 }
 
+#[test]
+fn hexahedra_with_parallel_faces_are_told_from_others() {
+    let count = |mesh: Mesh| {
+        let body = body(
+            mesh,
+            Space::Solid,
+            Formulation::Standard,
+            isotropic(1.0, 0.3),
+        );
+        let by_kernel = kernels::of_part(&body, 0);
+        [by_kernel[0].1.len(), by_kernel[1].1.len()]
+    };
+    let mut mesh = grid(ElementKind::Hex8, [3, 3, 3], &shear);
+    assert_eq!(count(mesh.clone()), [27, 0]);
+    // Point (1, 1, 1) of the grid belongs to eight cells.
+    mesh.points[21][1] += 1e-12;
+    assert_eq!(count(mesh.clone()), [19, 8]);
+    assert_eq!(count(grid(ElementKind::Hex8, [3, 3, 3], &distort)), [0, 27]);
+}
+
 /// Half a grid bent and half straight, of two materials.
 fn mixed(formulation: Formulation) -> Elastic {
     let bend = |x: Vec3| {
@@ -255,7 +275,12 @@ fn the_largest_eigenvalue_is_met_from_above() {
         } else {
             Space::Solid
         };
-        let body = patch(kind, space, Formulation::Standard);
+        let body = body(
+            grid(kind, [3, 2, 2], &distort),
+            space,
+            Formulation::Standard,
+            anisotropic(),
+        );
         let mut internal = InternalForce::new(&[&body], dofs_of(&body));
         let count = dofs_of(&body).count();
         let mut mass: Vec<f64> = noise(count).iter().map(|x| 2.0 + x).collect();
