@@ -202,7 +202,7 @@ dynamic = { scheme.newmark = {}, contact-mass = "KIND" }
             .fold(0.0, f64::max);
         [worst, chatter]
     });
-    assert!(cured[0] < 5e-3 && cured[1] < 0.2, "{cured:?}");
+    assert!(cured[0] < 5e-3 && cured[1] < 0.3, "{cured:?}");
     assert!(classical[1] > 0.5, "{classical:?}");
 }
 

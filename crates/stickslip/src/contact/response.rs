@@ -54,6 +54,8 @@ pub struct Circumstances {
     pub path: Option<[f64; 2]>,
     /// Whether the multipliers are unknowns.
     pub unknown: bool,
+    /// Gap from which springs count `[m]`; zero but for springs that took over from multipliers.
+    pub rest: f64,
     /// Whether the point did not slide at the last accepted state.
     pub sticking: bool,
     /// Closing velocity over the increment `[m/s]`.
@@ -132,7 +134,7 @@ impl Laws {
     /// send points from slip in one direction to slip in the other.
     pub fn respond(&self, stencil: &Stencil, at: &Circumstances) -> Response {
         let unknown = at.unknown;
-        let mut response = self.press(stencil.gap, at, unknown);
+        let mut response = self.press(stencil.gap - at.rest, at, unknown);
         let pressure = response.traction[0];
         let friction: &dyn FrictionLaw = self.friction.as_dyn();
         if pressure > 0.0 {

@@ -266,7 +266,12 @@ impl Newton {
                 return Ok(Converged {
                     iterations: iteration,
                     rounds: round,
-                    residual: relative,
+                    // what is below rounding is none
+                    residual: if balance.norm <= balance.floor {
+                        0.0
+                    } else {
+                        relative
+                    },
                     tally: tally(system),
                     forces: balance.forces,
                     contact: std::mem::take(&mut out.residual),

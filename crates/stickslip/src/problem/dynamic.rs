@@ -17,7 +17,7 @@ pub struct Dynamic {
     pub scheme: SchemeModel,
     /// How the mass of a cell is given to its points. An explicit scheme has lumped masses in any case.
     pub mass: MassKind,
-    /// Whether points of secondary surfaces have mass. By default it is redistributed where the normal law is unilateral, and
+    /// Whether the points of interfaces have mass. By default it is redistributed where the normal law is unilateral, and
     /// left as meshed where it is compliant and in an explicit scheme.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_mass: Option<ContactMass>,

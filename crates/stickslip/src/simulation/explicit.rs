@@ -13,7 +13,7 @@ use super::model::{Dynamic, Model};
 use super::run::{Accepted, Flow, Simulation};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
-use crate::system::{Assembler, Cause, Constraints, Force, Stage, State, StepFailure};
+use crate::system::{Assembler, Cause, Constraints, Force, Stage, State, StepFailure, Tally};
 use crate::time::Trial;
 use crate::time::scheme::Method;
 
@@ -190,7 +190,7 @@ impl Simulation {
         let constraints = self.constraints(soon);
         explicit.loaded = !self.model.loads.is_empty();
         for interface in &mut self.model.interfaces {
-            interface.use_springs(true);
+            self.summary.energy.initial += interface.use_springs(true);
         }
         let dt = self
             .stable_increment(&explicit)
@@ -400,7 +400,14 @@ impl Simulation {
             )
             .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
+        let mut tally = Tally::default();
+        for t in self.model.interfaces.iter().filter_map(Force::tally) {
+            tally.open += t.open;
+            tally.stick += t.stick;
+            tally.slip += t.slip;
+        }
         Ok(Accepted {
+            tally,
             contact: explicit.out.residual.clone(),
             forces,
             external,

@@ -49,10 +49,10 @@ impl Inertia {
                 None => interface.laws.normal.as_dyn().pressure(0.0).is_none(),
             };
             if wanted {
-                for point in &interface.points {
-                    for &node in &point.nodes {
-                        light[interface.nodes[node]] = true;
-                    }
+                // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
+                // as a secondary one does against a wall.
+                for &node in &interface.nodes {
+                    light[node] = true;
                 }
             }
         }

@@ -39,7 +39,9 @@ pub struct EnergyLedger {
 pub struct EnergyQuality {
     /// Largest energy in play so far: stored and dissipated `[J]`.
     pub scale: f64,
-    /// Largest residual so far relative to it `[-]`.
+    /// Largest residual so far `[J]`.
+    pub largest: f64,
+    /// The same relative to the energy in play `[-]`.
     pub residual: f64,
     /// What the residual should not exceed.
     pub limit: f64,
@@ -91,9 +93,9 @@ impl EnergyQuality {
     /// Takes note of the ledger after an increment.
     pub(super) fn note(&mut self, ledger: &EnergyLedger) {
         self.scale = self.scale.max(ledger.in_play());
-        let relative = ledger.residual.abs() / self.scale.max(f64::MIN_POSITIVE);
+        self.largest = self.largest.max(ledger.residual.abs());
         if self.scale > 0.0 {
-            self.residual = self.residual.max(relative);
+            self.residual = self.largest / self.scale;
         }
         self.met = self.residual <= self.limit;
     }

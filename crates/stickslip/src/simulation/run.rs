@@ -153,7 +153,7 @@ impl Simulation {
                 Some(dynamic) => {
                     self.explicit = None;
                     for interface in &mut self.model.interfaces {
-                        interface.use_springs(false);
+                        self.summary.energy.initial += interface.use_springs(false);
                     }
                     match dynamic.method {
                         Method::Implicit(_) => self.start_motion(&dynamic)?,
@@ -219,7 +219,7 @@ impl Simulation {
         self.motion = None;
         self.explicit = None;
         for interface in &mut self.model.interfaces {
-            interface.use_springs(false);
+            self.summary.energy.initial += interface.use_springs(false);
         }
     }
 

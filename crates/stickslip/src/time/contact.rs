@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactMass {
-    /// The mass of the points of secondary surfaces is given to their neighbours
+    /// The mass of the points of both surfaces is given to their neighbours
     /// ([`khenous_2008`](crate::references::khenous_2008)); mass and centre of mass of the body stay. Contact forces do not chatter,
     /// and hardly any energy is gained or lost at impact.
     Redistributed,

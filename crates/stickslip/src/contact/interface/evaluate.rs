@@ -368,6 +368,7 @@ impl Interface {
             slip: slid,
             path: None,
             unknown,
+            rest: self.memory.rest.get(i).copied().unwrap_or(0.0),
             sticking: self.memory.committed[i].status != Status::Slip,
             closing: self.closing(i, stencil.gap, scene.dt),
         };

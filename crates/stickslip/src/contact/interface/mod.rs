@@ -82,6 +82,8 @@ pub struct Memory {
     untouched: bool,
     /// Explicit dynamics: springs, whatever the enforcement.
     explicit: bool,
+    /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
+    rest: Vec<f64>,
     softening: Option<f64>,
 }
 
@@ -144,8 +146,30 @@ impl Interface {
 
     /// Enforces contact and stick by springs in explicit dynamics, whatever the enforcement: those of a penalty, or as stiff as the cells
     /// beneath.
-    pub fn use_springs(&mut self, springs: bool) {
+    ///
+    /// What presses already goes on pressing: a spring starts where its force is that of the multiplier it replaces. The energy `[J]` that this
+    /// puts into the springs is returned.
+    pub fn use_springs(&mut self, springs: bool) -> f64 {
+        if self.memory.explicit == springs {
+            return 0.0;
+        }
+        let before = self.stored_energy();
         self.memory.explicit = springs;
+        self.memory.rest.clear();
+        let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
+        if springs && multipliers && self.laws.needs_normal_stiffness() {
+            let points = self.points.iter().zip(&self.memory.committed);
+            self.memory.rest = points
+                .map(|(p, h)| {
+                    if h.pressure > 0.0 {
+                        h.gap + h.pressure / p.stiffness
+                    } else {
+                        0.0
+                    }
+                })
+                .collect();
+        }
+        self.stored_energy() - before
     }
 
     /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the

@@ -59,12 +59,14 @@ impl Interface {
             .iter()
             .zip(&self.memory.committed)
             .zip(&self.memory.last)
-            .map(|((p, h), e)| {
+            .enumerate()
+            .map(|(i, ((p, h), e))| {
                 let own = law.energy(h.gap);
                 let spring = if e.normal_stiffness.is_finite() && self.laws.needs_normal_stiffness()
                 {
                     // what is left of the constraint's violation, a spring from λ to p
-                    0.5 * (h.pressure - h.damping) * (-h.gap).max(0.0)
+                    let rest = self.memory.rest.get(i).copied().unwrap_or(0.0);
+                    0.5 * (h.pressure - h.damping) * (rest - h.gap).max(0.0)
                 } else {
                     0.0
                 };
