@@ -1,5 +1,6 @@
-//! `cargo xtask peers`: the same problem in stickslip and in CalculiX, one thread each, one after the other.
+//! `cargo xtask peers`: the same problems in stickslip and in CalculiX, one thread each, one after the other.
 
+mod bar;
 mod cpu;
 mod deck;
 
@@ -57,7 +58,40 @@ pub fn compare(sizes: &[String]) -> Result<(), String> {
             println!("{n:>4} {dofs:>8} {:>12.2} {:>12} {:>7}", ours.cpu, "-", "-");
         }
     }
+    bars(&binary, &scratch, with_calculix)?;
     println!("results: {}", scratch.display());
+    Ok(())
+}
+
+/// The impact of a bar: explicit by itself, implicit against CalculiX.
+fn bars(binary: &Path, scratch: &Path, with_calculix: bool) -> Result<(), String> {
+    let case = workspace::root().join("examples/steel-bar/case.toml");
+    let directory = scratch.join("bar");
+    fs::create_dir_all(&directory).map_err(|e| format!("{}: {e}", directory.display()))?;
+    let fixed = |n: usize| format!("step.0.increments.fixed={n}");
+    let explicit = bar::run_stickslip(binary, &case, &[&fixed(bar::EXPLICIT)], &directory)?;
+    println!(
+        "bar impact, explicit: {:.2} s, {:.2e} s a step and dof",
+        explicit.cpu,
+        explicit.cpu / (bar::EXPLICIT * bar::DOFS) as f64
+    );
+    let settings = [
+        &fixed(bar::IMPLICIT) as &str,
+        "step.0.dynamic.scheme={hht={}}",
+        "interface.hit.enforcement={augmented-lagrangian={}}",
+    ];
+    let implicit = bar::run_stickslip(binary, &case, &settings, &directory)?;
+    print!("bar impact, implicit: {:.2} s", implicit.cpu);
+    if with_calculix {
+        let theirs = bar::run_calculix(&directory)?;
+        println!(
+            ", CalculiX {:.2} s, ratio {:.3}",
+            theirs.cpu,
+            implicit.cpu / theirs.cpu
+        );
+    } else {
+        println!();
+    }
     Ok(())
 }
 
