@@ -96,7 +96,11 @@ fn push_reaction(row: &mut Row, name: &str, simulation: &Simulation, support: &S
     let mut sum = [0.0; 3];
     if support.schedule.active(simulation.state.t) {
         for e in &support.entries {
-            sum[dofs.locate(e.dof).1] += simulation.forces[e.dof];
+            let (point, component) = dofs.locate(e.dof);
+            // the moments that hold a rigid body are no forces
+            if !simulation.model.links.turns(point) {
+                sum[component] += simulation.forces[e.dof];
+            }
         }
     }
     for (c, s) in sum.iter().enumerate().take(dofs.dim) {
@@ -126,7 +130,7 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
     }
     let mut fields = Fields::default();
     for body in &model.bodies {
-        body.elastic.fields(&simulation.state, &mut fields);
+        body.fields(&simulation.state, &mut fields);
     }
     for probe in &model.probes {
         let point = probe.point;

@@ -3,7 +3,8 @@
 use super::model::{ContactMass, Dynamic, Model};
 use crate::body::{MassKind, redistribute};
 use crate::linear::{BlockCsr, GmresSettings, gmres};
-use crate::system::{Cause, Force, StepFailure};
+use crate::contact::interface::Interface;
+use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
 /// What resists acceleration and velocity.
@@ -43,7 +44,7 @@ impl Inertia {
         let mut mass = stiffness.zeros_like();
         match dynamic.mass {
             MassKind::Consistent => {
-                for body in &model.bodies {
+                for body in model.elastic() {
                     body.elastic.add_consistent_mass(&mut mass);
                 }
             }
@@ -55,6 +56,7 @@ impl Inertia {
                 }
             }
         }
+        add_rigid_mass(model, &mut mass);
         let damping = damping(model, stiffness, &mass);
         let mut light = vec![false; model.dofs.points];
         for interface in &model.interfaces {
@@ -73,6 +75,10 @@ impl Inertia {
             }
         }
         for body in &model.bodies {
+            if body.rigid.is_some() {
+                light[body.points.clone()].fill(false);
+                continue;
+            }
             let points: Vec<usize> = body.points.clone().collect();
             let touched = points.iter().any(|&p| light[p]);
             if touched && !redistribute(&mut mass, &model.mesh.points, &points, &light) {
@@ -103,10 +109,12 @@ impl Inertia {
         self.keys
     }
 
-    /// Dofs that have the mean velocity of an increment.
-    pub fn plain(&self, fixed: &[bool]) -> Vec<bool> {
+    /// Dofs that have the mean velocity of an increment; of the points of rigid bodies those that only fixed dofs move.
+    pub fn plain(&self, fixed: &[bool], links: &Links) -> Vec<bool> {
         let light = self.light.iter().map(|&l| l && self.damping.is_none());
-        light.zip(fixed).map(|(l, &f)| l || f).collect()
+        let mut plain: Vec<bool> = light.zip(fixed).map(|(l, &f)| l || f).collect();
+        links.still(fixed, &mut plain);
+        plain
     }
 
     /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.
@@ -217,10 +225,24 @@ impl Inertia {
 /// Lumped masses of the elastic bodies, by point.
 pub(super) fn lumped(model: &Model) -> Vec<f64> {
     let mut masses = vec![0.0; model.dofs.points];
-    for body in &model.bodies {
+    for body in model.elastic() {
         body.elastic.add_lumped_mass(&mut masses);
     }
     masses
+}
+
+/// Adds the masses and moments of inertia of rigid bodies at their hidden points.
+fn add_rigid_mass(model: &Model, matrix: &mut BlockCsr) {
+    let dim = model.dofs.dim;
+    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+        let hidden = model.links.all()[rigid.link].hidden;
+        for i in 0..dim {
+            matrix.add_diagonal(model.dofs.of(hidden, i), rigid.mass);
+        }
+        let rows = rigid.spin.iter().take(dim);
+        let dense: Vec<f64> = rows.flat_map(|row| row[..dim].to_vec()).collect();
+        matrix.add_group(&[hidden + 1], &dense);
+    }
 }
 
 /// `Σ α M + β K` over the bodies that have Rayleigh damping.
@@ -263,9 +285,8 @@ pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
 }
 
 /// All interfaces as forces.
-pub(super) fn contact(model: &mut Model) -> Vec<&mut dyn Force> {
-    model
-        .interfaces
+pub(super) fn contact(interfaces: &mut [Interface]) -> Vec<&mut dyn Force> {
+    interfaces
         .iter_mut()
         .map(|i| i as &mut dyn Force)
         .collect()
