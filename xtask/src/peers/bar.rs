@@ -86,7 +86,10 @@ pub fn deck() -> String {
         node([across, across, 0])
     ));
     put(format_args!("*SURFACE, NAME=SFOOT, TYPE=NODE\nFOOT"));
-    put(format_args!("*SURFACE, NAME=STOP, TYPE=ELEMENT\n{}, S2", cell + 1));
+    put(format_args!(
+        "*SURFACE, NAME=STOP, TYPE=ELEMENT\n{}, S2",
+        cell + 1
+    ));
     put(format_args!(
         "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.\n*DENSITY\n7800.\n*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL\n\
          *SOLID SECTION, ELSET=BLOCK, MATERIAL=STEEL\n*SURFACE INTERACTION, NAME=HIT\n\

@@ -4,8 +4,8 @@ use super::linearised::{Linearised, Operator};
 use super::settings::{Progress, Settings, Statistics};
 use crate::linear::BlockCsr;
 use crate::system::{
-    Assembler, Augmentation, Cause, Constraints, Dofs, Force, Rate, Stage, State, StepFailure,
-    Tally,
+    Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
+    StepFailure, Tally,
 };
 
 /// What is solved: `A u + contact(u) = external` with prescribed displacements.
@@ -27,6 +27,8 @@ pub struct System<'a> {
     pub rate: Option<Rate<'a>>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
+    /// Rigid bodies; the dofs of their points are fixed, `external` has nothing there and the bulk no entries.
+    pub links: &'a Links,
     /// Where the forces of the bulk are known; `None`: they are `A u`.
     pub origin: Option<Origin>,
     /// Tells matrices apart: a factor is used again for the key it was made with.
@@ -117,6 +119,7 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);
+        system.links.impose(&mut at.u);
         let guess = at.u.clone();
         for force in &mut system.contact {
             force.begin();
@@ -308,7 +311,8 @@ impl Newton {
                 &mut statistics,
             );
             self.statistics = statistics;
-            let (du, krylov) = solved?;
+            let (mut du, krylov) = solved?;
+            system.links.impose(&mut du);
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);
             let reported = before / balance.scale.max(f64::MIN_POSITIVE);
@@ -430,7 +434,10 @@ impl Newton {
                 }
             }
         }
-        let (mut norm, mut internal, mut external, mut contact) = (0.0, 0.0, 0.0, 0.0);
+        // Forces in play are those on the points: what a rigid body gets from two sides may cancel.
+        let contact: f64 = out.residual.iter().map(|r| r * r).sum();
+        transfer(system.links, out);
+        let (mut norm, mut internal, mut external) = (0.0, 0.0, 0.0);
         let mut bulk = 0.0;
         for (i, f) in forces.iter_mut().enumerate() {
             if system.constraints.fixed[i] {
@@ -438,7 +445,6 @@ impl Newton {
             }
             *f += out.residual[i] - system.external[i];
             external += system.external[i] * system.external[i];
-            contact += out.residual[i] * out.residual[i];
             if !system.constraints.fixed[i] {
                 bulk += (4.0 * f64::EPSILON * system.diagonal[i] * at.u[i]).powi(2);
                 norm += *f * *f;
@@ -458,6 +464,25 @@ impl Newton {
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
+
+/// Lets what acts on the points of rigid bodies act on the bodies.
+fn transfer(links: &Links, out: &mut Assembler) {
+    if links.is_empty() {
+        return;
+    }
+    links.transfer(&mut out.residual);
+    links.transfer(&mut out.condensed);
+    for block in &mut out.blocks {
+        if let Some(moved) = links.transform(block) {
+            *block = moved;
+        }
+    }
+    for dofs in &mut out.couplings {
+        if let Some(moved) = links.transform_dofs(dofs) {
+            *dofs = moved;
+        }
+    }
+}
 
 fn norm(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Formulation;
 use crate::mesh::generators::Generator;
 
-/// `[body.NAME]`: an elastic body: its mesh and what it is made of.
+/// `[body.NAME]`: an elastic or rigid body: its mesh and what it is made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Body {
@@ -17,6 +17,15 @@ pub struct Body {
     /// Materials by cell set of the mesh: `regions.coat = "bronze"`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub regions: BTreeMap<String, String>,
+    /// Whether the body is rigid: it moves and turns as a whole, with the mass and the moments of inertia of its mesh and `density`,
+    /// which it must have. It may touch, be loaded, hang on springs and be supported like any other.
+    ///
+    /// Its rotation is linearised about the start, as that of elastic bodies is; above about 0.1 rad (`largest-rotation` in the
+    /// summary) it shows. The stiffness of its material is still wanted: interfaces take their scale from it. A support of some
+    /// of its points must hold each of its motions fully or not at all, so that a point off the centre of mass is no support. Around
+    /// an axis it moves along y alone.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rigid: bool,
     /// What the elements do with the change of volume.
     #[serde(default)]
     pub formulation: Formulation,

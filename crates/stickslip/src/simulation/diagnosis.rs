@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::model::Model;
 use super::run::Simulation;
-use crate::body::rigid_modes;
+use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::error::RunError;
 use crate::math::symmetric_eigen;
@@ -42,6 +43,8 @@ pub struct BodyReport {
     pub cells: usize,
     /// Kinds of cells.
     pub kinds: String,
+    /// Mass if it is rigid.
+    pub rigid: Option<f64>,
     /// Corners of its box.
     pub low: [f64; 3],
     /// Corners of its box.
@@ -75,6 +78,10 @@ pub struct InterfaceReport {
 pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
     let model = &simulation.model;
     let mut held = simulation.constraints(t).fixed;
+    for link in model.links.all() {
+        // Their points are no unknowns, but springs may hold them.
+        held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)].fill(false);
+    }
     for spring in &model.springs {
         for &(dof, stiffness) in spring.entries() {
             held[dof] |= stiffness > 0.0;
@@ -82,8 +89,13 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
     }
     let mut out = Vec::new();
     for body in &model.bodies {
-        let points: Vec<usize> = body.points.clone().collect();
-        let modes = rigid_modes(&model.mesh, &points, model.space);
+        let modes = match body.rigid {
+            None => {
+                let points: Vec<usize> = body.points.clone().collect();
+                rigid_modes(&model.mesh, &points, model.space)
+            }
+            Some(rigid) => motions(model, rigid.link),
+        };
         // Rotations count by the displacement they make at the rim of the body, like translations.
         let modes: Vec<_> = modes
             .into_iter()
@@ -131,6 +143,23 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
     out
 }
 
+/// The motions of a rigid body over all dofs, hidden ones and those of its points.
+fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
+    let motions = model.links.all()[link].motions(model.dofs);
+    motions
+        .into_iter()
+        .map(|(dof, motion)| {
+            let mut vector = vec![0.0; model.dofs.count()];
+            vector[dof] = 1.0;
+            model.links.impose(&mut vector);
+            RigidMode {
+                name: motion.to_string(),
+                vector,
+            }
+        })
+        .collect()
+}
+
 /// The error for a singular system: names the body and the motions that nothing holds.
 pub(super) fn explain_singular(
     simulation: &Simulation,
@@ -138,7 +167,9 @@ pub(super) fn explain_singular(
     free: &[FreeMode],
 ) -> RunError {
     let model = &simulation.model;
-    let place = failure.dof.map(|dof| {
+    // A hidden point has no number, and the motions say all there is to say.
+    let meshed = |dof: &usize| model.dofs.locate(*dof).0 < model.mesh.points.len();
+    let place = failure.dof.filter(meshed).map(|dof| {
         let (point, component) = model.dofs.locate(dof);
         let body = model
             .bodies
@@ -250,6 +281,7 @@ impl Simulation {
                     points: b.points.len(),
                     cells: blocks.iter().map(|x| x.cell_ids.len()).sum(),
                     kinds: kinds.join(", "),
+                    rigid: b.rigid.map(|r| r.mass),
                     low,
                     high,
                     sets,
@@ -303,6 +335,9 @@ impl fmt::Display for CheckReport {
                 b.high[1],
                 b.high[2]
             )?;
+            if let Some(mass) = b.rigid {
+                writeln!(f, "    rigid, of mass {mass:.6e}")?;
+            }
             writeln!(f, "    sets: {}", b.sets.join(", "))?;
         }
         writeln!(f, "interfaces")?;

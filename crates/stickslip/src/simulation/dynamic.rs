@@ -95,6 +95,7 @@ impl Simulation {
                 .add_initial(&stage, &mut contact)
                 .map_err(|e| e.at(t))?;
         }
+        self.model.links.transfer(&mut contact);
         Ok(contact)
     }
 
@@ -111,6 +112,7 @@ impl Simulation {
             .collect();
         let fixed = self.constraints(t).fixed;
         self.state.a = inertia.acceleration(&force, &fixed).map_err(|e| e.at(t))?;
+        self.model.links.impose(&mut self.state.a);
         Ok(())
     }
 
@@ -156,7 +158,7 @@ impl Simulation {
         let inertia = &mut motion.inertia;
         let dt = inertia.ready(&self.matrix, alphas, trial.to - trial.from, weight);
         let inertia = &motion.inertia;
-        let plain = inertia.plain(&constraints.fixed);
+        let plain = inertia.plain(&constraints.fixed, &self.model.links);
         let fixed = constraints.fixed.clone();
         let from = self.state.clone();
         let increment = Increment {
@@ -167,6 +169,7 @@ impl Simulation {
         };
         let mut guess = increment.predict();
         constraints.impose(&mut guess);
+        self.model.links.impose(&mut guess);
         let balance = Balance {
             simulation: self,
             inertia,
@@ -194,6 +197,7 @@ impl Simulation {
                 diagonal,
                 external: vec![0.0; guess.len()],
                 constraints,
+                links: &model.links,
                 origin: Some(Origin {
                     at: guess,
                     forces,
@@ -204,7 +208,7 @@ impl Simulation {
                     gain: &gain,
                     shift: &shift,
                 }),
-                contact: inertia::contact(model),
+                contact: inertia::contact(&mut model.interfaces),
             };
             newton.solve(&mut system, &from, &mut at, &mut |p| seen.push(*p))
         };
@@ -214,6 +218,8 @@ impl Simulation {
         for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
             *a = 0.0;
         }
+        self.model.links.impose(&mut at.v);
+        self.model.links.impose(&mut at.a);
         let solved = Solved {
             reactions: converged.forces.iter().map(|f| weight * f).collect(),
             contact: converged.contact.clone(),

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::inertia::lumped;
 use super::model::{Dynamic, Model};
 use super::run::{Accepted, Flow, Simulation};
+use super::spin::{Spin, mobility};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
 use crate::system::{Assembler, Cause, Constraints, Force, Stage, State, StepFailure, Tally};
@@ -20,9 +21,12 @@ use crate::time::scheme::Method;
 /// What explicit increments need beside the state.
 pub(super) struct Explicit {
     internal: InternalForce,
-    /// Masses and their inverses by dof; the inverse is zero where there is none.
+    /// Masses and their inverses by dof; the inverse is zero where there is none, and at the points of rigid bodies what
+    /// [`mobility`] says.
     mass: Vec<f64>,
     inverse: Vec<f64>,
+    /// Rotations of rigid bodies, which have no mass among those by dof.
+    spins: Vec<Spin>,
     /// Rayleigh factors by dof; empty without damping.
     rayleigh: Vec<[f64; 2]>,
     springs: Vec<(usize, f64)>,
@@ -65,9 +69,9 @@ impl Explicit {
             unreachable!("an implicit method");
         };
         let dofs = model.dofs;
-        let bodies: Vec<_> = model.bodies.iter().map(|b| &b.elastic).collect();
+        let bodies: Vec<_> = model.elastic().map(|b| &b.elastic).collect();
         let mut internal = InternalForce::new(&bodies, dofs);
-        let mut mass: Vec<f64> = lumped(model)
+        let mut mass: Vec<f64> = masses(model)
             .into_iter()
             .flat_map(|m| std::iter::repeat_n(m, dofs.dim))
             .collect();
@@ -91,15 +95,20 @@ impl Explicit {
             .flat_map(|s| s.entries().iter().copied())
             .collect();
         let none = vec![false; dofs.count()];
-        let stiffest = springs.iter().fold(0.0_f64, |m, &(dof, k)| {
-            m.max(if mass[dof] > 0.0 { k / mass[dof] } else { 0.0 })
-        });
+        let mut inverse: Vec<f64> = mass
+            .iter()
+            .map(|&m| if m > 0.0 { 1.0 / m } else { 0.0 })
+            .collect();
+        for (inverses, m) in inverse.chunks_exact_mut(dofs.dim).zip(mobility(model)) {
+            if m > 0.0 {
+                inverses.fill(m);
+            }
+        }
+        let stiffest = stiffest(model, &springs, &inverse);
         let frequency = largest_eigenvalue(&mut internal, &mass, &none) + stiffest;
         Explicit {
-            inverse: mass
-                .iter()
-                .map(|&m| if m > 0.0 { 1.0 / m } else { 0.0 })
-                .collect(),
+            inverse,
+            spins: Spin::all(model),
             internal,
             rayleigh,
             springs,
@@ -131,6 +140,10 @@ impl Explicit {
     /// The longest stable increment with interfaces of this squared frequency.
     fn stable(&self, contact: f64) -> f64 {
         let omega = (self.frequency + contact).sqrt();
+        if omega == 0.0 {
+            // rigid bodies in free flight
+            return f64::INFINITY;
+        }
         let stiffness = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[1]));
         let mass = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[0]));
         // damping lags by half an increment
@@ -139,15 +152,39 @@ impl Explicit {
     }
 
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        0.5 * self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum::<f64>()
+        let moved: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
+        let turned: f64 = self.spins.iter().map(|s| s.square(s.of(v))).sum();
+        0.5 * (moved + turned)
     }
+}
+
+/// Lumped masses of elastic bodies and those of rigid ones, by point.
+fn masses(model: &Model) -> Vec<f64> {
+    let mut masses = lumped(model);
+    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+        masses[model.links.all()[rigid.link].hidden] += rigid.mass;
+    }
+    masses
+}
+
+/// The highest squared frequency of springs to ground: of each on its own, and of all on a rigid body together.
+fn stiffest(model: &Model, springs: &[(usize, f64)], inverse: &[f64]) -> f64 {
+    let mut highest = 0.0_f64;
+    let mut rigid = vec![0.0; model.links.all().len()];
+    for &(dof, k) in springs {
+        match model.links.of_point(model.dofs.locate(dof).0) {
+            None => highest = highest.max(k * inverse[dof]),
+            Some(body) => rigid[body] += k * inverse[dof],
+        }
+    }
+    rigid.into_iter().fold(highest, f64::max)
 }
 
 /// Raises masses until the frequency of every dof, by the sum of its row of the stiffness, allows increments of `2 half`.
 fn scale_masses(model: &Model, mass: &mut [f64], half: f64) {
     let dim = model.dofs.dim;
     let mut rows = vec![0.0; mass.len()];
-    for body in &model.bodies {
+    for body in model.elastic() {
         body.elastic.element_matrices(&mut |points, dense| {
             let width = points.len() * dim;
             for (a, row) in dense.chunks_exact(width).enumerate() {
@@ -172,7 +209,7 @@ impl Simulation {
             self.state.v = vec![0.0; n];
         }
         let mut explicit = Explicit::new(&self.model, dynamic.method);
-        let plain: f64 = lumped(&self.model).iter().sum();
+        let plain: f64 = masses(&self.model).iter().sum();
         let dim = self.model.dofs.dim;
         let scaled: f64 = explicit.mass.iter().step_by(dim).sum();
         self.summary.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
@@ -207,7 +244,8 @@ impl Simulation {
             )
             .into());
         }
-        self.summary.stable_increment = self.stable_increment(&explicit);
+        let stable = self.stable_increment(&explicit);
+        self.summary.stable_increment = if stable.is_finite() { stable } else { 0.0 };
         self.load = self.external(soon);
         self.contact = self.initial_contact(soon, dt)?;
         explicit.internal.apply(&self.state.u, &mut explicit.force);
@@ -226,6 +264,7 @@ impl Simulation {
         let energy = &mut self.summary.energy;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
+        self.model.links.transfer(&mut explicit.force);
         explicit.damp(&self.state.v);
         self.state.a = (0..n)
             .map(|i| match constraints.fixed[i] {
@@ -236,6 +275,17 @@ impl Simulation {
                 }
             })
             .collect();
+        for spin in &explicit.spins {
+            let range = spin.range();
+            let mut moment = [0.0; 3];
+            for (m, i) in moment.iter_mut().zip(range.clone()) {
+                *m = self.load[i] - explicit.force[i] - self.contact[i];
+            }
+            let turn = spin.acceleration(moment, &constraints.fixed, [0.0; 3]);
+            let dim = range.len();
+            self.state.a[range].copy_from_slice(&turn[..dim]);
+        }
+        self.model.links.impose(&mut self.state.a);
         explicit.still = still.then(|| Arc::new(constraints));
         self.explicit = Some(explicit);
         Ok(())
@@ -243,7 +293,9 @@ impl Simulation {
 
     fn contact_frequency(&self, explicit: &Explicit) -> f64 {
         let all = self.model.interfaces.iter();
-        all.map(|i| i.highest_frequency(&explicit.inverse)).sum()
+        let links = &self.model.links;
+        all.map(|i| i.highest_frequency(&explicit.inverse, links))
+            .sum()
     }
 
     fn stable_increment(&self, explicit: &Explicit) -> f64 {
@@ -307,10 +359,13 @@ impl Simulation {
                     }
                 }
             });
+        self.model.links.impose(&mut at.u);
+        self.model.links.impose(&mut at.v);
         explicit.internal.apply(&at.u, &mut explicit.force);
         for &(dof, k) in &explicit.springs {
             explicit.force[dof] += k * at.u[dof];
         }
+        self.model.links.transfer(&mut explicit.force);
         explicit.damp(&at.v);
         explicit.out.reset(false);
         let stage = Stage {
@@ -324,6 +379,7 @@ impl Simulation {
             interface.prepare(&stage)?;
             interface.assemble(&stage, &mut explicit.out)?;
         }
+        self.model.links.transfer(&mut explicit.out.residual);
         let external = if explicit.loaded {
             self.external(trial.to)
         } else {
@@ -393,6 +449,33 @@ impl Simulation {
             total.turned[1] += s.turned[1];
             total.finite &= s.finite;
         }
+        for spin in &explicit.spins {
+            let range = spin.range();
+            let mut moment = [0.0; 3];
+            for (m, i) in moment.iter_mut().zip(range.clone()) {
+                *m = external[i] - force[i] - out.residual[i];
+            }
+            let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
+            let inertial = spin.force(turn);
+            let mut free = [spin.of(&from.a), turn];
+            for (k, i) in range.enumerate() {
+                if constraints.fixed[i] {
+                    forces[i] += inertial[k];
+                    total.work += inertial[k] * (u[i] - from.u[i]);
+                    free.iter_mut().for_each(|a| a[k] = 0.0);
+                } else {
+                    a[i] = turn[k];
+                    v[i] += 0.5 * dt * turn[k];
+                }
+            }
+            for (sum, a) in total.turned.iter_mut().zip(free) {
+                *sum += spin.square(a);
+            }
+            total.kinetic += spin.square(spin.of(v));
+        }
+        total.finite &= total.kinetic.is_finite();
+        self.model.links.impose(v);
+        self.model.links.impose(a);
         if !total.finite {
             return Err(StepFailure::new(
                 Cause::NotFinite,

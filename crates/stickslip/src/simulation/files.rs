@@ -72,7 +72,7 @@ pub fn fields(simulation: &Simulation) -> Fields {
     let mut fields = Fields::default();
     let dofs = model.dofs;
     let vectors = |values: &[f64]| -> Vec<f64> {
-        (0..dofs.points)
+        (0..model.mesh.points.len())
             .flat_map(|p| dofs.vector(values, p))
             .collect()
     };
@@ -89,7 +89,7 @@ pub fn fields(simulation: &Simulation) -> Fields {
                 location: Location::Point,
                 components: 3,
                 values: match values.is_empty() {
-                    true => vec![0.0; 3 * dofs.points],
+                    true => vec![0.0; 3 * model.mesh.points.len()],
                     false => vectors(values),
                 },
             });
@@ -109,7 +109,7 @@ pub fn fields(simulation: &Simulation) -> Fields {
         values: vectors(&reactions),
     });
     for body in &model.bodies {
-        body.elastic.fields(&simulation.state, &mut fields);
+        body.fields(&simulation.state, &mut fields);
     }
     for interface in &model.interfaces {
         interface.fields(&simulation.state, &mut fields);

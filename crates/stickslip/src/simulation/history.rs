@@ -96,7 +96,11 @@ fn push_reaction(row: &mut Row, name: &str, simulation: &Simulation, support: &S
     let mut sum = [0.0; 3];
     if support.schedule.active(simulation.state.t) {
         for e in &support.entries {
-            sum[dofs.locate(e.dof).1] += simulation.forces[e.dof];
+            let (point, component) = dofs.locate(e.dof);
+            // the moments that hold a rigid body are no forces
+            if !simulation.model.links.turns(point) {
+                sum[component] += simulation.forces[e.dof];
+            }
         }
     }
     for (c, s) in sum.iter().enumerate().take(dofs.dim) {
@@ -128,7 +132,7 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
     for body in &model.bodies {
         // Stresses of a whole body are recovered: only where someone looks.
         if model.probes.iter().any(|p| body.points.contains(&p.point)) {
-            body.elastic.fields(&simulation.state, &mut fields);
+            body.fields(&simulation.state, &mut fields);
         }
     }
     for probe in &model.probes {

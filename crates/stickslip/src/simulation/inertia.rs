@@ -2,8 +2,9 @@
 
 use super::model::{ContactMass, Dynamic, Model};
 use crate::body::MassKind;
+use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, GmresSettings, gmres};
-use crate::system::{Cause, Force, StepFailure};
+use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
 /// What resists acceleration and velocity.
@@ -58,10 +59,13 @@ impl Inertia {
         }
         let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
-            if !body.elastic.add_mass(dynamic.mass, &light, &mut mass) {
+            if body.rigid.is_some() {
+                light[body.points.clone()].fill(false);
+            } else if !body.elastic.add_mass(dynamic.mass, &light, &mut mass) {
                 body.points.clone().for_each(|p| light[p] = false);
             }
         }
+        add_rigid_mass(model, &mut mass);
         let damping = damping(model, stiffness, &mass);
         Inertia {
             mass_kind: dynamic.mass,
@@ -87,10 +91,12 @@ impl Inertia {
         self.keys
     }
 
-    /// Dofs that have the mean velocity of an increment.
-    pub fn plain(&self, fixed: &[bool]) -> Vec<bool> {
+    /// Dofs that have the mean velocity of an increment; of the points of rigid bodies those that only fixed dofs move.
+    pub fn plain(&self, fixed: &[bool], links: &Links) -> Vec<bool> {
         let light = self.light.iter().map(|&l| l && self.damping.is_none());
-        light.zip(fixed).map(|(l, &f)| l || f).collect()
+        let mut plain: Vec<bool> = light.zip(fixed).map(|(l, &f)| l || f).collect();
+        links.still(fixed, &mut plain);
+        plain
     }
 
     /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.
@@ -201,10 +207,24 @@ impl Inertia {
 /// Lumped masses of the elastic bodies, by point.
 pub(super) fn lumped(model: &Model) -> Vec<f64> {
     let mut masses = vec![0.0; model.dofs.points];
-    for body in &model.bodies {
+    for body in model.elastic() {
         body.elastic.add_lumped_mass(&mut masses);
     }
     masses
+}
+
+/// Adds the masses and moments of inertia of rigid bodies at their hidden points.
+fn add_rigid_mass(model: &Model, matrix: &mut BlockCsr) {
+    let dim = model.dofs.dim;
+    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+        let hidden = model.links.all()[rigid.link].hidden;
+        for i in 0..dim {
+            matrix.add_diagonal(model.dofs.of(hidden, i), rigid.mass);
+        }
+        let rows = rigid.spin.iter().take(dim);
+        let dense: Vec<f64> = rows.flat_map(|row| row[..dim].to_vec()).collect();
+        matrix.add_group(&[hidden + 1], &dense);
+    }
 }
 
 /// `Σ α M + β K` over the bodies that have Rayleigh damping.
@@ -247,10 +267,6 @@ pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
 }
 
 /// All interfaces as forces.
-pub(super) fn contact(model: &mut Model) -> Vec<&mut dyn Force> {
-    model
-        .interfaces
-        .iter_mut()
-        .map(|i| i as &mut dyn Force)
-        .collect()
+pub(super) fn contact(interfaces: &mut [Interface]) -> Vec<&mut dyn Force> {
+    interfaces.iter_mut().map(|i| i as &mut dyn Force).collect()
 }

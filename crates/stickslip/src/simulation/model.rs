@@ -4,9 +4,10 @@ use std::sync::Arc;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
+use crate::math::Mat3;
 use crate::mesh::Mesh;
 use crate::newton::Settings;
-use crate::system::{Dofs, Schedule};
+use crate::system::{Dofs, Fields, Force, Links, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
 pub use crate::time::{ContactAt, ContactMass};
@@ -19,8 +20,10 @@ pub struct Model {
     pub space: Space,
     /// All bodies in one mesh; bodies share no points.
     pub mesh: Arc<Mesh>,
-    /// Numbering of the unknowns.
+    /// Numbering of the unknowns: the points of the mesh, then two hidden ones for each rigid body.
     pub dofs: Dofs,
+    /// The rigid bodies.
+    pub links: Links,
     /// The bodies.
     pub bodies: Vec<Body>,
     /// Loads.
@@ -55,10 +58,40 @@ pub struct Body {
     pub points: Range<usize>,
     /// Its blocks.
     pub blocks: Range<usize>,
-    /// Its elasticity.
+    /// Its elasticity; of a rigid body only mass and volume count.
     pub elastic: Elastic,
+    /// Its mass if it is rigid.
+    pub rigid: Option<Rigid>,
     /// Rayleigh damping: factors of mass `[1/s]` and stiffness `[s]`.
     pub rayleigh: [f64; 2],
+}
+
+/// What resists the motion of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigid {
+    /// Index of its link.
+    pub link: usize,
+    /// Mass `[kg]`.
+    pub mass: f64,
+    /// Moments of inertia about the centre of mass over the square of the length of the link `[kg]`, in the order of the dofs of its
+    /// second hidden point.
+    pub spin: Mat3,
+}
+
+impl Body {
+    /// Adds the fields of a state. In a rigid body there is no stress.
+    pub fn fields(&self, state: &State, out: &mut Fields) {
+        if self.rigid.is_none() {
+            self.elastic.fields(state, out);
+            return;
+        }
+        let at_rest = State {
+            t: state.t,
+            u: vec![0.0; state.u.len()],
+            ..State::default()
+        };
+        self.elastic.fields(&at_rest, out);
+    }
 }
 
 /// Initial values of some dofs.
@@ -97,6 +130,11 @@ impl Model {
         self.steps.iter().any(|s| s.dynamic.is_some())
     }
 
+    /// The bodies that deform.
+    pub fn elastic(&self) -> impl Iterator<Item = &Body> {
+        self.bodies.iter().filter(|b| b.rigid.is_none())
+    }
+
     /// Sets the velocities that are given for the start of a step.
     pub(super) fn apply_initial_velocities(&self, step: usize, v: &mut [f64]) {
         for initial in self.initials.iter().filter(|i| i.step == step) {
@@ -104,6 +142,7 @@ impl Model {
                 v[dof] = value;
             }
         }
+        self.links.impose(v);
     }
 }
 

@@ -73,24 +73,22 @@ impl Simulation {
                 })
             )
         };
-        let bodies = if model.steps.iter().all(explicit) {
-            &[][..]
-        } else {
-            &model.bodies[..]
-        };
+        let assembled = !model.steps.iter().all(explicit);
         let mut matrix =
             BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
-                for body in bodies {
+                for body in model.elastic().filter(|_| assembled) {
                     body.elastic.couplings(visit);
                 }
-                for spring in &model.springs {
-                    spring.couplings(visit);
+                for link in model.links.all() {
+                    visit(&[link.hidden, link.hidden + 1]);
                 }
             });
-        let bulk = bodies.iter().map(|b| &b.elastic as &dyn Force);
-        let bulk = bulk.chain(model.springs.iter().map(|s| s as &dyn Force));
-        for force in bulk {
-            force.stiffness(&mut matrix).map_err(|e| e.at(0.0))?;
+        for body in model.elastic().filter(|_| assembled) {
+            let done = body.elastic.stiffness(&mut matrix);
+            done.map_err(|e| e.at(0.0))?;
+        }
+        for &(dof, stiffness) in model.springs.iter().flat_map(|s| s.entries()) {
+            model.links.add_spring(&mut matrix, dof, stiffness);
         }
         let n = model.dofs.count();
         let newton = Newton::new(model.settings);
@@ -98,6 +96,7 @@ impl Simulation {
         for &(dof, value) in model.initials.iter().flat_map(|i| &i.displacements) {
             u[dof] = value;
         }
+        model.links.impose(&mut u);
         let mut simulation = Simulation {
             contact: vec![0.0; n],
             load: vec![0.0; n],
@@ -348,15 +347,18 @@ impl Simulation {
                 constraints.prescribe(e.dof, value);
             }
         }
+        self.model.links.dependent(&mut constraints.fixed);
         constraints
     }
 
-    /// External forces at a time, with the fading forces of supports that let go in this step.
+    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
+    /// the bodies.
     pub(super) fn external(&self, t: f64) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
         for load in &self.model.loads {
             load.external(t, &mut external);
         }
+        self.model.links.transfer(&mut external);
         let step = &self.model.steps[self.step];
         let left = (step.end - t) / (step.end - step.start);
         for &(dof, force) in &self.released {
@@ -429,9 +431,10 @@ impl Simulation {
                 external: external.clone(),
                 rate: None,
                 constraints,
+                links: &model.links,
                 origin: None,
                 key: 0,
-                contact: inertia::contact(model),
+                contact: inertia::contact(&mut model.interfaces),
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
         };
@@ -484,6 +487,8 @@ impl Simulation {
         let summary = &mut self.summary;
         summary.increments += 1;
         summary.iterations += effort.iterations;
+        let turned = self.model.links.largest_rotation(&self.state.u);
+        summary.largest_rotation = summary.largest_rotation.max(turned);
         let kinetic = match (&self.motion, accepted.kinetic) {
             (_, Some(kinetic)) => kinetic,
             (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),

@@ -34,6 +34,9 @@ pub struct Summary {
     pub stable_increment: f64,
     /// Mass added by mass scaling, relative to the mass there is.
     pub mass_added: f64,
+    /// Largest rotation of a rigid body so far `[rad]`; 0 without one. Rotations are linearised about the start: above about 0.1 it
+    /// shows, as the body grows by the half of its square.
+    pub largest_rotation: f64,
     /// Counts and times of the solver.
     pub solver: Statistics,
     /// Seconds by phase.

@@ -1,4 +1,4 @@
-//! What is common to all forces: state, degrees of freedom, the [`Force`] trait, assembly, constraints, amplitudes.
+//! What is common to all forces: state, degrees of freedom, the [`Force`] trait, assembly, constraints, rigid bodies, amplitudes.
 
 mod amplitude;
 mod assembler;
@@ -7,6 +7,7 @@ mod dofs;
 mod failure;
 mod fields;
 mod force;
+mod links;
 mod schedule;
 
 pub use amplitude::{Amplitude, AmplitudeError};
@@ -16,4 +17,5 @@ pub use dofs::Dofs;
 pub use failure::{Cause, Culprit, StepFailure};
 pub use fields::{Field, Fields, Location};
 pub use force::{Augmentation, Energy, Force, Rate, Role, Stage, State, Tally};
+pub use links::{Freedom, Link, Links, Motion, Row};
 pub use schedule::{Course, Piece, Schedule};

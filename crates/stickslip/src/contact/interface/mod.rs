@@ -16,8 +16,8 @@ use super::search::Tree;
 use super::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
 use crate::system::{
-    Assembler, Augmentation, Culprit, Dofs, Energy, Fields, Force, Role, Saddle, Schedule, Stage,
-    State, StepFailure, Tally,
+    Assembler, Augmentation, Culprit, Dofs, Energy, Fields, Force, Links, Role, Saddle, Schedule,
+    Stage, State, StepFailure, Tally,
 };
 use evaluate::Evaluation;
 
@@ -173,8 +173,9 @@ impl Interface {
     }
 
     /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the
-    /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own.
-    pub fn highest_frequency(&self, inverse_mass: &[f64]) -> f64 {
+    /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own. For
+    /// a rigid body the springs at all its points add up, each with what the body gives way there, `1/m + |arm|²/I` as inverse mass.
+    pub fn highest_frequency(&self, inverse_mass: &[f64], links: &Links) -> f64 {
         let mut rows: Vec<f64> = vec![0.0; self.nodes.len()];
         let sides = if self.rigid() { 1.0 } else { 2.0 };
         let enforcement = self.laws.enforcement.as_dyn();
@@ -200,10 +201,16 @@ impl Interface {
                 rows[node] += stiffness * w.abs();
             }
         }
-        rows.iter()
-            .zip(&self.nodes)
-            .map(|(k, &node)| k * inverse_mass[self.dofs.of(node, 0)])
-            .fold(0.0, f64::max)
+        let mut highest = 0.0_f64;
+        let mut rigid = vec![0.0; links.all().len()];
+        for (k, &node) in rows.iter().zip(&self.nodes) {
+            let squared = k * inverse_mass[self.dofs.of(node, 0)];
+            match links.of_point(node) {
+                None => highest = highest.max(squared),
+                Some(body) => rigid[body] += squared,
+            }
+        }
+        rigid.into_iter().fold(highest, f64::max)
     }
 
     /// A stiffness of the enforcement, or of the cell beneath where the enforcement is not by springs.

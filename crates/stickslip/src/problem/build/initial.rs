@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::super::Problem;
 use super::problem_error;
+use super::rigid::{RigidBodies, refuse};
 use super::sets::Sets;
 use crate::error::{Diagnostic, Error};
 use crate::io::vtu;
@@ -20,9 +21,10 @@ pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
     mesh: &Mesh,
-    dofs: Dofs,
+    rigid: &RigidBodies,
     folder: &Path,
 ) -> Result<Vec<Initial>, Error> {
+    let dofs = rigid.dofs;
     let mut out = Vec::new();
     for (name, initial) in &problem.initial {
         let points = sets.points(&initial.set, &format!("initial.{name}.set"))?;
@@ -58,10 +60,20 @@ pub(super) fn build(
             Some(wanted) => s.name.as_ref() == Some(wanted),
             None => s.dynamic.is_some(),
         });
+        let of_bodies = |what: &str, values: ByDof| {
+            let key = match &initial.result {
+                Some(_) => format!("initial.{name}.result"),
+                None if what == "velocity" && initial.velocity.is_none() => {
+                    format!("initial.{name}.spin")
+                }
+                None => format!("initial.{name}.{what}"),
+            };
+            refuse(rigid.initial(&key, values))
+        };
         out.push(Initial {
             name: name.clone(),
-            displacements,
-            velocities,
+            displacements: of_bodies("displacement", displacements)?,
+            velocities: of_bodies("velocity", velocities)?,
             step: step.unwrap_or(0),
         });
     }
@@ -147,7 +159,7 @@ pub(super) fn agree_with_supports(
     initials: &[Initial],
     supports: &[Support],
     mesh: &Mesh,
-    dofs: Dofs,
+    rigid: &RigidBodies,
 ) -> Result<(), Error> {
     let mut findings = Vec::new();
     let mut starts = vec![0.0];
@@ -180,16 +192,22 @@ pub(super) fn agree_with_supports(
             let Some(&first) = wrong.first() else {
                 continue;
             };
-            let (point, component) = dofs.locate(first);
+            let (point, component) = rigid.dofs.locate(first);
+            let place = match rigid.of_hidden(first) {
+                Some(body) => format!("in {} motions of rigid body `{body}`", wrong.len()),
+                None => format!(
+                    "at {} points, the first being node {} in {}",
+                    wrong.len(),
+                    mesh.point_ids[point],
+                    ["x", "y", "z"][component]
+                ),
+            };
             findings.push(
                 Diagnostic::new(
                     format!("initial.{}.velocity", initial.name),
                     format!(
-                        "the velocity does not agree with support `{}` at {} points, the first being node {} in {}",
-                        support.name,
-                        wrong.len(),
-                        mesh.point_ids[point],
-                        ["x", "y", "z"][component]
+                        "the velocity does not agree with support `{}` {place}",
+                        support.name
                     ),
                 )
                 .help("leave supported points out of the set, or give the support the motion by an amplitude"),

@@ -3,6 +3,7 @@
 mod contact;
 mod initial;
 mod meshes;
+mod rigid;
 mod schedules;
 mod sets;
 
@@ -15,7 +16,8 @@ use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error, ProblemError};
 use crate::newton::Settings;
 use crate::simulation::{Body, Model, OutputPlan, Prescribed, Probe, Support};
-use crate::system::Dofs;
+use crate::system::{Dofs, Links};
+use rigid::RigidBodies;
 use schedules::Timeline;
 use sets::Sets;
 
@@ -33,11 +35,13 @@ impl Problem {
         let space = space(self);
         let built = meshes::build(self, folder)?;
         let mesh = Arc::new(built.mesh);
+        let stiff = self.body.values().filter(|b| b.rigid).count();
         let dofs = Dofs {
             dim: space.dim(),
-            points: mesh.points.len(),
+            points: mesh.points.len() + 2 * stiff,
         };
         let mut bodies = Vec::new();
+        let mut links = Vec::new();
         let mut densities = vec![0.0; mesh.blocks.len()];
         for part in built.bodies {
             let formulation = self.body[&part.name].formulation;
@@ -47,8 +51,16 @@ impl Problem {
             let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
                 .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
             let part_name = part.name.clone();
+            let rigid = self.body[&part_name].rigid.then(|| {
+                let hidden = mesh.points.len() + 2 * links.len();
+                let (link, rigid) =
+                    rigid::link(&elastic, part.points.clone(), (hidden, links.len()));
+                links.push(link);
+                rigid
+            });
             bodies.push(Body {
                 name: part.name,
+                rigid,
                 points: part.points,
                 blocks: part.blocks,
                 elastic,
@@ -58,6 +70,12 @@ impl Problem {
                 },
             });
         }
+        let links = Links::new(dofs, links);
+        let rigid = RigidBodies {
+            links: &links,
+            bodies: &bodies,
+            dofs,
+        };
         let sets = Sets::new(self, &mesh, &bodies)?;
         let timeline = Timeline::new(self);
         let domain = Domain {
@@ -66,15 +84,16 @@ impl Problem {
             densities: &densities,
         };
         let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
-        let supports = supports(self, &sets, dofs, &timeline)?;
+        let supports = supports(self, &sets, &rigid, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
-        let initials = initial::build(self, &sets, &mesh, dofs, folder)?;
-        initial::agree_with_supports(self, &initials, &supports, &mesh, dofs)?;
+        let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
+        initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;
         Ok(Model {
             title: self.title.clone().unwrap_or_default(),
             space,
             dofs,
+            links,
             bodies,
             loads,
             springs,
@@ -173,9 +192,10 @@ fn loads(
 fn supports(
     problem: &Problem,
     sets: &Sets,
-    dofs: Dofs,
+    rigid: &RigidBodies,
     timeline: &Timeline,
 ) -> Result<Vec<Support>, Error> {
+    let dofs = rigid.dofs;
     let mut out = Vec::new();
     for (name, support) in &problem.support {
         let points = sets.points(&support.set, &format!("support.{name}.set"))?;
@@ -198,7 +218,7 @@ fn supports(
             .collect();
         out.push(Support {
             name: name.clone(),
-            entries,
+            entries: rigid::refuse(rigid.support(name, entries))?,
             schedule: timeline.support(problem, name, support.amplitude.as_deref()),
             table: support.amplitude.is_some(),
         });

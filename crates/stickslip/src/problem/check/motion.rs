@@ -57,7 +57,8 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 
 /// A body without mass cannot be accelerated.
 fn densities(problem: &Problem, findings: &mut Findings) {
-    for (name, body) in &problem.body {
+    // Rigid bodies need a density in any case.
+    for (name, body) in problem.body.iter().filter(|(_, b)| !b.rigid) {
         for material in body.material.iter().chain(body.regions.values()) {
             let Some(model) = problem.material.get(material) else {
                 continue;

@@ -34,6 +34,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             );
         }
     }
+    rigid(problem, findings);
     materials(problem, findings);
     obstacles(problem, findings);
     for (name, set) in &problem.set {
@@ -65,6 +66,37 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
     for (name, probe) in &problem.probe {
         findings.vector(problem, &["probe", name, "point"], &probe.point);
+    }
+}
+
+/// What a rigid body needs, and what has no meaning for it.
+fn rigid(problem: &Problem, findings: &mut Findings) {
+    for (name, body) in problem.body.iter().filter(|(_, b)| b.rigid) {
+        for material in body.material.iter().chain(body.regions.values()) {
+            let Some(model) = problem.material.get(material) else {
+                continue;
+            };
+            if !(model.as_dyn().density() > 0.0) {
+                findings.add(
+                    &["material", material, model.kind()],
+                    format!("body `{name}` is rigid, but its material has no density"),
+                    "give `density`: the centre of mass follows from it",
+                );
+            }
+        }
+        let unused = [
+            ("formulation", body.formulation != Formulation::default()),
+            ("rayleigh", body.rayleigh.is_some()),
+        ];
+        for (key, given) in unused {
+            if given {
+                findings.add(
+                    &["body", name, key],
+                    format!("`{key}` has no meaning for a rigid body"),
+                    "remove the key, or `rigid`",
+                );
+            }
+        }
     }
 }
 
