@@ -45,6 +45,8 @@ model.space = "plane-strain"
 body.block = { generate.rectangle = { to = [2, 1], cells = [4, 2] }, material = "m", rigid = true }
 material.m.isotropic = { young = 1e4, poisson = 0.3, density = 3.0 }
 set.centre = { of = "block", point = [1, 0.5] }
+# A step wants something that acts.
+load.nothing = { set = "centre", nodal-force = { value = [0, 0] } }
 probe.left = { of = "block", point = [0, 0] }
 probe.right = { of = "block", point = [2, 0] }
 probe.top = { of = "block", point = [1, 1] }
@@ -132,6 +134,7 @@ format = 1
 model.space = "solid"
 body.tet = {{ gmsh.file = "tet.msh", material = "m", rigid = true }}
 material.m.isotropic = {{ young = 1e4, poisson = 0.3, density = 6.0 }}
+load.nothing = {{ set = "tet", nodal-force = {{ value = [0, 0, 0] }} }}
 probe.apex = {{ of = "tet", point = [0, 0, 1] }}
 probe.origin = {{ of = "tet", point = [0, 0, 0] }}
 output.every = 0
@@ -420,10 +423,13 @@ dynamic = {{ {dynamic} }}
 /// Dropped on a compliant floor, it comes back with the energy it had.
 #[test]
 fn a_bounce_keeps_the_energy() {
-    for (dynamic, steps) in [
-        ("scheme.newmark = {}", "fixed = 1000"),
-        ("scheme.central-difference = {}", "fixed = 1000"),
-        ("scheme.central-difference = {}", "initial = 1e-3"),
+    let explicit = "scheme.central-difference = {}";
+    for (dynamic, steps, tolerance) in [
+        ("scheme.newmark = {}", "fixed = 1000", 2e-2),
+        (explicit, "fixed = 1000", 2e-2),
+        (explicit, "initial = 0.01\nincrements.largest = 0.01", 2e-2),
+        // the stable increment takes account of the floor before it is met
+        (explicit, "initial = 1.0", 0.3),
     ] {
         let row = end(&format!(
             r#"{BLOCK}
@@ -436,8 +442,8 @@ increments.{steps}
 dynamic = {{ {dynamic} }}
 "#
         ));
-        near(value(&row, "top.V2"), 1.0, 2e-2);
-        near(value(&row, "ALLKE"), 3.0, 0.1);
+        near(value(&row, "top.V2"), 1.0, tolerance);
+        near(value(&row, "ALLKE"), 3.0, 6.0 * tolerance);
         near(value(&row, "top.V1"), 0.0, 1e-9);
     }
 }
@@ -507,18 +513,32 @@ fn what_does_not_go_with_a_rigid_body_is_refused() {
         }
     };
     let with = |more: &str| format!("{BLOCK}{more}\nstep = [{{ duration = 1.0 }}]");
-    let moving = |more: &str| format!("{BLOCK}{more}\nstep = [{{ duration = 1.0, dynamic = {{}} }}]");
+    let moving =
+        |more: &str| format!("{BLOCK}{more}\nstep = [{{ duration = 1.0, dynamic = {{}} }}]");
     has(
-        with("set.corner = { of = \"block\", point = [0, 0] }\nsupport.pin = { set = \"corner\", x = 0, y = 0 }"),
-        &["rigid body `block`", "translation x", "centre of mass", "support.pin"],
+        with(
+            "set.corner = { of = \"block\", point = [0, 0] }\nsupport.pin = { set = \"corner\", x = 0, y = 0 }",
+        ),
+        &[
+            "rigid body `block`",
+            "translation x",
+            "centre of mass",
+            "support.pin",
+        ],
     );
     has(
         with("support.rail = { set = \"block.bottom\", x = 0 }"),
         &["translation x", "support the whole body"],
     );
-    has(with("").replace(", density = 3.0", ""), &["is rigid", "no density"]);
     has(
-        with("").replace("rigid = true", "rigid = true, formulation = \"mean-dilatation\""),
+        with("").replace(", density = 3.0", ""),
+        &["is rigid", "no density"],
+    );
+    has(
+        with("").replace(
+            "rigid = true",
+            "rigid = true, formulation = \"mean-dilatation\"",
+        ),
         &["`formulation` has no meaning"],
     );
     has(
@@ -526,15 +546,22 @@ fn what_does_not_go_with_a_rigid_body_is_refused() {
         &["`rayleigh` has no meaning"],
     );
     has(
-        moving("set.corner = { of = \"block\", point = [0, 0] }\ninitial.kick = { set = \"corner\", velocity = [1, 0] }"),
+        moving(
+            "set.corner = { of = \"block\", point = [0, 0] }\ninitial.kick = { set = \"corner\", velocity = [1, 0] }",
+        ),
         &["do not determine", "whole body"],
     );
     has(
-        moving("initial.a = { set = \"block\", velocity = [1, 0] }\nsupport.guide = { set = \"block\", x = 0 }"),
+        moving(
+            "initial.a = { set = \"block\", velocity = [1, 0] }\nsupport.guide = { set = \"block\", x = 0 }",
+        ),
         &["does not agree with support `guide`", "rigid body `block`"],
     );
     has(
         with("load.push = { set = \"block.right\", traction = { value = [1, 0] } }"),
-        &["free to move as a rigid body", "translation x is held neither"],
+        &[
+            "free to move as a rigid body",
+            "translation x is held neither",
+        ],
     );
 }

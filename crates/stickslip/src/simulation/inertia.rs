@@ -2,8 +2,8 @@
 
 use super::model::{ContactMass, Dynamic, Model};
 use crate::body::{MassKind, redistribute};
-use crate::linear::{BlockCsr, GmresSettings, gmres};
 use crate::contact::interface::Interface;
+use crate::linear::{BlockCsr, GmresSettings, gmres};
 use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
@@ -286,8 +286,5 @@ pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
 
 /// All interfaces as forces.
 pub(super) fn contact(interfaces: &mut [Interface]) -> Vec<&mut dyn Force> {
-    interfaces
-        .iter_mut()
-        .map(|i| i as &mut dyn Force)
-        .collect()
+    interfaces.iter_mut().map(|i| i as &mut dyn Force).collect()
 }

@@ -17,6 +17,8 @@ pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};
 pub use history::Row;
 pub use ledger::EnergyLedger;
-pub use model::{Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Step, Support};
+pub use model::{
+    Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Step, Support,
+};
 pub use run::{Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

@@ -268,7 +268,9 @@ impl Links {
         let rows = dofs
             .iter()
             .map(|&dof| {
-                let row = self.row(dof).unwrap_or([(dof, 1.0), (dof, 0.0), (dof, 0.0)]);
+                let row = self
+                    .row(dof)
+                    .unwrap_or([(dof, 1.0), (dof, 0.0), (dof, 0.0)]);
                 row.map(|(dof, factor)| {
                     let at = new.iter().position(|&d| d == dof).unwrap_or_else(|| {
                         new.push(dof);
@@ -470,7 +472,11 @@ mod tests {
                 add(&[7, 8]);
                 add(&[9, 10]);
             });
-            let springs = [(dofs.of(0, 1), 2.0), (dofs.of(4, 0), 3.0), (dofs.of(5, 1), 4.0)];
+            let springs = [
+                (dofs.of(0, 1), 2.0),
+                (dofs.of(4, 0), 3.0),
+                (dofs.of(5, 1), 4.0),
+            ];
             for (dof, k) in springs {
                 links.add_spring(&mut matrix, dof, k);
             }

@@ -88,7 +88,9 @@ fn fit(link: &Link, dofs: Dofs, rows: &[(Row, f64)]) -> Fit {
         }
     }
     let moved = |row: &Row| -> f64 {
-        let parts = row.iter().filter_map(|&(d, f)| Some(f * solution[place(d)?]));
+        let parts = row
+            .iter()
+            .filter_map(|&(d, f)| Some(f * solution[place(d)?]));
         parts.sum()
     };
     let apart = rows
