@@ -193,7 +193,7 @@ impl Inertia {
                 restart: 60,
             },
         );
-        if !(report.relative_residual <= 1e-9) {
+        if report.relative_residual.is_nan() || report.relative_residual > 1e-9 {
             return Err(StepFailure::new(
                 Cause::Singular,
                 "the acceleration at the start cannot be found: the mass matrix is singular",

@@ -129,6 +129,9 @@ struct Flips {
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
 const CHUNK: usize = 16;
 
+/// Penetration of a point about to touch, relative to the cell beneath.
+const TOUCHED: f64 = 1e-6;
+
 impl Interface {
     /// Reference coordinates plus displacement of the nodes of the interface.
     fn coordinates(&self, u: &[f64]) -> Vec<Vec3> {
@@ -179,6 +182,7 @@ impl Interface {
         let mut rows: Vec<f64> = vec![0.0; self.nodes.len()];
         let sides = if self.rigid() { 1.0 } else { 2.0 };
         let enforcement = self.laws.enforcement.as_dyn();
+        let law = self.laws.normal.as_dyn();
         for (i, point) in self.points.iter().enumerate() {
             let last = self.memory.last.get(i);
             let own = if self.laws.needs_normal_stiffness() {
@@ -190,7 +194,13 @@ impl Interface {
                 let d = &e.response.d_gap;
                 d[0][0].abs().max(d[1][1].abs()).max(d[2][2].abs())
             });
-            let stiffness = sides * point.area * own.max(now);
+            // A rigid body has no cells whose frequency would bound the step on the way to a compliant surface.
+            let rigid = |&node: &usize| links.of_point(self.nodes[node]).is_some();
+            let ahead = match point.nodes.iter().any(rigid) {
+                true => -law.pressure(-TOUCHED * point.size).map_or(0.0, |p| p.slope),
+                false => 0.0,
+            };
+            let stiffness = sides * point.area * own.max(now).max(ahead);
             if stiffness == 0.0 {
                 continue;
             }

@@ -63,7 +63,7 @@ fn densities(problem: &Problem, findings: &mut Findings) {
             let Some(model) = problem.material.get(material) else {
                 continue;
             };
-            if !(model.as_dyn().density() > 0.0) {
+            if model.as_dyn().density() <= 0.0 {
                 findings.add(
                     &["material", material, model.kind()],
                     format!(

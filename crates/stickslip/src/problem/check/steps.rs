@@ -24,7 +24,8 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         listed(findings, &at("supports"), &step.supports, &p.support);
         listed(findings, &at("loads"), &step.loads, &p.load);
         listed(findings, &at("interfaces"), &step.interfaces, &p.interface);
-        if idle(problem, step) {
+        // Free flight is a motion as well.
+        if step.dynamic.is_none() && idle(problem, step) {
             findings.add(
                 &["step", &i],
                 "nothing acts in this step: no support, no load, no interface",

@@ -76,7 +76,8 @@ fn rigid(problem: &Problem, findings: &mut Findings) {
             let Some(model) = problem.material.get(material) else {
                 continue;
             };
-            if !(model.as_dyn().density() > 0.0) {
+            let density = model.as_dyn().density();
+            if density.is_nan() || density <= 0.0 {
                 findings.add(
                     &["material", material, model.kind()],
                     format!("body `{name}` is rigid, but its material has no density"),
