@@ -95,6 +95,12 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
         s.solver.factorisations,
         s.phases.total
     ));
+    if s.mass_added > 0.0 {
+        say(&format!(
+            "  mass scaling added {:.2} % to the mass of the bodies",
+            100.0 * s.mass_added
+        ));
+    }
     if simulation.model.moves() {
         let q = &s.energy_quality;
         say(&format!(

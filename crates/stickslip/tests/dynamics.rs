@@ -296,3 +296,104 @@ fn mistakes_of_motion_are_refused() {
         &["no step is dynamic"],
     );
 }
+
+/// A rigid block of 1 kg on one square metre falls on a compliant floor at 1 m/s.
+const FALL: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { rigid = true, generate.rectangle = { to = [1, 0.5], cells = [1, 1] }, material = "m" }
+material.m.isotropic = { young = 1e8, poisson = 0.0, density = 2.0 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.foot = { secondary = "block.bottom", primary = "floor", normal.linear = { c = 1e6 }, DAMPING }
+initial.fall = { set = "block", velocity = [0, -1] }
+probe.corner = { of = "block", point = [0, 0] }
+output.every = 0
+[[step]]
+duration = 8e-3
+SCHEME
+"#;
+
+/// The rebound that Hunt and Crossley's law gives: `(1 + e) c v = ln((1 + c v) / (1 - e c v))`, whatever the stiffness.
+#[test]
+fn damping_across_an_interface_takes_what_it_says() {
+    let cv = 0.5_f64;
+    let mut e: f64 = 0.7;
+    for _ in 0..100 {
+        let f = (1.0 + e) * cv - ((1.0 + cv) / (1.0 - e * cv)).ln();
+        let slope = cv - cv / (1.0 - e * cv);
+        e -= f / slope;
+    }
+    for scheme in [
+        "increments.fixed = 4000\ndynamic = { scheme.newmark = {} }",
+        "increments.fixed = 4000\ndynamic = { scheme.central-difference = {} }",
+    ] {
+        let text = FALL
+            .replace("DAMPING", "damping.hunt-crossley = { coefficient = 0.5 }")
+            .replace("SCHEME", scheme);
+        let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let row = &record.increments.last().expect("a row").1;
+        let rebound = value(row, "corner.V2");
+        assert!((rebound - e).abs() < 2e-3, "{scheme}: {rebound}, not {e}");
+        let lost = value(row, "ALLCD");
+        assert!(
+            (lost - 0.5 * (1.0 - e * e)).abs() < 2e-3,
+            "{scheme}: {lost}"
+        );
+        assert!(value(row, "ERESIDUAL").abs() < 2e-3);
+        let damped = record.increments.iter().map(|(_, r)| value(r, "ALLCD"));
+        let damped: Vec<f64> = damped.collect();
+        assert!(
+            damped.windows(2).all(|w| w[1] >= w[0]),
+            "damping gave energy back"
+        );
+    }
+}
+
+/// Opening and closing are located in time: the foot leaves the floor after half a period, `π √(m/k)`.
+#[test]
+fn events_are_located() {
+    let text = FALL
+        .replace(", DAMPING", "")
+        .replace("SCHEME", "increments = { initial = 0.01, largest = 0.01, smallest = 1e-9 }\ndynamic = { scheme.newmark = {}, events = 1e-7 }");
+    let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let open: Vec<(f64, f64, f64)> = record
+        .increments
+        .iter()
+        .map(|(_, r)| (value(r, "TIME"), value(r, "DT"), value(r, "OPEN")))
+        .collect();
+    let left = open.windows(2).find(|w| w[0].2 == 0.0 && w[1].2 > 0.0);
+    let (time, dt, _) = left.expect("the foot leaves")[1];
+    let exact = std::f64::consts::PI * 1e-3;
+    assert!(dt <= 1e-7, "the increment of the event is {dt:e}");
+    assert!((time / exact - 1.0).abs() < 2e-3, "{time} is not {exact}");
+    assert!(record.cutbacks > 5);
+    // and most increments are as long as they may be
+    let long = open.iter().filter(|o| o.1 > 5e-5).count();
+    assert!(long > 80, "{long} of {}", open.len());
+}
+
+/// Mass scaling lengthens the stable increment to what is asked for and says what it costs; without being asked nothing is added.
+#[test]
+fn mass_scaling_is_reported() {
+    let summary = |scheme: &str| {
+        let text = ROD
+            .replace("increments.fixed = STEPS\n", "")
+            .replace("DYNAMIC", scheme);
+        let mut simulation = support::build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        simulation.summary
+    };
+    let plain = summary("scheme.central-difference = {}");
+    assert_eq!(plain.mass_added, 0.0);
+    let wanted = 3.0 * plain.stable_increment;
+    let scaled = summary(&format!(
+        "scheme.central-difference = {{ mass-scaling = {wanted:?} }}"
+    ));
+    assert!(scaled.mass_added > 1.0, "{}", scaled.mass_added);
+    assert!(
+        scaled.stable_increment >= wanted * (1.0 - 1e-9),
+        "{}",
+        scaled.stable_increment
+    );
+    assert!(scaled.increments * 2 < plain.increments);
+}

@@ -121,7 +121,7 @@ duration = 6e-4
 "#,
         one = l(1.0),
         part = l(0.2),
-        wall = l(-1e-4),
+        wall = 0.0,
         young = 210e9 * u.stress,
         density = 7800.0 * u.stress / (u.length * u.length),
         vx = l(-10.0),
