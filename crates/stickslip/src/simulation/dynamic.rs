@@ -1,8 +1,9 @@
 //! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
 
+use super::accepted::{Accepted, Flow};
 use super::inertia::{self, Inertia, dot, times};
 use super::model::{ContactAt, Dynamic};
-use super::run::{Accepted, Flow, Observer, Simulation};
+use super::run::{Observer, Simulation};
 use crate::error::Error;
 use crate::newton::{Origin, System};
 use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};

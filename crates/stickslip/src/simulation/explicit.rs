@@ -6,57 +6,39 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::inertia::lumped;
 use super::model::{Dynamic, Model};
-use super::run::{Accepted, Flow, Simulation};
+use super::run::Simulation;
 use super::spin::{Spin, mobility};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
-use crate::system::{Assembler, Cause, Constraints, Force, Stage, State, StepFailure, Tally};
-use crate::time::Trial;
+use crate::system::{Assembler, Constraints};
 use crate::time::scheme::Method;
 
 /// What explicit increments need beside the state.
 pub(super) struct Explicit {
-    internal: InternalForce,
+    pub(super) internal: InternalForce,
     /// Masses and their inverses by dof; the inverse is zero where there is none, and at the points of rigid bodies what
     /// [`mobility`] says.
-    mass: Vec<f64>,
-    inverse: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+    pub(super) inverse: Vec<f64>,
     /// Rotations of rigid bodies, which have no mass among those by dof.
-    spins: Vec<Spin>,
+    pub(super) spins: Vec<Spin>,
     /// Rayleigh factors by dof; empty without damping.
-    rayleigh: Vec<[f64; 2]>,
-    springs: Vec<(usize, f64)>,
+    pub(super) rayleigh: Vec<[f64; 2]>,
+    pub(super) springs: Vec<(usize, f64)>,
     /// Square of the highest frequency of the bodies.
-    frequency: f64,
-    safety: f64,
-    out: Assembler,
-    force: Vec<f64>,
+    pub(super) frequency: f64,
+    pub(super) safety: f64,
+    pub(super) out: Assembler,
+    pub(super) force: Vec<f64>,
     /// Forces of Rayleigh damping, now and at the last accepted state; empty without damping.
-    damped: Vec<f64>,
-    damped_before: Vec<f64>,
+    pub(super) damped: Vec<f64>,
+    pub(super) damped_before: Vec<f64>,
     /// Supports, if they do not move in this step.
-    still: Option<Arc<Constraints>>,
+    pub(super) still: Option<Arc<Constraints>>,
     /// Whether any load acts.
-    loaded: bool,
-}
-
-/// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
-
-/// Sums over one chunk.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    kinetic: f64,
-    strain: f64,
-    work: f64,
-    damped: f64,
-    /// `aᵀ m a` before and after.
-    turned: [f64; 2],
-    finite: bool,
+    pub(super) loaded: bool,
 }
 
 impl Explicit {
@@ -125,7 +107,7 @@ impl Explicit {
     }
 
     /// Works out the forces of Rayleigh damping at these velocities; those before are kept.
-    fn damp(&mut self, v: &[f64]) {
+    pub(super) fn damp(&mut self, v: &[f64]) {
         if self.rayleigh.is_empty() {
             return;
         }
@@ -138,7 +120,7 @@ impl Explicit {
     }
 
     /// The longest stable increment with interfaces of this squared frequency.
-    fn stable(&self, contact: f64) -> f64 {
+    pub(super) fn stable(&self, contact: f64) -> f64 {
         let omega = (self.frequency + contact).sqrt();
         if omega == 0.0 {
             // rigid bodies in free flight
@@ -291,7 +273,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn contact_frequency(&self, explicit: &Explicit) -> f64 {
+    pub(super) fn contact_frequency(&self, explicit: &Explicit) -> f64 {
         let all = self.model.interfaces.iter();
         let links = &self.model.links;
         all.map(|i| i.highest_frequency(&explicit.inverse, links))
@@ -307,208 +289,9 @@ impl Simulation {
         let explicit = self.explicit.as_ref()?;
         (!self.model.steps[self.step].fixed).then(|| self.stable_increment(explicit))
     }
-
-    /// One explicit increment.
-    pub(super) fn attempt_explicit(&mut self, trial: Trial) -> Result<Accepted, StepFailure> {
-        let Some(mut explicit) = self.explicit.take() else {
-            return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
-        };
-        let outcome = self.leap(&mut explicit, trial);
-        self.explicit = Some(explicit);
-        outcome
-    }
-
-    fn leap(&mut self, explicit: &mut Explicit, trial: Trial) -> Result<Accepted, StepFailure> {
-        let dt = trial.to - trial.from;
-        let step = &self.model.steps[self.step];
-        if step.fixed {
-            let stable = explicit.stable(self.contact_frequency(explicit));
-            if dt > stable * (1.0 + 1e-9) {
-                let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
-                return Err(StepFailure {
-                    help: e.help,
-                    ..StepFailure::new(Cause::NotConverged, e.message)
-                });
-            }
-        }
-        let constraints = match &explicit.still {
-            Some(still) => Arc::clone(still),
-            None => Arc::new(self.constraints(trial.to)),
-        };
-        let from = &self.state;
-        let n = from.u.len();
-        let mut at = State {
-            t: trial.to,
-            u: vec![0.0; n],
-            v: vec![0.0; n],
-            a: vec![0.0; n],
-        };
-        at.u.par_chunks_mut(CHUNK)
-            .zip(at.v.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each(|(c, (u, v))| {
-                let first = c * CHUNK;
-                for (k, (u, v)) in u.iter_mut().zip(v).enumerate() {
-                    let i = first + k;
-                    if constraints.fixed[i] {
-                        *u = constraints.values[i];
-                        *v = (*u - from.u[i]) / dt;
-                    } else {
-                        *v = from.v[i] + 0.5 * dt * from.a[i];
-                        *u = from.u[i] + dt * *v;
-                    }
-                }
-            });
-        self.model.links.impose(&mut at.u);
-        self.model.links.impose(&mut at.v);
-        explicit.internal.apply(&at.u, &mut explicit.force);
-        for &(dof, k) in &explicit.springs {
-            explicit.force[dof] += k * at.u[dof];
-        }
-        self.model.links.transfer(&mut explicit.force);
-        explicit.damp(&at.v);
-        explicit.out.reset(false);
-        let stage = Stage {
-            from,
-            at: &at,
-            dt,
-            rate: None,
-        };
-        for interface in &mut self.model.interfaces {
-            interface.begin();
-            interface.prepare(&stage)?;
-            interface.assemble(&stage, &mut explicit.out)?;
-        }
-        self.model.links.transfer(&mut explicit.out.residual);
-        let external = if explicit.loaded {
-            self.external(trial.to)
-        } else {
-            std::mem::take(&mut self.load)
-        };
-        let load_before: &[f64] = if explicit.loaded {
-            &self.load
-        } else {
-            &external
-        };
-        let mut forces = vec![0.0; n];
-        let State { u, v, a, .. } = &mut at;
-        let u: &[f64] = u;
-        let Explicit {
-            mass,
-            inverse,
-            force,
-            damped,
-            damped_before,
-            out,
-            ..
-        } = &*explicit;
-        let sums: Vec<Sums> = v
-            .par_chunks_mut(CHUNK)
-            .zip(a.par_chunks_mut(CHUNK))
-            .zip(forces.par_chunks_mut(CHUNK))
-            .enumerate()
-            .map(|(c, ((v, a), r))| {
-                let first = c * CHUNK;
-                let mut sums = Sums {
-                    finite: true,
-                    ..Sums::default()
-                };
-                for (k, ((v, a), r)) in v.iter_mut().zip(a).zip(r).enumerate() {
-                    let i = first + k;
-                    let moved = u[i] - from.u[i];
-                    let balance = external[i] - force[i] - damped[i] - out.residual[i];
-                    if constraints.fixed[i] {
-                        *a = (*v - from.v[i]) / dt;
-                        *r = mass[i] * *a - balance;
-                        sums.work += *r * moved;
-                    } else {
-                        *a = inverse[i] * balance;
-                        *v += 0.5 * dt * *a;
-                        sums.turned[0] += mass[i] * from.a[i] * from.a[i];
-                        sums.turned[1] += mass[i] * *a * *a;
-                    }
-                    sums.work += 0.5 * (load_before[i] + external[i]) * moved;
-                    sums.damped += 0.5 * (damped_before[i] + damped[i]) * moved;
-                    sums.kinetic += mass[i] * *v * *v;
-                    sums.strain += force[i] * u[i];
-                }
-                sums.finite = sums.kinetic.is_finite();
-                sums
-            })
-            .collect();
-        let mut total = Sums {
-            finite: true,
-            ..Sums::default()
-        };
-        for s in sums {
-            total.kinetic += s.kinetic;
-            total.strain += s.strain;
-            total.work += s.work;
-            total.damped += s.damped;
-            total.turned[0] += s.turned[0];
-            total.turned[1] += s.turned[1];
-            total.finite &= s.finite;
-        }
-        for spin in &explicit.spins {
-            let range = spin.range();
-            let mut moment = [0.0; 3];
-            for (m, i) in moment.iter_mut().zip(range.clone()) {
-                *m = external[i] - force[i] - out.residual[i];
-            }
-            let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
-            let inertial = spin.force(turn);
-            let mut free = [spin.of(&from.a), turn];
-            for (k, i) in range.enumerate() {
-                if constraints.fixed[i] {
-                    forces[i] += inertial[k];
-                    total.work += inertial[k] * (u[i] - from.u[i]);
-                    free.iter_mut().for_each(|a| a[k] = 0.0);
-                } else {
-                    a[i] = turn[k];
-                    v[i] += 0.5 * dt * turn[k];
-                }
-            }
-            for (sum, a) in total.turned.iter_mut().zip(free) {
-                *sum += spin.square(a);
-            }
-            total.kinetic += spin.square(spin.of(v));
-        }
-        total.finite &= total.kinetic.is_finite();
-        self.model.links.impose(v);
-        self.model.links.impose(a);
-        if !total.finite {
-            return Err(StepFailure::new(
-                Cause::NotFinite,
-                "the motion has grown beyond all numbers: the increment was not stable",
-            )
-            .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
-        }
-        let mut tally = Tally::default();
-        for t in self.model.interfaces.iter().filter_map(Force::tally) {
-            tally.open += t.open;
-            tally.stick += t.stick;
-            tally.slip += t.slip;
-        }
-        Ok(Accepted {
-            tally,
-            contact: explicit.out.residual.clone(),
-            forces,
-            external,
-            flow: Flow {
-                work: total.work,
-                damped: total.damped,
-                // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
-                numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
-            },
-            kinetic: Some(0.5 * total.kinetic),
-            strain: Some(0.5 * total.strain),
-            state: at,
-            ..Accepted::default()
-        })
-    }
 }
 
-fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f64) -> RunError {
+pub(super) fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f64) -> RunError {
     RunError {
         message: format!(
             "step {step}: the increment {dt:.4e} is above the stable one, {stable:.4e}"

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::run::Flow;
+use super::accepted::Flow;
 use crate::system::Energy;
 
 /// Energies `[J]` (per unit of thickness or over 2π as the model has it).

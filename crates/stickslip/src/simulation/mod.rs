@@ -1,16 +1,20 @@
 //! A model and its run: the step loop, observers, reports.
 
+mod accepted;
 pub mod compare;
+mod conditions;
 mod diagnosis;
 mod dynamic;
 mod explicit;
 mod files;
 mod history;
 mod inertia;
+mod leap;
 mod ledger;
 mod model;
 mod run;
 mod spin;
+mod statics;
 mod summary;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};

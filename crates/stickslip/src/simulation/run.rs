@@ -6,11 +6,11 @@ use super::explicit::Explicit;
 use super::inertia::strain_energy;
 use super::model::{Dynamic, Model, Step};
 use super::summary::{Phases, Summary};
-use super::{diagnosis, history, inertia};
+use super::{diagnosis, history};
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::{Converged, Newton, Progress, System};
-use crate::system::{Cause, Constraints, Force, Rate, Stage, State, StepFailure, Tally};
+use crate::newton::{Newton, Progress};
+use crate::system::{Cause, Force, State, StepFailure};
 use crate::time::scheme::Method;
 use crate::time::{Stepper, Trial};
 
@@ -25,16 +25,16 @@ pub struct Simulation {
     /// Energies and counts so far.
     pub summary: Summary,
     pub(super) matrix: BlockCsr,
-    diagonal: Vec<f64>,
+    pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
     pub(super) motion: Option<Motion>,
     pub(super) explicit: Option<Explicit>,
-    previous: Option<(f64, Vec<f64>)>,
-    held: BTreeMap<String, Vec<f64>>,
-    released: Vec<(usize, f64)>,
+    pub(super) previous: Option<(f64, Vec<f64>)>,
+    pub(super) held: BTreeMap<String, Vec<f64>>,
+    pub(super) released: Vec<(usize, f64)>,
     pub(super) step: usize,
     started: Instant,
 }
@@ -166,48 +166,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Remembers from where supports that begin to act start, and with which force those that end let go.
-    fn begin_step(&mut self) {
-        let step = &self.model.steps[self.step];
-        let middle = 0.5 * (step.start + step.end);
-        let before = self.step.checked_sub(1).map(|i| {
-            let s = &self.model.steps[i];
-            0.5 * (s.start + s.end)
-        });
-        let was = |s: &super::Support| before.is_some_and(|t| s.schedule.active(t));
-        let mut supported = vec![false; self.state.u.len()];
-        for support in &self.model.supports {
-            if support.schedule.active(middle) {
-                for e in &support.entries {
-                    supported[e.dof] = true;
-                }
-                if !was(support) {
-                    let start = support
-                        .entries
-                        .iter()
-                        .map(|e| self.state.u[e.dof])
-                        .collect();
-                    self.held.insert(support.name.clone(), start);
-                }
-            }
-        }
-        self.previous = None;
-        self.released.clear();
-        if step.dynamic.is_some() {
-            // In motion what lets go lets go at once.
-            return;
-        }
-        let mut seen = vec![false; self.state.u.len()];
-        for support in self.model.supports.iter().filter(|s| was(s)) {
-            for e in &support.entries {
-                if !supported[e.dof] && !seen[e.dof] {
-                    seen[e.dof] = true;
-                    self.released.push((e.dof, self.forces[e.dof]));
-                }
-            }
-        }
-    }
-
     /// A quasi-static step knows no velocities: what motion there was ends.
     fn rest(&mut self) {
         let energy = &mut self.summary.energy;
@@ -238,7 +196,7 @@ impl Simulation {
                 break;
             };
             let outcome = match step.dynamic {
-                None => self.attempt(trial, observers),
+                None => self.attempt_static(trial, observers),
                 Some(
                     dynamic @ Dynamic {
                         method: Method::Implicit(alphas),
@@ -326,47 +284,6 @@ impl Simulation {
         StepFailure { message, ..failure }.at(self.state.t)
     }
 
-    /// Constraints at a time.
-    pub(super) fn constraints(&self, t: f64) -> Constraints {
-        let mut constraints = Constraints::none(self.model.dofs);
-        for support in &self.model.supports {
-            if !support.schedule.active(t) {
-                continue;
-            }
-            let s = support.schedule.at(t);
-            let held = self.held.get(&support.name);
-            for (i, e) in support.entries.iter().enumerate() {
-                let start = held.and_then(|h| h.get(i)).copied().unwrap_or(0.0);
-                let value = if e.hold {
-                    start
-                } else if support.table {
-                    s * e.value
-                } else {
-                    start + s * (e.value - start)
-                };
-                constraints.prescribe(e.dof, value);
-            }
-        }
-        self.model.links.dependent(&mut constraints.fixed);
-        constraints
-    }
-
-    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
-    /// the bodies.
-    pub(super) fn external(&self, t: f64) -> Vec<f64> {
-        let mut external = vec![0.0; self.state.u.len()];
-        for load in &self.model.loads {
-            load.external(t, &mut external);
-        }
-        self.model.links.transfer(&mut external);
-        let step = &self.model.steps[self.step];
-        let left = (step.end - t) / (step.end - step.start);
-        for &(dof, force) in &self.released {
-            external[dof] += left * force;
-        }
-        external
-    }
-
     /// Tells observers about iterations.
     pub(super) fn tell(&self, seen: &[Progress], observers: &mut [&mut dyn Observer]) {
         for p in seen {
@@ -390,119 +307,6 @@ impl Simulation {
             ));
         }
         Ok(())
-    }
-
-    /// Tries a quasi-static increment.
-    fn attempt(
-        &mut self,
-        trial: Trial,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<Accepted, StepFailure> {
-        let dt = trial.to - trial.from;
-        let external = self.external(trial.to);
-        let constraints = self.constraints(trial.to);
-        let fixed = constraints.fixed.clone();
-        let mut at = State {
-            t: trial.to,
-            u: self.state.u.clone(),
-            ..State::default()
-        };
-        if let Some((before, u)) = &self.previous {
-            // the last increment goes on
-            let ratio = dt / before;
-            for (a, (now, then)) in at.u.iter_mut().zip(self.state.u.iter().zip(u)) {
-                *a = now + ratio * (now - then);
-            }
-        }
-        let mut seen: Vec<Progress> = Vec::new();
-        let converged = {
-            let Simulation {
-                model,
-                newton,
-                matrix,
-                diagonal,
-                state,
-                ..
-            } = self;
-            let mut system = System {
-                dofs: model.dofs,
-                matrix,
-                diagonal,
-                external: external.clone(),
-                rate: None,
-                constraints,
-                links: &model.links,
-                origin: None,
-                key: 0,
-                contact: inertia::contact(&mut model.interfaces),
-            };
-            newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
-        };
-        self.tell(&seen, observers);
-        let converged = converged?;
-        self.check_change(&at.u)?;
-        // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
-        let before = self.external(trial.from);
-        let mut work = 0.0;
-        for (i, (before, after)) in before.iter().zip(&external).enumerate() {
-            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
-        }
-        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            let mean = 0.5 * (self.forces[i] + converged.forces[i]);
-            work += mean * (at.u[i] - self.state.u[i]);
-        }
-        Ok(Accepted {
-            forces: converged.forces.clone(),
-            contact: converged.contact.clone(),
-            external,
-            flow: Flow {
-                work,
-                ..Flow::default()
-            },
-            state: at,
-            ..Accepted::from_newton(&converged)
-        })
-    }
-
-    /// Makes an attempt the last accepted state.
-    fn accept(&mut self, trial: Trial, accepted: Accepted) -> history::Effort {
-        let effort = accepted.summary();
-        let stage = Stage {
-            from: &self.state,
-            at: &accepted.state,
-            dt: trial.to - trial.from,
-            rate: accepted
-                .rate
-                .as_ref()
-                .map(|(gain, shift)| Rate { gain, shift }),
-        };
-        for interface in &mut self.model.interfaces {
-            interface.commit(&stage);
-        }
-        self.previous = Some((trial.to - trial.from, std::mem::take(&mut self.state.u)));
-        self.state = accepted.state;
-        self.forces = accepted.forces;
-        self.contact = accepted.contact;
-        self.load = accepted.external;
-        let summary = &mut self.summary;
-        summary.increments += 1;
-        summary.iterations += effort.iterations;
-        let turned = self.model.links.largest_rotation(&self.state.u);
-        summary.largest_rotation = summary.largest_rotation.max(turned);
-        let kinetic = match (&self.motion, accepted.kinetic) {
-            (_, Some(kinetic)) => kinetic,
-            (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),
-            (None, None) => 0.0,
-        };
-        let strain = accepted
-            .strain
-            .unwrap_or_else(|| strain_energy(&self.matrix, &self.state.u));
-        let contact: Vec<_> = self.model.interfaces.iter().map(|i| i.energy()).collect();
-        summary
-            .energy
-            .enter(accepted.flow, kinetic, strain, &contact);
-        summary.energy_quality.note(&summary.energy);
-        effort
     }
 
     /// The step being run.
@@ -531,56 +335,3 @@ impl Simulation {
 
 /// Most reasons of cut-backs that the summary lists.
 const MOST_REASONS: usize = 200;
-
-/// Energy that flows over an increment.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Flow {
-    /// Work of loads and reactions.
-    pub work: f64,
-    /// Dissipated by Rayleigh damping.
-    pub damped: f64,
-    /// Dissipated by the scheme.
-    pub numerical: f64,
-}
-
-/// An increment that may be accepted.
-#[derive(Default)]
-pub(super) struct Accepted {
-    pub state: State,
-    /// Out-of-balance forces: reactions at fixed dofs.
-    pub forces: Vec<f64>,
-    pub contact: Vec<f64>,
-    pub external: Vec<f64>,
-    pub flow: Flow,
-    pub rate: Option<(Vec<f64>, Vec<f64>)>,
-    /// Energies, where the attempt knows them already.
-    pub kinetic: Option<f64>,
-    pub strain: Option<f64>,
-    pub iterations: usize,
-    pub rounds: usize,
-    pub residual: f64,
-    pub tally: Tally,
-    /// The increment must not grow.
-    pub hard: bool,
-}
-
-impl Accepted {
-    pub(super) fn from_newton(converged: &Converged) -> Self {
-        Accepted {
-            iterations: converged.iterations,
-            rounds: converged.rounds,
-            residual: converged.residual,
-            tally: converged.tally,
-            ..Accepted::default()
-        }
-    }
-
-    fn summary(&self) -> history::Effort {
-        history::Effort {
-            iterations: self.iterations,
-            rounds: self.rounds,
-            residual: self.residual,
-            tally: self.tally,
-        }
-    }
-}

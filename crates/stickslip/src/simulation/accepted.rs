@@ -1,0 +1,104 @@
+//! Increments that are accepted: what an attempt hands over, and how it becomes the state.
+
+use super::history;
+use super::inertia::strain_energy;
+use super::run::Simulation;
+use crate::newton::Converged;
+use crate::system::{Force, Rate, Stage, State, Tally};
+use crate::time::Trial;
+
+/// Energy that flows over an increment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Flow {
+    /// Work of loads and reactions.
+    pub work: f64,
+    /// Dissipated by Rayleigh damping.
+    pub damped: f64,
+    /// Dissipated by the scheme.
+    pub numerical: f64,
+}
+
+/// An increment that may be accepted.
+#[derive(Default)]
+pub(super) struct Accepted {
+    pub state: State,
+    /// Out-of-balance forces: reactions at fixed dofs.
+    pub forces: Vec<f64>,
+    pub contact: Vec<f64>,
+    pub external: Vec<f64>,
+    pub flow: Flow,
+    pub rate: Option<(Vec<f64>, Vec<f64>)>,
+    /// Energies, where the attempt knows them already.
+    pub kinetic: Option<f64>,
+    pub strain: Option<f64>,
+    pub iterations: usize,
+    pub rounds: usize,
+    pub residual: f64,
+    pub tally: Tally,
+    /// The increment must not grow.
+    pub hard: bool,
+}
+
+impl Accepted {
+    pub(super) fn from_newton(converged: &Converged) -> Self {
+        Accepted {
+            iterations: converged.iterations,
+            rounds: converged.rounds,
+            residual: converged.residual,
+            tally: converged.tally,
+            ..Accepted::default()
+        }
+    }
+
+    fn summary(&self) -> history::Effort {
+        history::Effort {
+            iterations: self.iterations,
+            rounds: self.rounds,
+            residual: self.residual,
+            tally: self.tally,
+        }
+    }
+}
+
+impl Simulation {
+    /// Makes an attempt the last accepted state.
+    pub(super) fn accept(&mut self, trial: Trial, accepted: Accepted) -> history::Effort {
+        let effort = accepted.summary();
+        let stage = Stage {
+            from: &self.state,
+            at: &accepted.state,
+            dt: trial.to - trial.from,
+            rate: accepted
+                .rate
+                .as_ref()
+                .map(|(gain, shift)| Rate { gain, shift }),
+        };
+        for interface in &mut self.model.interfaces {
+            interface.commit(&stage);
+        }
+        self.previous = Some((trial.to - trial.from, std::mem::take(&mut self.state.u)));
+        self.state = accepted.state;
+        self.forces = accepted.forces;
+        self.contact = accepted.contact;
+        self.load = accepted.external;
+        let summary = &mut self.summary;
+        summary.increments += 1;
+        summary.iterations += effort.iterations;
+        let turned = self.model.links.largest_rotation(&self.state.u);
+        summary.largest_rotation = summary.largest_rotation.max(turned);
+        let kinetic = match (&self.motion, accepted.kinetic) {
+            (_, Some(kinetic)) => kinetic,
+            (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),
+            (None, None) => 0.0,
+        };
+        let strain = accepted
+            .strain
+            .unwrap_or_else(|| strain_energy(&self.matrix, &self.state.u));
+        let contact: Vec<_> = self.model.interfaces.iter().map(|i| i.energy()).collect();
+        summary
+            .energy
+            .enter(accepted.flow, kinetic, strain, &contact);
+        summary.energy_quality.note(&summary.energy);
+        effort
+    }
+}

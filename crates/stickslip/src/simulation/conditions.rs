@@ -1,0 +1,89 @@
+//! What acts at a time: supports, and loads with the fading forces of supports that let go.
+
+use super::run::Simulation;
+use crate::system::{Constraints, Force};
+
+impl Simulation {
+    /// Remembers from where supports that begin to act start, and with which force those that end let go.
+    pub(super) fn begin_step(&mut self) {
+        let step = &self.model.steps[self.step];
+        let middle = 0.5 * (step.start + step.end);
+        let before = self.step.checked_sub(1).map(|i| {
+            let s = &self.model.steps[i];
+            0.5 * (s.start + s.end)
+        });
+        let was = |s: &super::Support| before.is_some_and(|t| s.schedule.active(t));
+        let mut supported = vec![false; self.state.u.len()];
+        for support in &self.model.supports {
+            if support.schedule.active(middle) {
+                for e in &support.entries {
+                    supported[e.dof] = true;
+                }
+                if !was(support) {
+                    let start = support
+                        .entries
+                        .iter()
+                        .map(|e| self.state.u[e.dof])
+                        .collect();
+                    self.held.insert(support.name.clone(), start);
+                }
+            }
+        }
+        self.previous = None;
+        self.released.clear();
+        if step.dynamic.is_some() {
+            // In motion what lets go lets go at once.
+            return;
+        }
+        let mut seen = vec![false; self.state.u.len()];
+        for support in self.model.supports.iter().filter(|s| was(s)) {
+            for e in &support.entries {
+                if !supported[e.dof] && !seen[e.dof] {
+                    seen[e.dof] = true;
+                    self.released.push((e.dof, self.forces[e.dof]));
+                }
+            }
+        }
+    }
+
+    /// Constraints at a time.
+    pub(super) fn constraints(&self, t: f64) -> Constraints {
+        let mut constraints = Constraints::none(self.model.dofs);
+        for support in &self.model.supports {
+            if !support.schedule.active(t) {
+                continue;
+            }
+            let s = support.schedule.at(t);
+            let held = self.held.get(&support.name);
+            for (i, e) in support.entries.iter().enumerate() {
+                let start = held.and_then(|h| h.get(i)).copied().unwrap_or(0.0);
+                let value = if e.hold {
+                    start
+                } else if support.table {
+                    s * e.value
+                } else {
+                    start + s * (e.value - start)
+                };
+                constraints.prescribe(e.dof, value);
+            }
+        }
+        self.model.links.dependent(&mut constraints.fixed);
+        constraints
+    }
+
+    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
+    /// the bodies.
+    pub(super) fn external(&self, t: f64) -> Vec<f64> {
+        let mut external = vec![0.0; self.state.u.len()];
+        for load in &self.model.loads {
+            load.external(t, &mut external);
+        }
+        self.model.links.transfer(&mut external);
+        let step = &self.model.steps[self.step];
+        let left = (step.end - t) / (step.end - step.start);
+        for &(dof, force) in &self.released {
+            external[dof] += left * force;
+        }
+        external
+    }
+}

@@ -1,0 +1,82 @@
+//! Quasi-static increments.
+
+use super::accepted::{Accepted, Flow};
+use super::inertia;
+use super::run::{Observer, Simulation};
+use crate::newton::{Progress, System};
+use crate::system::{State, StepFailure};
+use crate::time::Trial;
+
+impl Simulation {
+    /// Tries a quasi-static increment.
+    pub(super) fn attempt_static(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Accepted, StepFailure> {
+        let dt = trial.to - trial.from;
+        let external = self.external(trial.to);
+        let constraints = self.constraints(trial.to);
+        let fixed = constraints.fixed.clone();
+        let mut at = State {
+            t: trial.to,
+            u: self.state.u.clone(),
+            ..State::default()
+        };
+        if let Some((before, u)) = &self.previous {
+            // the last increment goes on
+            let ratio = dt / before;
+            for (a, (now, then)) in at.u.iter_mut().zip(self.state.u.iter().zip(u)) {
+                *a = now + ratio * (now - then);
+            }
+        }
+        let mut seen: Vec<Progress> = Vec::new();
+        let converged = {
+            let Simulation {
+                model,
+                newton,
+                matrix,
+                diagonal,
+                state,
+                ..
+            } = self;
+            let mut system = System {
+                dofs: model.dofs,
+                matrix,
+                diagonal,
+                external: external.clone(),
+                rate: None,
+                constraints,
+                links: &model.links,
+                origin: None,
+                key: 0,
+                contact: inertia::contact(&mut model.interfaces),
+            };
+            newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
+        };
+        self.tell(&seen, observers);
+        let converged = converged?;
+        self.check_change(&at.u)?;
+        // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
+        let before = self.external(trial.from);
+        let mut work = 0.0;
+        for (i, (before, after)) in before.iter().zip(&external).enumerate() {
+            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
+        }
+        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
+            let mean = 0.5 * (self.forces[i] + converged.forces[i]);
+            work += mean * (at.u[i] - self.state.u[i]);
+        }
+        Ok(Accepted {
+            forces: converged.forces.clone(),
+            contact: converged.contact.clone(),
+            external,
+            flow: Flow {
+                work,
+                ..Flow::default()
+            },
+            state: at,
+            ..Accepted::from_newton(&converged)
+        })
+    }
+}
