@@ -348,7 +348,13 @@ impl Newton {
                 if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
                     best = Some((now, step));
                 }
-                if now <= patience * before || halvings == settings.line_search {
+                // A compliant law that has hardly been touched is so soft that the step overshoots by orders of magnitude.
+                let lost = now.is_nan() || now > LOST * before;
+                let most = match settings.line_search {
+                    n if n > 0 && lost => MOST_HALVINGS,
+                    n => n,
+                };
+                if now <= patience * before || halvings >= most {
                     break;
                 }
                 halvings += 1;
@@ -360,7 +366,7 @@ impl Newton {
                     ..StepFailure::new(Cause::NotFinite, "the forces are not finite")
                 });
             };
-            let step = if halvings == settings.line_search {
+            let step = if halvings >= settings.line_search {
                 chosen
             } else {
                 step
@@ -461,6 +467,12 @@ impl Newton {
         })
     }
 }
+
+/// Growth of the out-of-balance force after which a step is halved without counting.
+const LOST: f64 = 1e4;
+
+/// Most halvings even so.
+const MOST_HALVINGS: usize = 40;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
