@@ -110,7 +110,7 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
                 String::new()
             } else {
                 format!(
-                    ", more than the {:.1e} of `solver.energy-limit`: use smaller increments",
+                    ", more than the {:.1e} of `solver.energy-limit`: try other increments, or damping where bodies bounce",
                     q.limit
                 )
             }
