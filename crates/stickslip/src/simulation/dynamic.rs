@@ -50,6 +50,10 @@ impl Simulation {
                 Inertia::new(&self.model, &self.matrix, dynamic, keys)
             }
         };
+        let masses = inertia.at_points(&self.model);
+        for interface in &mut self.model.interfaces {
+            interface.set_masses(&masses);
+        }
         let before = inertia.kinetic_energy(&self.state.v);
         self.model
             .apply_initial_velocities(self.step, &mut self.state.v);

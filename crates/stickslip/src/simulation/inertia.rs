@@ -1,6 +1,7 @@
 //! Mass and damping of the bodies, and the matrices of implicit increments made of them.
 
 use super::model::{ContactMass, Dynamic, Model};
+use super::spin::mobility;
 use crate::body::MassKind;
 use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, GmresSettings, gmres};
@@ -79,6 +80,19 @@ impl Inertia {
             matrices: Vec::new(),
             keys: before,
         }
+    }
+
+    /// The mass that a push on a point of the mesh meets `[kg]`; of a rigid body all of it, turned as it is by the push.
+    pub fn at_points(&self, model: &Model) -> Vec<f64> {
+        let size = model.dofs.dim * model.dofs.dim;
+        let rigid = mobility(model);
+        (0..model.mesh.points.len())
+            .map(|p| {
+                let row = self.mass.row_blocks(p).chunks(size);
+                let own: f64 = row.map(|block| block[0]).sum();
+                if rigid[p] > 0.0 { 1.0 / rigid[p] } else { own }
+            })
+            .collect()
     }
 
     /// Whether it serves a step with these settings.

@@ -176,6 +176,7 @@ impl Simulation {
         self.motion = None;
         self.explicit = None;
         for interface in &mut self.model.interfaces {
+            interface.set_masses(&[]);
             self.summary.energy.initial += interface.use_springs(false);
         }
     }

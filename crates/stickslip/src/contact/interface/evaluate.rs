@@ -318,19 +318,25 @@ impl Interface {
             .collect();
         let unknown = self.unknown();
         let enforcement = self.laws.enforcement.as_dyn();
+        // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
+        // must not depend on the increment.
+        let own = match enforcement.multipliers() {
+            Multipliers::Augmented { .. } => self.own_stiffness(i, scene.rate.map(|_| scene.dt)),
+            _ => point.stiffness,
+        };
         let normal_stiffness = if self.laws.needs_normal_stiffness() {
-            self.spring(enforcement.normal(), point.stiffness)
+            self.spring(enforcement.normal(), own)
         } else {
             f64::INFINITY
         };
         let tangential_stiffness = if self.laws.needs_tangential_stiffness() {
-            self.spring(enforcement.tangential(), point.stiffness)
+            self.spring(enforcement.tangential(), own)
         } else {
             f64::INFINITY
         };
         let multiplier = &self.memory.multipliers[i];
         // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
-        let soft = self.memory.softening.map(|factor| factor * point.stiffness);
+        let soft = self.memory.softening.map(|factor| factor * own);
         let tangential_stiffness = tangential_stiffness.min(soft.unwrap_or(f64::INFINITY));
         let shear = components(multiplier.shear, &stencil.frame_before, dim);
         let carried = components(self.memory.committed[i].shear, &stencil.frame_before, dim);
@@ -356,10 +362,7 @@ impl Interface {
                 0.0
             },
             softness: soft.map_or(0.0, |soft| 1.0 / soft),
-            weight: point
-                .stiffness
-                .min(normal_stiffness)
-                .min(tangential_stiffness),
+            weight: own.min(normal_stiffness).min(tangential_stiffness),
             touching: if self.memory.untouched && stencil.gap <= TOUCHING * point.size {
                 point.stiffness
             } else {

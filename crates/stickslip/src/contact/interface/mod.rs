@@ -85,6 +85,8 @@ pub struct Memory {
     explicit: bool,
     /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
     rest: Vec<f64>,
+    /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
+    inertia: Vec<f64>,
     softening: Option<f64>,
 }
 
@@ -138,6 +140,25 @@ impl Interface {
             .zip(&self.reference)
             .map(|(&node, &x)| add(x, self.dofs.vector(u, node)))
             .collect()
+    }
+
+    /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
+    pub fn set_masses(&mut self, by_point: &[f64]) {
+        let mass = |p: &ContactPoint| -> f64 {
+            let nodes = p.nodes.iter().zip(&p.weights);
+            nodes
+                .map(|(&node, w)| w * by_point.get(self.nodes[node]).copied().unwrap_or(0.0))
+                .sum()
+        };
+        self.memory.inertia = self.points.iter().map(|p| mass(p) / p.area).collect();
+    }
+
+    /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass, a tenth of
+    /// what the trapezoidal rule makes of it. More would turn the rounding of gaps into pressure where supports hold a body already.
+    fn own_stiffness(&self, i: usize, moving: Option<f64>) -> f64 {
+        let inertia = self.memory.inertia.get(i).copied().unwrap_or(0.0);
+        let inertia = moving.map_or(0.0, |dt| 0.4 * inertia / (dt * dt));
+        self.points[i].stiffness + inertia
     }
 
     /// Whether multipliers are unknowns of the present attempt.
@@ -402,18 +423,17 @@ impl Force for Interface {
         }
     }
 
-    fn augment(&mut self, _stage: &Stage) -> Augmentation {
+    fn augment(&mut self, stage: &Stage) -> Augmentation {
         let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
             return Augmentation::Done;
         };
-        let memory = &mut self.memory;
-        // Violations are lengths, compared with the compression of one layer of cells under the largest pressure.
-        let approach = memory
-            .last
-            .iter()
-            .zip(&self.points)
-            .map(|(e, p)| e.response.traction[0] / p.stiffness)
+        // Violations are lengths, compared with the compression of one layer of cells under the largest pressure, or with the way that
+        // the pressure moves the mass of a point over the increment.
+        let moving = stage.rate.map(|_| stage.dt);
+        let approach = (self.memory.last.iter().enumerate())
+            .map(|(i, e)| e.response.traction[0] / self.own_stiffness(i, moving))
             .fold(0.0, f64::max);
+        let memory = &mut self.memory;
         let mut worst: f64 = 0.0;
         for (m, e) in memory.multipliers.iter_mut().zip(&memory.last) {
             let r = &e.response;
