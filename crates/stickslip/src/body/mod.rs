@@ -3,6 +3,7 @@
 // Tensor components and nodes read best by their indices.
 #![allow(clippy::needless_range_loop)]
 
+mod around;
 mod elastic;
 mod extrapolate;
 mod facets;
@@ -20,6 +21,7 @@ mod rigid;
 mod space;
 mod waves;
 
+pub use around::Around;
 pub use elastic::{Elastic, Part};
 pub use facets::{positive_areas, tributary_areas};
 pub use mass::MassKind;

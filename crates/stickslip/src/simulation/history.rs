@@ -125,17 +125,7 @@ fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
 fn push_probes(row: &mut Row, simulation: &Simulation) {
     let model = &simulation.model;
     let dim = model.dofs.dim;
-    if model.probes.is_empty() {
-        return;
-    }
-    let mut fields = Fields::default();
-    for body in &model.bodies {
-        // Stresses of a whole body are recovered: only where someone looks.
-        if model.probes.iter().any(|p| body.points.contains(&p.point)) {
-            body.fields(&simulation.state, &mut fields);
-        }
-    }
-    for probe in &model.probes {
+    for (probe, around) in model.probes.iter().zip(&simulation.around) {
         let point = probe.point;
         let u = model.dofs.vector(&simulation.state.u, point);
         for (c, u) in u.iter().enumerate().take(dim) {
@@ -152,13 +142,16 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
                 }
             }
         }
-        if let Some(s) = fields.get("S") {
-            for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
-                if dim == 2 && k >= 4 {
-                    continue;
-                }
-                row.push(format!("{}.S{name}", probe.name), s.values[6 * point + k]);
+        // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
+        let stress = match around {
+            Some(around) => around.stress(model.dofs, &simulation.state.u),
+            None => [0.0; 6],
+        };
+        for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
+            if dim == 2 && k >= 4 {
+                continue;
             }
+            row.push(format!("{}.S{name}", probe.name), stress[k]);
         }
     }
 }

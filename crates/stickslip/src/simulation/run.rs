@@ -7,6 +7,7 @@ use super::inertia::strain_energy;
 use super::model::{Dynamic, Model, Step};
 use super::summary::{Phases, Summary};
 use super::{diagnosis, history};
+use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
 use crate::newton::{Newton, Progress};
@@ -35,6 +36,8 @@ pub struct Simulation {
     pub(super) previous: Option<(f64, Vec<f64>)>,
     pub(super) held: BTreeMap<String, Vec<f64>>,
     pub(super) released: Vec<(usize, f64)>,
+    /// By probe; `None` at rigid bodies.
+    pub(super) around: Vec<Option<Around>>,
     pub(super) step: usize,
     started: Instant,
 }
@@ -97,7 +100,13 @@ impl Simulation {
             u[dof] = value;
         }
         model.links.impose(&mut u);
+        let around = model
+            .probes
+            .iter()
+            .map(|probe| model.elastic().find_map(|b| b.elastic.around(probe.point)))
+            .collect();
         let mut simulation = Simulation {
+            around,
             contact: vec![0.0; n],
             load: vec![0.0; n],
             motion: None,

@@ -1,0 +1,93 @@
+//! Stress at a single point without that of the whole body.
+
+use std::sync::Arc;
+
+use super::{Elastic, Part};
+use crate::mesh::CellRef;
+use crate::system::{Dofs, Force};
+
+/// The cells of a body that meet at a point, as a body of their own.
+#[derive(Debug, Clone)]
+pub struct Around {
+    elastic: Elastic,
+    /// Points of the whole mesh, in the order of the part.
+    points: Vec<usize>,
+    /// Where the point is among them.
+    at: usize,
+}
+
+impl Elastic {
+    /// What is needed for the stress at a point of the mesh; `None` if the body does not have it.
+    pub fn around(&self, point: usize) -> Option<Around> {
+        let mut cells = Vec::new();
+        for part in &self.parts {
+            let block = &self.mesh.blocks[part.block];
+            let nodes = block.connectivity.chunks_exact(block.kind.node_count());
+            let here = nodes.enumerate().filter(|(_, n)| n.contains(&point));
+            cells.extend(here.map(|(cell, _)| CellRef {
+                block: part.block,
+                cell,
+            }));
+        }
+        // the order in which `extract` takes them
+        cells.sort_unstable();
+        let points = self.mesh.points_of_cells(&cells);
+        let at = points.binary_search(&point).ok()?;
+        let mesh = self.mesh.extract(&cells);
+        let mut blocks: Vec<usize> = cells.iter().map(|c| c.block).collect();
+        blocks.dedup();
+        let parts = blocks.iter().enumerate().filter_map(|(block, old)| {
+            let part = self.parts.iter().find(|p| p.block == *old)?;
+            Some(Part { block, ..*part })
+        });
+        let parts = parts.collect();
+        let elastic = Elastic::new(
+            Force::name(self),
+            Arc::new(mesh),
+            self.space,
+            self.formulation,
+            parts,
+        );
+        Some(Around {
+            elastic: elastic.ok()?,
+            points,
+            at,
+        })
+    }
+}
+
+impl Around {
+    /// Stress at the point `[Pa]`, the same as [`Elastic::nodal_stress`] has there; `u` are the displacements of the whole mesh by dof.
+    pub fn stress(&self, dofs: Dofs, u: &[f64]) -> [f64; 6] {
+        let own: Vec<f64> = self
+            .points
+            .iter()
+            .flat_map(|&p| u[dofs.of(p, 0)..dofs.of(p, 0) + dofs.dim].iter().copied())
+            .collect();
+        self.elastic.nodal_stress(&own)[self.at]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing;
+    use crate::system::Dofs;
+
+    #[test]
+    fn the_stress_is_that_of_the_whole_body() {
+        for (kind, space, formulation) in testing::combinations() {
+            let body = testing::patch(kind, space, formulation);
+            let dofs = Dofs {
+                dim: space.dim(),
+                points: body.mesh().points.len(),
+            };
+            let u = testing::noise(dofs.count());
+            let whole = body.nodal_stress(&u);
+            for (&p, wanted) in body.points().iter().zip(&whole) {
+                let around = body.around(p).expect("a point of the body");
+                assert_eq!(around.stress(dofs, &u), *wanted, "{kind:?} {space:?}");
+            }
+            assert!(body.around(dofs.points).is_none());
+        }
+    }
+}
