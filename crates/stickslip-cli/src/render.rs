@@ -80,7 +80,7 @@ mod tests {
              9 | durtion = 1\n  \
              | ^^^^^^^\n  \
              |\n  \
-             = help: did you mean `duration`? allowed here: duration, increments, interfaces, loads, name, supports"
+             = help: did you mean `duration`? allowed here: duration, dynamic, increments, interfaces, loads, name, supports"
         );
     }
 
