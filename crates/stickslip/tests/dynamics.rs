@@ -2,9 +2,7 @@
 
 mod support;
 
-use stickslip::Error;
-use stickslip::problem::Document;
-use support::{problem, run};
+use support::{complaint, problem, run};
 
 /// A rod of four cells, held at one end and pulled at the other at once. `SCHEME` and `STEPS` are filled in.
 const ROD: &str = r#"
@@ -238,21 +236,6 @@ fn a_result_is_an_initial_condition() {
     let a = end(&whole);
     let b = end(&[record.increments.last().expect("a row").1.clone()]);
     assert!(apart(a, b) < 1e-9, "{a:?} {b:?}");
-}
-
-fn complaint(text: &str) -> String {
-    let document = Document::new(text, None);
-    match document.problem() {
-        Err(e) => e.to_string(),
-        Ok(problem) => match support::build(&problem) {
-            Err(Error::Problem(e)) => document.error(e.findings).to_string(),
-            Err(e) => e.to_string(),
-            Ok(mut simulation) => match simulation.run(&mut []) {
-                Err(e) => e.to_string(),
-                Ok(()) => panic!("no complaint about\n{text}"),
-            },
-        },
-    }
 }
 
 #[test]

@@ -3,12 +3,9 @@
 mod support;
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
-use stickslip::Error;
-use stickslip::problem::Document;
 use stickslip::simulation::Simulation;
-use support::{Record, problem, run};
+use support::{Record, complaint, problem, run};
 
 const SCHEMES: [&str; 3] = [
     "scheme.newmark = {}",
@@ -537,22 +534,6 @@ fn free_motions_are_listed() {
     let feet = "load.feet = { set = \"block.bottom\", spring = { stiffness = [0, 30] } }";
     assert_eq!(free(feet), ["translation x"]);
     assert!(free("support.all = { set = \"block\", x = 0, y = 0 }").is_empty());
-}
-
-fn complaint(text: &str) -> String {
-    let document = Document::new(text, None);
-    let built = match document.problem() {
-        Err(e) => return e.to_string(),
-        Ok(problem) => problem.build(Path::new(".")).and_then(Simulation::new),
-    };
-    match built {
-        Err(Error::Problem(e)) => document.error(e.findings).to_string(),
-        Err(e) => e.to_string(),
-        Ok(mut simulation) => match simulation.run(&mut []) {
-            Err(e) => e.to_string(),
-            Ok(()) => panic!("no complaint about\n{text}"),
-        },
-    }
 }
 
 #[test]

@@ -501,14 +501,7 @@ fn norm(v: &[f64]) -> f64 {
 }
 
 fn tally(system: &System) -> Tally {
-    let mut all = Tally::default();
-    for t in system.contact.iter().filter_map(|f| f.tally()) {
-        all.open += t.open;
-        all.stick += t.stick;
-        all.slip += t.slip;
-        all.changed += t.changed;
-    }
-    all
+    system.contact.iter().filter_map(|f| f.tally()).sum()
 }
 
 fn diagnose(system: &System) -> Vec<crate::system::Culprit> {

@@ -106,12 +106,11 @@ impl Explicit {
         }
     }
 
-    /// Works out the forces of Rayleigh damping at these velocities; those before are kept.
+    /// Works out the forces of Rayleigh damping at these velocities.
     pub(super) fn damp(&mut self, v: &[f64]) {
         if self.rayleigh.is_empty() {
             return;
         }
-        std::mem::swap(&mut self.damped, &mut self.damped_before);
         let scaled: Vec<f64> = self.rayleigh.iter().zip(v).map(|(r, v)| r[1] * v).collect();
         self.internal.apply(&scaled, &mut self.damped);
         for (i, d) in self.damped.iter_mut().enumerate() {
@@ -268,6 +267,7 @@ impl Simulation {
             self.state.a[range].copy_from_slice(&turn[..dim]);
         }
         self.model.links.impose(&mut self.state.a);
+        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
         explicit.still = still.then(|| Arc::new(constraints));
         self.explicit = Some(explicit);
         Ok(())

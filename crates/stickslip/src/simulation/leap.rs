@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::accepted::{Accepted, Flow};
 use super::explicit::{Explicit, unstable};
 use super::run::Simulation;
-use crate::system::{Cause, Force, Stage, State, StepFailure, Tally};
+use crate::system::{Cause, Force, Stage, State, StepFailure};
 use crate::time::Trial;
 
 /// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
@@ -101,13 +101,9 @@ impl Simulation {
         let external = if explicit.loaded {
             self.external(trial.to)
         } else {
-            std::mem::take(&mut self.load)
+            self.load.clone()
         };
-        let load_before: &[f64] = if explicit.loaded {
-            &self.load
-        } else {
-            &external
-        };
+        let load_before = &self.load;
         let mut forces = vec![0.0; n];
         let State { u, v, a, .. } = &mut at;
         let u: &[f64] = u;
@@ -201,15 +197,10 @@ impl Simulation {
             )
             .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
-        let mut tally = Tally::default();
-        for t in self.model.interfaces.iter().filter_map(Force::tally) {
-            tally.open += t.open;
-            tally.stick += t.stick;
-            tally.slip += t.slip;
-        }
+        // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
+        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
         Ok(Accepted {
-            tally,
-            contact: explicit.out.residual.clone(),
+            tally: self.model.interfaces.iter().filter_map(Force::tally).sum(),
             forces,
             external,
             flow: Flow {

@@ -159,3 +159,14 @@ pub struct Tally {
     /// Points whose status differs from the evaluation before.
     pub changed: usize,
 }
+
+impl std::iter::Sum for Tally {
+    fn sum<I: Iterator<Item = Tally>>(all: I) -> Tally {
+        all.fold(Tally::default(), |a, b| Tally {
+            open: a.open + b.open,
+            stick: a.stick + b.stick,
+            slip: a.slip + b.slip,
+            changed: a.changed + b.changed,
+        })
+    }
+}

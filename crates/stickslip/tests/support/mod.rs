@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::newton::Progress;
-use stickslip::problem::Problem;
+use stickslip::problem::{Document, Problem};
 pub use stickslip::simulation::Row;
 use stickslip::simulation::{Event, Observer, Simulation};
 
@@ -65,4 +65,20 @@ pub fn run(problem: &Problem) -> Result<Record, Error> {
     let mut record = Record::default();
     build(problem)?.run(&mut [&mut record])?;
     Ok(record)
+}
+
+/// What is said of a problem that cannot be run, and where in the text.
+pub fn complaint(text: &str) -> String {
+    let document = Document::new(text, None);
+    match document.problem() {
+        Err(e) => e.to_string(),
+        Ok(problem) => match build(&problem) {
+            Err(Error::Problem(e)) => document.error(e.findings).to_string(),
+            Err(e) => e.to_string(),
+            Ok(mut simulation) => match simulation.run(&mut []) {
+                Err(e) => e.to_string(),
+                Ok(()) => panic!("no complaint about\n{text}"),
+            },
+        },
+    }
 }
