@@ -9,6 +9,23 @@ pub struct ContactBlock {
     pub tangent: Vec<f64>,
     /// Symmetric positive semi-definite approximation of the tangent, same shape.
     pub surrogate: Vec<f64>,
+    /// Gradients of the gap and of the two components of slip, row by row, shape `(3, n)`.
+    pub rows: Vec<f64>,
+    /// How the force along each row changes, shape `(3, n)`: without the curvature of the gap the tangent is `rowsᵀ change`.
+    pub change: Vec<f64>,
+}
+
+/// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
+#[derive(Debug, Clone, Copy)]
+pub struct Tangent<'a> {
+    /// Tangent, or `K_uu` of a point with multipliers.
+    pub whole: &'a [f64],
+    /// Symmetric stand-in.
+    pub surrogate: &'a [f64],
+    /// Gradients of gap and slip.
+    pub rows: &'a [f64],
+    /// Change of the forces along them, multipliers eliminated.
+    pub change: &'a [f64],
 }
 
 /// The multiplier rows of a point in a perturbed Lagrangian, to be eliminated: `n` displacement dofs, `m` multipliers.
@@ -78,24 +95,21 @@ impl Assembler {
     }
 
     /// Adds the tangent of one point, if tangents are wanted.
-    pub fn add_tangent(&mut self, dofs: &[usize], tangent: &[f64], surrogate: &[f64]) {
+    pub fn add_tangent(&mut self, dofs: &[usize], tangent: Tangent) {
         if self.wants_tangent {
             self.blocks.push(ContactBlock {
                 dofs: dofs.to_vec(),
-                tangent: tangent.to_vec(),
-                surrogate: surrogate.to_vec(),
+                tangent: tangent.whole.to_vec(),
+                surrogate: tangent.surrogate.to_vec(),
+                rows: tangent.rows.to_vec(),
+                change: tangent.change.to_vec(),
             });
         }
     }
 
-    /// Adds the condensed form of a point with multipliers: `tangent` is `K_uu` and becomes the Schur complement.
-    pub fn add_saddle(
-        &mut self,
-        dofs: &[usize],
-        tangent: &mut [f64],
-        surrogate: &[f64],
-        saddle: Saddle,
-    ) {
+    /// Adds the condensed form of a point with multipliers: of `K_uu` in `tangent` remains the Schur complement.
+    pub fn add_saddle(&mut self, dofs: &[usize], tangent: Tangent, saddle: Saddle) {
+        let mut whole = tangent.whole.to_vec();
         let n = dofs.len();
         let m = saddle.r_l.len();
         // a = K_ul K_ll⁻¹
@@ -106,11 +120,12 @@ impl Assembler {
                     .map(|p| saddle.k_ul[i * m + p] * saddle.k_ll_inverse[p * m + q])
                     .sum();
             }
-            for (j, t) in tangent[i * n..(i + 1) * n].iter_mut().enumerate() {
+            for (j, t) in whole[i * n..(i + 1) * n].iter_mut().enumerate() {
                 *t -= (0..m).map(|q| a[q] * saddle.k_lu[q * n + j]).sum::<f64>();
             }
             self.condensed[dofs[i]] -= (0..m).map(|q| a[q] * saddle.r_l[q]).sum::<f64>();
         }
-        self.add_tangent(dofs, tangent, surrogate);
+        let whole = &whole;
+        self.add_tangent(dofs, Tangent { whole, ..tangent });
     }
 }

@@ -246,6 +246,8 @@ impl Links {
         Some(ContactBlock {
             tangent: congruent(&rows, dofs.len(), &block.tangent),
             surrogate: congruent(&rows, dofs.len(), &block.surrogate),
+            rows: columns(&rows, dofs.len(), &block.rows),
+            change: columns(&rows, dofs.len(), &block.change),
             dofs,
         })
     }
@@ -305,6 +307,20 @@ fn congruent(rows: &[Row], m: usize, k: &[f64]) -> Vec<f64> {
         for &(row, factor) in left.iter().filter(|(_, factor)| *factor != 0.0) {
             for (o, p) in out[row * m..(row + 1) * m].iter_mut().zip(&product) {
                 *o += factor * p;
+            }
+        }
+    }
+    out
+}
+
+/// `A T` with the rows of `T`, which has `m` columns.
+fn columns(rows: &[Row], m: usize, a: &[f64]) -> Vec<f64> {
+    let n = rows.len();
+    let mut out = vec![0.0; a.len() / n.max(1) * m];
+    for (a, o) in a.chunks_exact(n).zip(out.chunks_exact_mut(m)) {
+        for (a, row) in a.iter().zip(rows) {
+            for &(column, factor) in row {
+                o[column] += a * factor;
             }
         }
     }
@@ -432,6 +448,8 @@ mod tests {
             let block = ContactBlock {
                 tangent: noise(n * n, 2.0),
                 surrogate: noise(n * n, 7.0),
+                rows: noise(3 * n, 11.0),
+                change: noise(3 * n, 13.0),
                 dofs: list.clone(),
             };
             let found = links.transform(&block).expect("rigid points");
@@ -455,10 +473,21 @@ mod tests {
                     }
                 }
             }
+            for (a, at) in [(&block.rows, &found.rows), (&block.change, &found.change)] {
+                let m = found.dofs.len();
+                for (a, at) in a.chunks(n).zip(at.chunks(m)) {
+                    for (&gi, found) in found.dofs.iter().zip(at) {
+                        let expected: f64 = list.iter().zip(a).map(|(&ga, a)| a * t[ga][gi]).sum();
+                        assert!((found - expected).abs() < 1e-12, "{freedom:?}");
+                    }
+                }
+            }
             let free = ContactBlock {
                 dofs: vec![0, 1],
                 tangent: vec![1.0; 4],
                 surrogate: vec![1.0; 4],
+                rows: Vec::new(),
+                change: Vec::new(),
             };
             assert_eq!(links.transform(&free), None);
         }

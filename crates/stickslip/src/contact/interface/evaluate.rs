@@ -47,6 +47,9 @@ pub(super) struct Evaluation {
     pub residual: Vec<f64>,
     pub tangent: Vec<f64>,
     pub surrogate: Vec<f64>,
+    /// Gradients of gap and slip and how the forces along them change, shape `(3, n)` each.
+    pub rows: Vec<f64>,
+    pub change: Vec<f64>,
     pub saddle: Option<SaddleRows>,
     /// Force that rounding may leave.
     pub rounding: f64,
@@ -462,6 +465,18 @@ impl Interface {
         if !scene.tangent {
             return;
         }
+        e.rows = rows.concat();
+        e.change = (0..3)
+            .flat_map(|q| (0..n).map(move |k| (q, k)))
+            .map(|(q, k)| match &e.saddle {
+                None => -area * change(q, k),
+                Some(s) => {
+                    let inverse = &s.k_ll_inverse[3 * q..3 * q + 3];
+                    let sum: f64 = (0..3).map(|p| inverse[p] * s.k_lu[p * n + k]).sum();
+                    area * sum
+                }
+            })
+            .collect();
         let mut tangent = vec![0.0; n * n];
         hessian(traction.map(|t| -area * t), &mut tangent);
         if !unknown {

@@ -18,7 +18,7 @@ use super::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
 use crate::system::{
     Assembler, Augmentation, Culprit, Dofs, Energy, Fields, Force, Role, Saddle, Schedule, Stage,
-    State, StepFailure, Tally,
+    State, StepFailure, Tally, Tangent,
 };
 use evaluate::Evaluation;
 
@@ -341,11 +341,9 @@ impl Force for Interface {
                 let worst = saddle.r_l.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 out.multiplier_residual = out.multiplier_residual.max(worst * self.points[i].area);
                 if out.wants_tangent {
-                    let mut tangent = e.tangent.clone();
                     out.add_saddle(
                         &e.dofs,
-                        &mut tangent,
-                        &e.surrogate,
+                        e.tangent(),
                         Saddle {
                             k_ul: &saddle.k_ul,
                             k_lu: &saddle.k_lu,
@@ -355,7 +353,7 @@ impl Force for Interface {
                     );
                 }
             } else if out.wants_tangent {
-                out.add_tangent(&e.dofs, &e.tangent, &e.surrogate);
+                out.add_tangent(&e.dofs, e.tangent());
             }
         }
         let memory = &mut self.memory;
@@ -560,6 +558,16 @@ impl Force for Interface {
 }
 
 impl Evaluation {
+    /// What a tangent evaluation leaves for the assembler.
+    fn tangent(&self) -> Tangent<'_> {
+        Tangent {
+            whole: &self.tangent,
+            surrogate: &self.surrogate,
+            rows: &self.rows,
+            change: &self.change,
+        }
+    }
+
     /// Shear traction on the secondary along the given directions.
     fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
         let t = self.response.traction;
