@@ -264,3 +264,72 @@ fn read_panels(
     }
     Ok(panels)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{cube, factor};
+    use super::*;
+    use crate::linear::testing::{grid, noise};
+
+    #[test]
+    fn a_decoded_factor_is_the_same() {
+        let (a, fixed, kept) = cube(11);
+        let (factor, schur) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
+        let mut bytes = Vec::new();
+        factor.encode(&mut bytes).unwrap();
+        let decoded = PartialFactor::decode(&mut &bytes[..]).unwrap();
+        assert!(decoded.fronts == factor.fronts);
+        assert_eq!(decoded.smallest_pivot, factor.smallest_pivot);
+        let mut bytes_again = Vec::new();
+        decoded.encode(&mut bytes_again).unwrap();
+        assert!(bytes == bytes_again);
+        let (again, schur_again) = PartialFactor::new(decoded.fronts(), &a).unwrap();
+        assert!(schur_again == schur);
+        for columns in [1, 4] {
+            let sweep = |factor: &PartialFactor| {
+                let mut x = noise(&mut 1, factor.fronts().interior().len() * columns);
+                let mut w = noise(&mut 2, factor.fronts().root().len() * columns);
+                factor.forward(&mut x, &mut w, columns);
+                factor.backward(&mut x, &w, columns);
+                (x, w)
+            };
+            assert!(sweep(&decoded) == sweep(&factor) && sweep(&again) == sweep(&factor));
+        }
+    }
+
+    #[test]
+    fn damaged_bytes_do_no_harm() {
+        for (counts, block) in [([4, 3, 1], 2), ([5, 4, 4], 3)] {
+            let a = grid(counts, block);
+            let fixed: Vec<bool> = (0..a.rows()).map(|dof| dof < 8 || dof == 15).collect();
+            let kept: Vec<bool> = (0..a.points()).map(|p| p % 7 == 6).collect();
+            let (factor, _) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
+            let mut bytes = Vec::new();
+            factor.encode(&mut bytes).unwrap();
+            // All of the structure, and some of the numbers.
+            let structure = bytes.len() - 8 * factor.fronts().nonzeros();
+            let places = (0..structure).chain((structure..bytes.len()).step_by(97));
+            for at in places {
+                assert!(
+                    PartialFactor::decode(&mut &bytes[..at]).is_err(),
+                    "cut at {at}"
+                );
+                for change in [0x01, 0x80, 0xff] {
+                    let mut wrong = bytes.clone();
+                    wrong[at] ^= change;
+                    // Whatever is accepted can be used.
+                    if let Ok(factor) = PartialFactor::decode(&mut &wrong[..]) {
+                        let fronts = Arc::clone(factor.fronts());
+                        let mut x = vec![1.0; fronts.interior().len()];
+                        let mut w = vec![1.0; fronts.root().len()];
+                        factor.forward(&mut x, &mut w, 1);
+                        factor.backward(&mut x, &w, 1);
+                        if fronts.shape == (a.points(), block) {
+                            let _ = PartialFactor::new(&fronts, &a);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -70,7 +70,7 @@ fn products(l: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
 pub(super) fn back_substitute(panel: &[f64], columns: usize, vector: &mut [f64]) {
     let height = vector.len();
     let mut j = columns;
-    while j % 4 != 0 {
+    while !j.is_multiple_of(4) {
         j -= 1;
         let l = &panel[j * height + j..(j + 1) * height];
         let sum: f64 = l[1..]

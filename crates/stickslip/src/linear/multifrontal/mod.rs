@@ -9,6 +9,7 @@
 
 mod dense;
 mod encode;
+mod graph;
 mod kernels;
 mod numeric;
 mod schedule;

@@ -72,12 +72,12 @@ impl Piece {
             }
         }
         pieces.reverse();
-        for at in 0..pieces.len() {
-            let top = pieces[at].top();
+        for (at, piece) in pieces.iter_mut().enumerate() {
+            let top = piece.top();
             piece_of[top] = at as u32;
             if split[top] {
                 let children = fronts.children(top).iter();
-                pieces[at].children = children.map(|&front| piece_of[front as usize]).collect();
+                piece.children = children.map(|&front| piece_of[front as usize]).collect();
             }
         }
         pieces

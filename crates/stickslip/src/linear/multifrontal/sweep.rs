@@ -39,10 +39,8 @@ impl PartialFactor {
             let count = TOGETHER.min(columns - start);
             let interior = &mut interior[start * n..(start + count) * n];
             let root = &mut root[start * c..(start + count) * c];
-            let (mut x, mut w) = (
-                side_by_side(interior, n, count),
-                side_by_side(root, c, count),
-            );
+            let mut x = side_by_side(interior, n, count);
+            let mut w = side_by_side(root, c, count);
             Sweep::new(self, &mut x, count).forward(&mut w);
             one_by_one(&x, interior, n, count);
             one_by_one(&w, root, c, count);
@@ -220,9 +218,9 @@ impl<'a> Sweep<'a> {
                 let product = &mut product[..rows_below * c];
                 let target = MatMut::from_column_major_slice_mut(&mut *product, rows_below, c);
                 matmul(target, Accum::Replace, below, y.as_ref(), -1.0, Par::Seq);
-                for (k, product) in product.chunks_exact(rows_below.max(1)).enumerate() {
-                    for (w, p) in w.chunks_exact_mut(c).zip(product) {
-                        w[k] += p;
+                for (i, w) in w.chunks_exact_mut(c).enumerate() {
+                    for (w, p) in w.iter_mut().zip(product[i..].iter().step_by(rows_below)) {
+                        *w += p;
                     }
                 }
             }
