@@ -164,15 +164,7 @@ impl Linearised {
 fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
     operator.matrix.mul(v, out);
     for block in operator.blocks {
-        let n = block.dofs.len();
-        for (i, &dof) in block.dofs.iter().enumerate() {
-            let row = &block.tangent[i * n..(i + 1) * n];
-            out[dof] += row
-                .iter()
-                .zip(&block.dofs)
-                .map(|(k, &d)| k * v[d])
-                .sum::<f64>();
-        }
+        block.apply(v, out);
     }
     for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
         if fixed {
