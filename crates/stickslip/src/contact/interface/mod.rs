@@ -4,6 +4,9 @@ mod evaluate;
 mod report;
 mod springs;
 
+#[cfg(test)]
+mod tests;
+
 use rayon::prelude::*;
 
 pub use report::{Quality, Resultant};
