@@ -163,8 +163,16 @@ impl Linearised {
 /// `out = (bulk + blocks) v` on the free dofs.
 fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
     operator.matrix.mul(v, out);
+    let (mut moved, mut force) = (Vec::new(), Vec::new());
     for block in operator.blocks {
-        block.apply(v, out);
+        moved.clear();
+        moved.extend(block.dofs.iter().map(|&dof| v[dof]));
+        force.clear();
+        force.resize(moved.len(), 0.0);
+        block.apply(&moved, &mut force);
+        for (&dof, f) in block.dofs.iter().zip(&force) {
+            out[dof] += f;
+        }
     }
     for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
         if fixed {

@@ -16,22 +16,19 @@ pub struct ContactBlock {
 }
 
 impl ContactBlock {
-    /// Adds the tangent times `v` to `out`, both by global dof.
+    /// Adds the tangent times `v`, both over the dofs of the block.
     pub fn apply(&self, v: &[f64], out: &mut [f64]) {
         let n = self.dofs.len();
-        let times = |row: &[f64]| -> f64 {
-            let pairs = row.iter().zip(&self.dofs);
-            pairs.map(|(k, &dof)| k * v[dof]).sum()
-        };
+        let times = |row: &[f64]| -> f64 { row.iter().zip(v).map(|(k, v)| k * v).sum() };
         for q in 0..3 {
             let along = times(&self.change[q * n..(q + 1) * n]);
-            for (row, &dof) in self.rows[q * n..(q + 1) * n].iter().zip(&self.dofs) {
-                out[dof] += row * along;
+            for (row, out) in self.rows[q * n..(q + 1) * n].iter().zip(&mut *out) {
+                *out += row * along;
             }
         }
         if !self.hessian.is_empty() {
-            for (row, &dof) in self.hessian.chunks_exact(n).zip(&self.dofs) {
-                out[dof] += times(row);
+            for (row, out) in self.hessian.chunks_exact(n).zip(out) {
+                *out += times(row);
             }
         }
     }
@@ -206,15 +203,13 @@ mod tests {
                 out.add_tangent(&[7, 2, 4, 0], tangent);
             }
             let block = &out.blocks[0];
-            let v = numbers(8, 5);
-            let mut product = vec![1.0; 8];
+            let v = numbers(4, 5);
+            let mut product = vec![1.0; 4];
             block.apply(&v, &mut product);
-            for (i, &dof) in block.dofs.iter().enumerate() {
-                let row = &block.tangent()[4 * i..4 * i + 4];
-                let expected: f64 = row.iter().zip(&block.dofs).map(|(k, &d)| k * v[d]).sum();
-                assert!((product[dof] - 1.0 - expected).abs() < 1e-12);
+            for (row, product) in block.tangent().chunks(4).zip(product) {
+                let expected: f64 = row.iter().zip(&v).map(|(k, v)| k * v).sum();
+                assert!((product - 1.0 - expected).abs() < 1e-12);
             }
-            assert_eq!(product[1], 1.0);
             assert_eq!(block.change[0], 0.5 * numbers(12, 2)[0]);
         }
     }

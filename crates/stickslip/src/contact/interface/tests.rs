@@ -174,7 +174,12 @@ fn the_tangent_is_that_of_the_force() {
             let direction: Vec<f64> = (0..count).map(|k| (k as f64 * 0.7).cos()).collect();
             let mut product = vec![0.0; count];
             for block in &blocks {
-                block.apply(&direction, &mut product);
+                let along: Vec<f64> = block.dofs.iter().map(|&dof| direction[dof]).collect();
+                let mut force = vec![0.0; along.len()];
+                block.apply(&along, &mut force);
+                for (&dof, f) in block.dofs.iter().zip(force) {
+                    product[dof] += f;
+                }
             }
             let h = 1e-8;
             let start = at.u.clone();
