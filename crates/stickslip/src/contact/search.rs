@@ -1,10 +1,11 @@
 //! Which facets a point may meet: a tree of boxes over the facets, asked for the facets near a point.
 
 use crate::math::Vec3;
+use crate::shape::ElementKind;
 
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Box3 {
+pub struct Box3 {
     low: Vec3,
     high: Vec3,
 }
@@ -29,8 +30,28 @@ impl Box3 {
         })
     }
 
+    /// A box around a facet with these nodes, bulges included.
+    pub fn around(kind: ElementKind, nodes: impl Iterator<Item = Vec3>) -> Box3 {
+        let mut b = Box3::of(nodes);
+        // Shape functions that add up to one in value and to at most Λ in size leave the box of the nodes by at most (Λ - 1)/2 of its
+        // extent: Λ is 5/4, 5/3 and 3.
+        let bulge = match kind {
+            ElementKind::Line3 => 0.125,
+            ElementKind::Tri6 => 1.0 / 3.0,
+            ElementKind::Quad8 => 1.0,
+            _ => return b,
+        };
+        for i in 0..3 {
+            let more = bulge * (b.high[i] - b.low[i]);
+            b.low[i] -= more;
+            b.high[i] += more;
+        }
+        b
+    }
+
     /// Squared distance from a point to the box.
-    fn distance2(&self, p: Vec3) -> f64 {
+    #[inline]
+    pub fn distance2(&self, p: Vec3) -> f64 {
         (0..3)
             .map(|i| {
                 (self.low[i] - p[i])
@@ -75,6 +96,36 @@ pub struct Tree {
 }
 
 const LEAF: usize = 4;
+
+/// More nodes than any walk through a tree has before it: two for each level, which halves its items.
+const STACK: usize = 2 * usize::BITS as usize;
+
+/// Nodes a walk through a tree has still to visit.
+struct Stack {
+    nodes: [usize; STACK],
+    count: usize,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Stack {
+            nodes: [0; STACK],
+            count: 1,
+        }
+    }
+
+    #[inline]
+    fn push(&mut self, node: usize) {
+        self.nodes[self.count] = node;
+        self.count += 1;
+    }
+
+    #[inline]
+    fn pop(&mut self) -> Option<usize> {
+        self.count = self.count.checked_sub(1)?;
+        Some(self.nodes[self.count])
+    }
+}
 
 impl Tree {
     /// Builds the tree over facets given by their node coordinates. A curved facet may bulge out of the box of its nodes by
@@ -132,7 +183,7 @@ impl Tree {
         }
         // The nearest facet is not farther than the farthest corner of any one box.
         let mut bound = f64::INFINITY;
-        let mut stack = vec![0];
+        let mut stack = Stack::new();
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i];
             if node.bounds.distance2(point) > bound {
@@ -142,7 +193,9 @@ impl Tree {
                 let (a, b) = (i + 1, node.index);
                 let near = |i: usize| self.nodes[i].bounds.distance2(point);
                 // the nearer child is looked at first
-                stack.extend(if near(a) <= near(b) { [b, a] } else { [a, b] });
+                let (first, second) = if near(a) <= near(b) { (a, b) } else { (b, a) };
+                stack.push(second);
+                stack.push(first);
             } else {
                 for &item in &self.items[node.index..node.index + node.count] {
                     bound = bound.min(self.boxes[item].farthest2(point));
@@ -150,14 +203,15 @@ impl Tree {
             }
         }
         let reach = (bound.sqrt() + margin).powi(2);
-        stack.push(0);
+        let mut stack = Stack::new();
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i];
             if node.bounds.distance2(point) > reach {
                 continue;
             }
             if node.count == 0 {
-                stack.extend([i + 1, node.index]);
+                stack.push(i + 1);
+                stack.push(node.index);
             } else {
                 let items = &self.items[node.index..node.index + node.count];
                 out.extend(

@@ -163,15 +163,15 @@ impl Linearised {
 /// `out = (bulk + blocks) v` on the free dofs.
 fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
     operator.matrix.mul(v, out);
+    let (mut moved, mut force) = (Vec::new(), Vec::new());
     for block in operator.blocks {
-        let n = block.dofs.len();
-        for (i, &dof) in block.dofs.iter().enumerate() {
-            let row = &block.tangent[i * n..(i + 1) * n];
-            out[dof] += row
-                .iter()
-                .zip(&block.dofs)
-                .map(|(k, &d)| k * v[d])
-                .sum::<f64>();
+        moved.clear();
+        moved.extend(block.dofs.iter().map(|&dof| v[dof]));
+        force.clear();
+        force.resize(moved.len(), 0.0);
+        block.apply(&moved, &mut force);
+        for (&dof, f) in block.dofs.iter().zip(&force) {
+            out[dof] += f;
         }
     }
     for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
