@@ -90,6 +90,10 @@ impl Bulk for Reduced<'_> {
         self.diagonal[dof]
     }
 
+    fn wants_surrogates(&self) -> bool {
+        false
+    }
+
     fn covers(&self, contact: &Assembler) -> Result<(), StepFailure> {
         for block in &contact.blocks {
             for &dof in &block.dofs {
