@@ -8,6 +8,7 @@ use super::inertia;
 use super::model::Solution;
 use super::pending::Pending;
 use super::run::{Observer, Simulation};
+use crate::contact::interface::Reach;
 use crate::error::Error;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
@@ -15,6 +16,15 @@ use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Plan, Reduced, Sh
 use crate::newton::{Progress, System};
 use crate::system::{Cause, State, StepFailure};
 use crate::time::Trial;
+
+/// Points of interfaces below which all of them are candidates.
+const FEW: usize = 60;
+
+/// How often candidates are added before all points are.
+const MOST_WIDENED: usize = 4;
+
+/// Times within a step at which supports are looked at.
+const SAMPLES: usize = 16;
 
 /// What was analysed for condensing: for these dofs that are no unknowns and these candidates.
 pub(super) struct Planned {
@@ -55,7 +65,7 @@ impl Simulation {
         }
         let step = &self.model.steps[self.step];
         let held = self.constraints(0.5 * (step.start + step.end)).fixed;
-        let kept = self.candidates();
+        let kept = self.kept.clone().unwrap_or_default();
         if let Some(condensed) = &mut self.condensed
             && self
                 .plan
@@ -154,8 +164,9 @@ impl Simulation {
     /// The analysis goes on with the sparse matrix.
     fn not_condensed(&mut self, why: &str) -> Option<Condensation> {
         self.condensed = None;
-        self.summary.method_reason = why.to_string();
+        self.notes.push(format!("bodies are not condensed: {why}"));
         self.model.method = Solution::Sparse;
+        self.choose_candidates();
         None
     }
 
@@ -168,19 +179,99 @@ impl Simulation {
             .collect()
     }
 
-    /// Points that may come into contact.
-    pub(super) fn candidates(&self) -> Vec<bool> {
-        let mut kept = vec![false; self.model.dofs.points];
-        for interface in &self.model.interfaces {
-            for &node in &interface.nodes {
-                kept[node] = true;
+    /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
+    /// not looked at.
+    pub(super) fn choose_candidates(&mut self) {
+        let points = self.model.dofs.points;
+        let mut kept = self.kept.take().unwrap_or_else(|| vec![false; points]);
+        let mut all = vec![false; points];
+        for &node in self.model.interfaces.iter().flat_map(|i| &i.nodes) {
+            all[node] = true;
+        }
+        let count = all.iter().filter(|a| **a).count();
+        if count < FEW || self.widened >= MOST_WIDENED || self.model.method == Solution::Sparse {
+            for interface in &mut self.model.interfaces {
+                interface.wake(&mut kept);
+            }
+        } else {
+            let step = &self.model.steps[self.step];
+            let travel = self.travel() * f64::powi(2.0, self.widened as i32);
+            let reach = Reach {
+                approach: travel + self.extra(),
+                along: travel,
+                span: [step.start, step.end],
+            };
+            for interface in &mut self.model.interfaces {
+                interface.limit(&self.state.u, reach, &mut kept);
             }
         }
         for link in self.model.links.all() {
             kept[link.points.clone()].fill(false);
             kept[link.hidden..link.hidden + 2].fill(true);
         }
-        kept
+        self.kept = Some(kept);
+    }
+
+    /// Distance beyond that of prescribed motion in which contact is looked for: more each time that it was too little.
+    fn extra(&self) -> f64 {
+        match self.widened {
+            0 => 0.0,
+            n => 0.01 * f64::powi(4.0, n as i32 - 1) * self.model.mesh.diameter(),
+        }
+    }
+
+    /// How far supports and initial velocities move anything in this step, at most.
+    fn travel(&self) -> f64 {
+        let step = &self.model.steps[self.step];
+        let mut times: Vec<f64> = (0..=SAMPLES)
+            .map(|k| step.start + (step.end - step.start) * k as f64 / SAMPLES as f64)
+            .collect();
+        times.extend(&step.milestones);
+        let mut largest = vec![0.0_f64; self.state.u.len()];
+        for t in times {
+            let constraints = self.constraints(t);
+            for (i, largest) in largest.iter_mut().enumerate() {
+                if constraints.fixed[i] {
+                    *largest = largest.max((constraints.values[i] - self.state.u[i]).abs());
+                }
+            }
+        }
+        for rigid in self.model.links.all() {
+            // the points of rigid bodies have no values of their own
+            largest[self.model.dofs.of(rigid.points.start, 0)
+                ..self.model.dofs.of(rigid.points.end, 0)]
+                .fill(0.0);
+        }
+        let dim = self.model.dofs.dim;
+        let moved = largest
+            .chunks(dim)
+            .map(|p| p.iter().map(|v| v * v).sum::<f64>().sqrt())
+            .fold(0.0, f64::max);
+        let speed = self
+            .state
+            .v
+            .chunks(dim)
+            .map(|p| p.iter().map(|v| v * v).sum::<f64>().sqrt())
+            .fold(0.0, f64::max);
+        2.0 * moved + 2.0 * speed * (step.end - step.start)
+    }
+
+    /// Contact has come to points that do not take part: lets more of them.
+    pub(super) fn widen(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        self.flush(observers)?;
+        self.widened += 1;
+        let before = self.kept.iter().flatten().filter(|k| **k).count();
+        self.choose_candidates();
+        let after = self.kept.iter().flatten().filter(|k| **k).count();
+        self.notes.push(format!(
+            "contact comes near to points that were not expected to be touched: {after} candidates instead of {before}, factored anew"
+        ));
+        self.condensed = None;
+        self.moving.clear();
+        if self.model.steps[self.step].dynamic.is_none() {
+            self.condense()?;
+        }
+        self.tell_notes(observers)
     }
 
     /// Tries a quasi-static increment on the candidates.
@@ -260,12 +351,24 @@ impl Simulation {
         self.tell(&seen, observers);
         let converged = converged?;
         self.check_change(&at.u)?;
+        self.check_reach()?;
         Ok(Accepted {
             contact: converged.contact.clone(),
             external,
             state: at,
             ..Accepted::from_newton(&converged)
         })
+    }
+
+    /// Refuses a solution with contact near points that do not take part.
+    pub(super) fn check_reach(&self) -> Result<(), StepFailure> {
+        if self.model.interfaces.iter().any(|i| i.spreads()) {
+            return Err(StepFailure::new(
+                Cause::Reach,
+                "contact comes near to points that were not expected to be touched",
+            ));
+        }
+        Ok(())
     }
 
     /// Makes an accepted attempt the state from which the next starts.
@@ -363,6 +466,24 @@ impl Simulation {
             .at(pending.trial.to)
             .into());
         }
+        let t = pending.trial.to;
+        for interface in &mut self.model.interfaces {
+            let overlooked = interface.overlooked(&pending.accepted.state.u, t);
+            if overlooked > 0 {
+                return Err(StepFailure::new(
+                    Cause::Reach,
+                    format!(
+                        "interface {}: {overlooked} points penetrate that were not expected to be touched",
+                        interface.name
+                    ),
+                )
+                .help("set `solver.method = \"sparse\"`, or take smaller increments")
+                .at(t)
+                .into());
+            }
+        }
+        let accepted = &mut pending.accepted;
+        let u = &accepted.state.u;
         accepted.strain = Some(0.5 * inertia::dot(u, &internal));
         accepted.forces = forces;
         let work = self.work(

@@ -261,6 +261,7 @@ impl Simulation {
             external: external.clone(),
             state: at,
         };
+        self.check_reach()?;
         let easy = self.judge(motion, dynamic, alphas, (dt, trial), &solved)?;
         let flow = self.flow(&motion.inertia, alphas, weight, &fixed, &solved);
         Ok(Accepted {
@@ -277,7 +278,7 @@ impl Simulation {
 
     /// Makes the condensed bodies for a matrix ready; `false` where the increment is solved with the sparse matrix.
     fn ready_to_move(&mut self, held: &[bool], (matrix, key): (&BlockCsr, u64)) -> bool {
-        let kept = self.candidates();
+        let kept = self.kept.clone().unwrap_or_default();
         let found = self
             .moving
             .iter()

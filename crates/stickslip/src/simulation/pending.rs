@@ -58,15 +58,27 @@ impl Simulation {
         }
         let mut pending = std::mem::take(&mut self.pending);
         self.recover(&mut pending);
+        // The interfaces tell what they knew after each of them.
+        let interfaces = self.model.interfaces.iter_mut();
+        let now: Vec<Memory> = interfaces.map(|i| std::mem::take(&mut i.memory)).collect();
+        let mut outcome = Ok(());
         for mut one in pending {
-            self.complete(&mut one)?;
-            for (interface, memory) in self.model.interfaces.iter_mut().zip(one.memories.drain(..))
-            {
+            let memories = std::mem::take(&mut one.memories);
+            for (interface, memory) in self.model.interfaces.iter_mut().zip(memories) {
                 interface.memory = memory;
             }
-            self.report(one, observers)?;
+            outcome = self.complete(&mut one);
+            if outcome.is_ok() {
+                outcome = self.report(one, observers);
+            }
+            if outcome.is_err() {
+                break;
+            }
         }
-        Ok(())
+        for (interface, memory) in self.model.interfaces.iter_mut().zip(now) {
+            interface.memory = memory;
+        }
+        outcome
     }
 
     /// Enters an increment into the ledger and tells the observers.
@@ -89,6 +101,17 @@ impl Simulation {
             for observer in observers.iter_mut() {
                 observer.see(self, Event::Output)?;
             }
+        }
+        Ok(())
+    }
+
+    /// Tells observers what has been noted.
+    pub(super) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        for note in std::mem::take(&mut self.notes) {
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Note(&note))?;
+            }
+            self.summary.notes.push(note);
         }
         Ok(())
     }

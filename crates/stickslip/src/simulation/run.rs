@@ -34,6 +34,10 @@ pub struct Simulation {
     pub(super) newton: Newton,
     pub(super) factors: Factors,
     pub(super) plan: Option<Planned>,
+    /// Points that may come into contact, and how often they were too few.
+    pub(super) kept: Option<Vec<bool>>,
+    pub(super) widened: usize,
+    pub(super) notes: Vec<String>,
     pub(super) condensed: Option<Condensed>,
     /// Condensed bodies of implicit increments, by the key of their matrix.
     pub(super) moving: Vec<(u64, Condensation, Gaps)>,
@@ -59,6 +63,8 @@ pub enum Event<'a> {
     Iteration(&'a Progress),
     /// An increment was accepted: the history row.
     Increment(&'a history::Row),
+    /// Something a user should know.
+    Note(&'a str),
     /// Fields are due at the state of the simulation.
     Output,
     /// An increment failed and will be tried again, smaller.
@@ -134,6 +140,9 @@ impl Simulation {
             newton,
             factors: Factors::default(),
             plan: None,
+            kept: None,
+            widened: 0,
+            notes: Vec::new(),
             condensed: None,
             moving: Vec::new(),
             pending: Vec::new(),
@@ -182,15 +191,20 @@ impl Simulation {
                         self.summary.energy.initial += interface.use_springs(false);
                     }
                     match dynamic.method {
-                        Method::Implicit(_) => self.start_motion(&dynamic)?,
+                        Method::Implicit(_) => {
+                            self.start_motion(&dynamic)?;
+                            self.choose_candidates();
+                        }
                         Method::Explicit { .. } => self.start_explicit(&dynamic)?,
                     }
                 }
                 None => {
                     self.rest();
+                    self.choose_candidates();
                     self.condense()?;
                 }
             }
+            self.tell_notes(observers)?;
             self.run_step(observers)?;
         }
         Ok(())
@@ -267,6 +281,7 @@ impl Simulation {
                     }
                     attempt = 1;
                 }
+                Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
                 Err(failure) => {
                     attempt += 1;
                     self.reject(&step, &trial, &failure);

@@ -22,6 +22,8 @@ pub struct Summary {
     pub method: String,
     /// Why so.
     pub method_reason: String,
+    /// What else a user should know.
+    pub notes: Vec<String>,
     /// Size of the problem.
     pub size: Size,
     /// Accepted increments.

@@ -355,6 +355,9 @@ impl Interface {
         anchor: &mut Option<Anchor>,
         batch: &mut Batch,
     ) -> Evaluation {
+        if self.memory.asleep.get(i) == Some(&true) {
+            return Evaluation::open(f64::INFINITY);
+        }
         match &self.primary {
             Primary::Rigid(..) => self.evaluate_rigid(i, scene, batch),
             Primary::Facets(facets) => self.evaluate_facet(i, facets, scene, last, anchor, batch),

@@ -1,6 +1,7 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
 mod evaluate;
+mod reach;
 mod report;
 mod springs;
 
@@ -9,6 +10,7 @@ mod tests;
 
 use rayon::prelude::*;
 
+pub use reach::Reach;
 pub use report::{Quality, Resultant};
 
 use super::enforcement::Multipliers;
@@ -97,6 +99,10 @@ pub struct Memory {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     inertia: Vec<f64>,
     softening: Option<f64>,
+    /// Points that do not take part; empty where all do.
+    asleep: Vec<bool>,
+    /// Points within the part of the reach in which contact is expected to stay.
+    inner: Vec<bool>,
 }
 
 /// An evaluation of all points.
