@@ -22,8 +22,8 @@ impl Progress {
     }
 }
 
-/// A closed standard error is no reason to stop.
-fn say(text: &str) {
+/// Prints a line. A closed standard error is no reason to stop.
+pub fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 

@@ -6,7 +6,9 @@ pub mod curve;
 pub mod models;
 pub mod run;
 pub mod schema;
+pub mod sweep;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stickslip::Error;
@@ -16,6 +18,16 @@ pub fn located(document: &stickslip::problem::Document, error: Error) -> Error {
     match error {
         Error::Problem(e) if e.source.is_empty() => Error::Problem(document.error(e.findings)),
         other => other,
+    }
+}
+
+/// Sets the number of threads, if one was chosen. To be called before anything else uses threads.
+pub fn use_threads(threads: Option<usize>) {
+    if let Some(threads) = threads {
+        // Fails only if a pool exists already, which cannot be: this is the first use.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global();
     }
 }
 
@@ -29,6 +41,15 @@ pub enum Failure {
     Library(Error),
     /// From the command line itself: the message and what to do.
     Arguments(String, String),
+    /// Runs of a sweep failed; its table is written all the same.
+    Runs {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        all: usize,
+        /// The table.
+        table: PathBuf,
+    },
     /// Standard output is closed or full.
     Output(std::io::Error),
 }

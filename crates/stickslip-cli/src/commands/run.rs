@@ -5,7 +5,7 @@ use std::time::Instant;
 use stickslip::problem::Document;
 use stickslip::simulation::{Observer, ResultFiles, Simulation};
 
-use super::{Outcome, located};
+use super::{Outcome, located, use_threads};
 use crate::progress::Progress;
 
 /// Run an analysis and write its results.
@@ -32,12 +32,7 @@ pub struct Arguments {
 
 /// Runs the analysis.
 pub fn run(arguments: &Arguments) -> Outcome {
-    if let Some(threads) = arguments.threads {
-        // Fails only if a pool exists already, which cannot be: this is the first use.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global();
-    }
+    use_threads(arguments.threads);
     let started = Instant::now();
     let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
     let problem = document.problem()?;

@@ -5,10 +5,12 @@
 //! systems.
 
 mod block_csr;
+mod compliance;
 mod dense;
 mod error;
 mod factor;
 mod gmres;
+mod multifrontal;
 mod ordering;
 mod pattern;
 mod residual;
@@ -17,10 +19,12 @@ mod symbolic;
 mod testing;
 
 pub use block_csr::BlockCsr;
+pub use compliance::Compliance;
 pub use dense::DenseLu;
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
+pub use multifrontal::{Fronts, PartialFactor};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use symbolic::Symbolic;

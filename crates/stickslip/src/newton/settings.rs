@@ -44,12 +44,18 @@ pub struct Statistics {
     pub factorisations: usize,
     /// Krylov iterations.
     pub krylov: usize,
+    /// Factorisations of matrices of gaps and slips.
+    pub reduced: usize,
     /// Seconds in symbolic factorisation.
     pub seconds_order: f64,
     /// Seconds in numeric factorisation.
     pub seconds_factor: f64,
     /// Seconds in solves.
     pub seconds_solve: f64,
+    /// Seconds in inverting what partial factorisations leave.
+    pub seconds_condense: f64,
+    /// Seconds in finding interiors.
+    pub seconds_recover: f64,
     /// Seconds in search, pairing and assembly of interfaces.
     pub seconds_contact: f64,
     /// Nonzeros of the last factor.

@@ -61,11 +61,10 @@ impl Accepted {
 }
 
 impl Simulation {
-    /// Makes an attempt the last accepted state.
-    pub(super) fn accept(&mut self, trial: Trial, accepted: Accepted) -> history::Effort {
-        let effort = accepted.summary();
+    /// Tells the interfaces that an attempt is accepted.
+    pub(super) fn commit(&mut self, from: &State, trial: Trial, accepted: &Accepted) {
         let stage = Stage {
-            from: &self.state,
+            from,
             at: &accepted.state,
             dt: trial.to - trial.from,
             rate: accepted
@@ -76,7 +75,11 @@ impl Simulation {
         for interface in &mut self.model.interfaces {
             interface.commit(&stage);
         }
-        self.previous = Some((trial.to - trial.from, std::mem::take(&mut self.state.u)));
+    }
+
+    /// Makes an accepted attempt the last state, and enters it into the ledger.
+    pub(super) fn book(&mut self, accepted: Accepted) -> history::Effort {
+        let effort = accepted.summary();
         self.state = accepted.state;
         self.forces = accepted.forces;
         self.contact = accepted.contact;

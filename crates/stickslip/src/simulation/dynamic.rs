@@ -5,7 +5,7 @@ use super::inertia::{self, Inertia, dot, times};
 use super::model::{ContactAt, Dynamic};
 use super::run::{Observer, Simulation};
 use crate::error::Error;
-use crate::newton::{Origin, System};
+use crate::newton::{Origin, System, Whole};
 use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -192,23 +192,32 @@ impl Simulation {
         };
         let mut seen = Vec::new();
         let converged = {
-            let Simulation { model, newton, .. } = self;
+            let Simulation {
+                model,
+                newton,
+                factors,
+                ..
+            } = self;
             let Some((matrix, diagonal, key)) = inertia.matrix() else {
                 return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
             };
+            let origin = Origin {
+                at: guess,
+                forces,
+                scale: scale / weight,
+            };
+            let mut bulk = Whole::new(
+                (matrix, diagonal),
+                vec![0.0; at.u.len()],
+                fixed.clone(),
+                Some(origin),
+                factors.of(key),
+            );
             let mut system = System {
                 dofs: model.dofs,
-                matrix,
-                diagonal,
-                external: vec![0.0; guess.len()],
+                bulk: &mut bulk,
                 constraints,
                 links: &model.links,
-                origin: Some(Origin {
-                    at: guess,
-                    forces,
-                    scale: scale / weight,
-                }),
-                key,
                 rate: Some(Rate {
                     gain: &gain,
                     shift: &shift,

@@ -2,6 +2,7 @@
 
 mod accepted;
 pub mod compare;
+mod condense;
 mod conditions;
 mod diagnosis;
 mod dynamic;
@@ -12,6 +13,7 @@ mod inertia;
 mod leap;
 mod ledger;
 mod model;
+mod pending;
 mod run;
 mod spin;
 mod statics;
@@ -22,7 +24,7 @@ pub use files::{ResultFiles, fields};
 pub use history::Row;
 pub use ledger::EnergyLedger;
 pub use model::{
-    Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Step, Support,
+    Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Solution, Step, Support,
 };
 pub use run::{Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

@@ -44,6 +44,8 @@ pub struct Model {
     pub output: OutputPlan,
     /// Settings of Newton's method.
     pub settings: Settings,
+    /// How its systems are solved.
+    pub method: Solution,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,
     /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
@@ -105,6 +107,29 @@ pub struct Initial {
     pub velocities: Vec<(usize, f64)>,
     /// The step, a dynamic one.
     pub step: usize,
+}
+
+/// How the systems of Newton's method are solved.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solution {
+    /// Whatever costs least by the counts of the symbolic factorisation.
+    #[default]
+    Automatic,
+    /// Bodies are factored once and felt at the contact candidates only.
+    Condensed,
+    /// The sparse matrix of everything is factored when the interfaces have changed much.
+    Sparse,
 }
 
 /// How a dynamic step is integrated.

@@ -1,16 +1,20 @@
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Instant;
 
+use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
 use super::model::{Dynamic, Model, Step};
+use super::pending::Pending;
 use super::summary::{Phases, Summary};
 use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::{Newton, Progress};
+use crate::newton::condensed::Substructure;
+use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, Force, State, StepFailure};
 use crate::time::scheme::Method;
 use crate::time::{Stepper, Trial};
@@ -28,6 +32,10 @@ pub struct Simulation {
     pub(super) matrix: BlockCsr,
     pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
+    pub(super) factors: Factors,
+    pub(super) condensed: Option<Condensed>,
+    pub(super) pending: Vec<Pending>,
+    pub(super) substructures: Vec<Arc<Substructure>>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
@@ -121,6 +129,10 @@ impl Simulation {
             diagonal: matrix.diagonal(),
             matrix,
             newton,
+            factors: Factors::default(),
+            condensed: None,
+            pending: Vec::new(),
+            substructures: Vec::new(),
             previous: None,
             held: BTreeMap::new(),
             released: Vec::new(),
@@ -160,6 +172,7 @@ impl Simulation {
             match self.model.steps[step].dynamic {
                 Some(dynamic) => {
                     self.explicit = None;
+                    self.condensed = None;
                     for interface in &mut self.model.interfaces {
                         self.summary.energy.initial += interface.use_springs(false);
                     }
@@ -168,7 +181,10 @@ impl Simulation {
                         Method::Explicit { .. } => self.start_explicit(&dynamic)?,
                     }
                 }
-                None => self.rest(),
+                None => {
+                    self.rest();
+                    self.condense()?;
+                }
             }
             self.run_step(observers)?;
         }
@@ -223,36 +239,34 @@ impl Simulation {
                     } else {
                         accepted.iterations
                     };
-                    let effort = self.accept(trial, accepted);
                     stepper.accept(trial, iterations);
-                    if step.milestones.contains(&trial.to) {
-                        // Tables have their corners here.
-                        self.previous = None;
-                    }
                     let plan = &self.model.output;
                     let last = stepper.next().is_none();
                     let due = last
                         || plan.times.contains(&trial.to)
                         || (plan.every > 0 && increment % plan.every == 0);
-                    if due || increment % plan.history_every == 0 {
-                        let row = history::row(self, trial, effort, (increment, attempt));
-                        let named = row.names.iter().cloned().zip(row.values.iter().copied());
-                        self.summary.last = named.collect();
-                        for observer in observers.iter_mut() {
-                            observer.see(self, Event::Increment(&row))?;
-                        }
+                    let pending = Pending {
+                        trial,
+                        accepted,
+                        increment,
+                        attempt,
+                        fields: due,
+                        row: due || increment % plan.history_every == 0,
+                        memories: Vec::new(),
+                        found: None,
+                    };
+                    self.go_on(pending, last, observers)?;
+                    if step.milestones.contains(&trial.to) {
+                        // Tables have their corners here.
+                        self.forget_direction();
                     }
                     attempt = 1;
-                    if due {
-                        for observer in observers.iter_mut() {
-                            observer.see(self, Event::Output)?;
-                        }
-                    }
                 }
                 Err(failure) => {
                     attempt += 1;
                     self.reject(&step, &trial, &failure);
                     if !stepper.reject(trial) {
+                        self.flush(observers)?;
                         return Err(self.give_up(failure).into());
                     }
                     for observer in observers.iter_mut() {
@@ -267,7 +281,7 @@ impl Simulation {
     /// Takes note of an attempt that failed.
     fn reject(&mut self, step: &Step, trial: &Trial, failure: &StepFailure) {
         // What the last increment did is no guide any more.
-        self.previous = None;
+        self.forget_direction();
         let summary = &mut self.summary;
         if failure.cause == Cause::Event {
             summary.events += 1;

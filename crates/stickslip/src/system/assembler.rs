@@ -50,6 +50,15 @@ impl ContactBlock {
     }
 }
 
+impl ContactBlock {
+    /// Adds the tangent times `v`, both over the dofs of the block.
+    pub fn apply(&self, v: &[f64], out: &mut [f64]) {
+        for (row, out) in self.tangent.chunks_exact(v.len().max(1)).zip(out) {
+            *out += row.iter().zip(v).map(|(k, v)| k * v).sum::<f64>();
+        }
+    }
+}
+
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a> {

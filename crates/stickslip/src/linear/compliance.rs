@@ -1,0 +1,357 @@
+use std::sync::OnceLock;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{
+    LltError, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
+use faer::linalg::cholesky::llt::inverse::{inverse, inverse_scratch};
+use faer::{Mat, MatMut, Par, Spec};
+use rayon::prelude::*;
+
+use super::LinearError;
+
+/// The inverse of a dense symmetric positive definite matrix, for products with vectors.
+///
+/// Products read one triangle only: they are as fast as memory delivers half of the matrix. Their bits do not depend on the
+/// number of threads.
+#[derive(Debug)]
+pub struct Compliance {
+    n: usize,
+    /// Column by column, both triangles.
+    values: Vec<f64>,
+    single: OnceLock<Vec<f32>>,
+}
+
+/// Columns below which one task does everything.
+const SMALL: usize = 512;
+
+/// Tasks of a product with a larger matrix.
+const TASKS: usize = 8;
+
+/// Numbers that a product can be made with.
+trait Number: Copy + Send + Sync + 'static {
+    const ZERO: Self;
+    fn of(x: f64) -> Self;
+    fn to(self) -> f64;
+    fn times(self, other: Self) -> Self;
+    fn plus(self, other: Self) -> Self;
+}
+
+impl Number for f64 {
+    const ZERO: f64 = 0.0;
+    fn of(x: f64) -> f64 {
+        x
+    }
+    fn to(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn times(self, other: f64) -> f64 {
+        self * other
+    }
+    #[inline(always)]
+    fn plus(self, other: f64) -> f64 {
+        self + other
+    }
+}
+
+impl Number for f32 {
+    const ZERO: f32 = 0.0;
+    fn of(x: f64) -> f32 {
+        x as f32
+    }
+    fn to(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline(always)]
+    fn times(self, other: f32) -> f32 {
+        self * other
+    }
+    #[inline(always)]
+    fn plus(self, other: f32) -> f32 {
+        self + other
+    }
+}
+
+impl Compliance {
+    /// The inverse of `stiffness`, of which the lower triangle is read.
+    ///
+    /// # Errors
+    /// [`LinearError::NotPositive`] with the row, [`LinearError::OutOfMemory`].
+    pub fn of(mut stiffness: Mat<f64>) -> Result<Compliance, LinearError> {
+        let n = stiffness.nrows();
+        if n == 0 {
+            return Ok(Compliance::from_values(0, Vec::new()));
+        }
+        let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default())
+            .or(inverse_scratch::<f64>(n, Par::Seq));
+        let lost = LinearError::OutOfMemory {
+            bytes: 16 * (n * n) as u64,
+        };
+        let Ok(mut memory) = MemBuffer::try_new(scratch) else {
+            return Err(lost);
+        };
+        let mut values: Vec<f64> = Vec::new();
+        if values.try_reserve_exact(n * n).is_err() {
+            return Err(lost);
+        }
+        values.resize(n * n, 0.0);
+        let done = cholesky_in_place(
+            stiffness.as_mut(),
+            LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            Spec::default(),
+        );
+        if let Err(LltError::NonPositivePivot { index }) = done {
+            return Err(LinearError::NotPositive { dof: index });
+        }
+        inverse(
+            MatMut::from_column_major_slice_mut(&mut values, n, n),
+            stiffness.as_ref(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+        );
+        mirror(n, &mut values);
+        if let Some(at) = values.iter().position(|v| !v.is_finite()) {
+            return Err(LinearError::NotFinite { dof: at % n });
+        }
+        Ok(Compliance::from_values(n, values))
+    }
+
+    /// A compliance given by all its values, column by column.
+    ///
+    /// # Panics
+    /// If there are not `n²` of them.
+    pub fn from_values(n: usize, values: Vec<f64>) -> Compliance {
+        assert_eq!(values.len(), n * n, "size of a compliance");
+        Compliance {
+            n,
+            values,
+            single: OnceLock::new(),
+        }
+    }
+
+    /// Rows.
+    pub fn size(&self) -> usize {
+        self.n
+    }
+
+    /// All values, column by column.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// A column in single precision.
+    pub fn column(&self, j: usize) -> &[f32] {
+        &self.single()[j * self.n..(j + 1) * self.n]
+    }
+
+    fn single(&self) -> &[f32] {
+        self.single
+            .get_or_init(|| self.values.par_iter().map(|&v| v as f32).collect())
+    }
+
+    /// `y = W x`.
+    ///
+    /// # Panics
+    /// If `x` or `y` has not one entry a row.
+    pub fn mul(&self, x: &[f64], y: &mut [f64]) {
+        product(self.n, &self.values, x, y);
+    }
+
+    /// The same with the matrix and the vector rounded to single precision.
+    ///
+    /// # Panics
+    /// If `x` or `y` has not one entry a row.
+    pub fn mul_single(&self, x: &[f64], y: &mut [f64]) {
+        product(self.n, self.single(), x, y);
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> u64 {
+        let single = self.single.get().map_or(0, Vec::len);
+        8 * self.values.len() as u64 + 4 * single as u64
+    }
+}
+
+/// Copies the lower triangle to the upper one, tile by tile.
+fn mirror(n: usize, values: &mut [f64]) {
+    const TILE: usize = 32;
+    for j0 in (0..n).step_by(TILE) {
+        for i0 in (j0..n).step_by(TILE) {
+            for j in j0..(j0 + TILE).min(n) {
+                for i in i0.max(j + 1)..(i0 + TILE).min(n) {
+                    values[i * n + j] = values[j * n + i];
+                }
+            }
+        }
+    }
+}
+
+/// First columns of tasks with about equal parts of the lower triangle.
+fn partition(n: usize) -> Vec<usize> {
+    let tasks = if n < SMALL { 1 } else { TASKS };
+    let mut starts: Vec<usize> = (0..tasks)
+        .map(|k| {
+            let left = 1.0 - k as f64 / tasks as f64;
+            // columns come in fours
+            ((n as f64 * (1.0 - left.sqrt())) as usize) & !3
+        })
+        .collect();
+    starts.push(n);
+    starts
+}
+
+fn product<T: Number>(n: usize, values: &[T], x: &[f64], y: &mut [f64]) {
+    assert!(x.len() == n && y.len() == n, "length of a vector");
+    let x: Vec<T> = x.iter().map(|&x| T::of(x)).collect();
+    let starts = partition(n);
+    let parts: Vec<Vec<T>> = starts
+        .par_windows(2)
+        .map(|range| {
+            let mut part = vec![T::ZERO; n - range[0]];
+            let work = || lower_columns(n, values, range[0]..range[1], &x, &mut part);
+            pulp::Arch::new().dispatch(work);
+            part
+        })
+        .collect();
+    y.fill(0.0);
+    for (part, start) in parts.iter().zip(&starts) {
+        for (y, p) in y[*start..].iter_mut().zip(part) {
+            *y += p.to();
+        }
+    }
+}
+
+/// What the columns of the lower triangle and the rows that mirror them add to the product; `y` starts at the first column.
+#[inline(always)]
+fn lower_columns<T: Number>(
+    n: usize,
+    values: &[T],
+    columns: std::ops::Range<usize>,
+    x: &[T],
+    y: &mut [T],
+) {
+    const LANES: usize = 8;
+    let first = columns.start;
+    let mut j = first;
+    while j < columns.end {
+        let width = (columns.end - j).min(4);
+        // the triangle on the diagonal
+        for a in j..j + width {
+            for b in j..=a {
+                let v = values[b * n + a];
+                y[a - first] = y[a - first].plus(v.times(x[b]));
+                if a != b {
+                    y[b - first] = y[b - first].plus(v.times(x[a]));
+                }
+            }
+        }
+        let below = j + width;
+        if width == 4 {
+            let column = |k: usize| &values[(j + k) * n + below..(j + k + 1) * n];
+            let c = [column(0), column(1), column(2), column(3)];
+            let s = [x[j], x[j + 1], x[j + 2], x[j + 3]];
+            let xs = &x[below..n];
+            let ys = &mut y[below - first..];
+            let mut sums = [[T::ZERO; LANES]; 4];
+            let whole = xs.len() / LANES * LANES;
+            for i in (0..whole).step_by(LANES) {
+                let xv = &xs[i..i + LANES];
+                let cv = [0, 1, 2, 3].map(|k| &c[k][i..i + LANES]);
+                let yv = &mut ys[i..i + LANES];
+                for l in 0..LANES {
+                    let mut sum = yv[l];
+                    for k in 0..4 {
+                        let v = cv[k][l];
+                        sum = sum.plus(v.times(s[k]));
+                        sums[k][l] = sums[k][l].plus(v.times(xv[l]));
+                    }
+                    yv[l] = sum;
+                }
+            }
+            for i in whole..xs.len() {
+                for k in 0..4 {
+                    let v = c[k][i];
+                    ys[i] = ys[i].plus(v.times(s[k]));
+                    sums[k][0] = sums[k][0].plus(v.times(xs[i]));
+                }
+            }
+            for (k, lanes) in sums.iter().enumerate() {
+                let sum = lanes.iter().fold(T::ZERO, |a, &b| a.plus(b));
+                y[j + k - first] = y[j + k - first].plus(sum);
+            }
+        } else {
+            for k in j..j + width {
+                let mut sum = T::ZERO;
+                for i in below..n {
+                    let v = values[k * n + i];
+                    y[i - first] = y[i - first].plus(v.times(x[k]));
+                    sum = sum.plus(v.times(x[i]));
+                }
+                y[k - first] = y[k - first].plus(sum);
+            }
+        }
+        j += width;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::noise;
+    use super::*;
+
+    fn sample(n: usize) -> Mat<f64> {
+        let b = noise(&mut 3, n * n);
+        let product = |i: usize, j: usize| -> f64 {
+            (0..n.min(20)).map(|k| b[i * n + k] * b[j * n + k]).sum()
+        };
+        Mat::from_fn(n, n, |i, j| product(i, j) + if i == j { 3.0 } else { 0.0 })
+    }
+
+    #[test]
+    fn undoes_the_stiffness() {
+        for n in [1, 3, 4, 7, 40, 61, 530] {
+            let s = sample(n);
+            let w = Compliance::of(s.clone()).unwrap();
+            let x = noise(&mut 9, n);
+            let f: Vec<f64> = (0..n)
+                .map(|i| (0..n).map(|j| s[(i, j)] * x[j]).sum())
+                .collect();
+            let mut y = vec![f64::NAN; n];
+            w.mul(&f, &mut y);
+            assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-11), "{n}");
+            w.mul_single(&f, &mut y);
+            assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 2e-3), "{n}");
+            let j = n / 2;
+            for (i, &v) in w.column(j).iter().enumerate() {
+                assert_eq!(v, w.values()[i * n + j] as f32);
+            }
+        }
+    }
+
+    #[test]
+    fn products_do_not_depend_on_threads() {
+        let w = Compliance::of(sample(600)).unwrap();
+        let x = noise(&mut 5, 600);
+        let product = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let mut y = vec![0.0; 600];
+            pool.build().unwrap().install(|| w.mul(&x, &mut y));
+            y.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+        };
+        assert_eq!(product(1), product(3));
+    }
+
+    #[test]
+    fn what_is_not_positive_is_refused() {
+        let mut s = sample(5);
+        s[(3, 3)] = -1.0;
+        assert_eq!(
+            Compliance::of(s).unwrap_err(),
+            LinearError::NotPositive { dof: 3 }
+        );
+        assert_eq!(Compliance::of(Mat::zeros(0, 0)).unwrap().size(), 0);
+    }
+}

@@ -1,0 +1,287 @@
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::substructure::{Identity, Substructure};
+use crate::linear::{BlockCsr, Fronts, LinearError};
+use crate::math::Vec3;
+
+/// What is to be condensed: known before any arithmetic.
+#[derive(Debug)]
+pub struct Plan {
+    /// By part of the model.
+    parts: Vec<(Identity, Arc<Fronts>)>,
+    /// Seconds of ordering and symbolic factorisation.
+    pub seconds: f64,
+}
+
+/// What a plan costs.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Cost {
+    /// Additions and multiplications of the partial factorisations.
+    pub factor: f64,
+    /// Those of the inverses.
+    pub condense: f64,
+    /// Entries of the sparse factors.
+    pub nonzeros: f64,
+    /// Entries of the inverses.
+    pub dense: f64,
+    /// Candidate dofs.
+    pub candidates: usize,
+    /// Peak memory `[bytes]`.
+    pub bytes: u64,
+}
+
+impl Plan {
+    /// Analyses every part of the model, given by its points, on its own: parts must not be coupled. `fixed` marks dofs that are no unknowns,
+    /// `kept` the points that may come into contact, and `key` tells matrices apart.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn new(
+        matrix: &BlockCsr,
+        parts: &[Range<usize>],
+        fixed: &[bool],
+        kept: &[bool],
+        key: u64,
+    ) -> Result<Plan, LinearError> {
+        let started = Instant::now();
+        let b = matrix.block_size();
+        let parts: Result<Vec<_>, LinearError> = parts
+            .par_iter()
+            .map(|points| {
+                let identity = Identity {
+                    matrix: key,
+                    points: points.clone(),
+                    fixed: fixed[points.start * b..points.end * b].to_vec(),
+                    kept: kept[points.clone()].to_vec(),
+                };
+                let fronts = Fronts::analyze(matrix, points.clone(), fixed, kept)?;
+                Ok((identity, Arc::new(fronts)))
+            })
+            .collect();
+        Ok(Plan {
+            parts: parts?,
+            seconds: started.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// The same analysis for another matrix with the same pattern.
+    pub fn for_matrix(&self, key: u64) -> Plan {
+        let parts = self.parts.iter().map(|(identity, fronts)| {
+            let identity = Identity {
+                matrix: key,
+                ..identity.clone()
+            };
+            (identity, Arc::clone(fronts))
+        });
+        Plan {
+            parts: parts.collect(),
+            seconds: 0.0,
+        }
+    }
+
+    /// What it would cost to carry it out.
+    pub fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        for (_, fronts) in &self.parts {
+            let n = fronts.root().len() as f64;
+            cost.factor += fronts.flops();
+            cost.condense += n * n * n;
+            cost.nonzeros += fronts.nonzeros() as f64;
+            cost.dense += n * n;
+            cost.candidates += fronts.root().len();
+            cost.bytes += fronts.peak_bytes();
+        }
+        // the inverse, its copy in single precision and the work space
+        cost.bytes += (28.0 * cost.dense) as u64;
+        cost
+    }
+}
+
+/// All bodies without their interiors.
+#[derive(Debug)]
+pub struct Condensation {
+    /// The bodies.
+    pub parts: Vec<Arc<Substructure>>,
+    /// Where the candidates of each part start in [`dofs`](Condensation::dofs), and their number.
+    pub starts: Vec<usize>,
+    /// The candidate dofs, part by part.
+    pub dofs: Vec<usize>,
+    /// Dofs that are no candidates.
+    pub fixed: Vec<bool>,
+    /// Dofs that are neither candidates nor interior: prescribed ones.
+    pub held: Vec<bool>,
+    place: Vec<u32>,
+}
+
+/// No candidate.
+const NONE: u32 = u32::MAX;
+
+impl Condensation {
+    /// Carries out a plan, taking what it can from substructures made before. Also returns how many parts were factored.
+    ///
+    /// # Errors
+    /// Those of [`Substructure::new`].
+    pub fn new(
+        plan: &Plan,
+        matrix: &BlockCsr,
+        held: &[bool],
+        known: &[Arc<Substructure>],
+        point: &(dyn Fn(usize) -> Option<Vec3> + Sync),
+        typical: f64,
+    ) -> Result<(Condensation, usize), LinearError> {
+        let parts: Result<Vec<(Arc<Substructure>, bool)>, LinearError> = plan
+            .parts
+            .par_iter()
+            .map(
+                |(identity, fronts)| match known.iter().find(|k| k.identity == *identity) {
+                    Some(same) => Ok((Arc::clone(same), false)),
+                    None => {
+                        let made =
+                            Substructure::new(identity.clone(), fronts, matrix, point, typical)?;
+                        Ok((Arc::new(made), true))
+                    }
+                },
+            )
+            .collect();
+        let parts = parts?;
+        let made = parts.iter().filter(|(_, made)| *made).count();
+        let parts: Vec<Arc<Substructure>> = parts.into_iter().map(|(part, _)| part).collect();
+        let (mut starts, mut dofs) = (vec![0], Vec::new());
+        for part in &parts {
+            dofs.extend(part.root().iter().map(|&d| d as usize));
+            starts.push(dofs.len());
+        }
+        let mut place = vec![NONE; held.len()];
+        let mut fixed = vec![true; held.len()];
+        for (i, &dof) in dofs.iter().enumerate() {
+            place[dof] = i as u32;
+            fixed[dof] = false;
+        }
+        let condensation = Condensation {
+            parts,
+            starts,
+            dofs,
+            fixed,
+            held: held.to_vec(),
+            place,
+        };
+        Ok((condensation, made))
+    }
+
+    /// Number of candidate dofs.
+    pub fn size(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// The position of a dof among the candidates.
+    pub fn place(&self, dof: usize) -> Option<usize> {
+        match self.place[dof] {
+            NONE => None,
+            at => Some(at as usize),
+        }
+    }
+
+    /// The entries of a vector over all dofs at the candidates.
+    pub fn gather(&self, all: &[f64]) -> Vec<f64> {
+        self.dofs.iter().map(|&dof| all[dof]).collect()
+    }
+
+    /// Writes entries at the candidates into a vector over all dofs.
+    pub fn scatter(&self, values: &[f64], all: &mut [f64]) {
+        for (&dof, &value) in self.dofs.iter().zip(values) {
+            all[dof] = value;
+        }
+    }
+
+    /// `W s`.
+    pub fn yielding(&self, s: &[f64]) -> Vec<f64> {
+        let parts: Vec<Vec<f64>> = self
+            .parts
+            .par_iter()
+            .zip(self.starts.par_windows(2))
+            .map(|(part, range)| {
+                let mut u = vec![0.0; range[1] - range[0]];
+                part.compliance.mul(&s[range[0]..range[1]], &mut u);
+                u
+            })
+            .collect();
+        parts.concat()
+    }
+
+    /// Takes the forces of the artificial springs, `σ R Rᵀ u`, away from `s`.
+    pub fn release(&self, u: &[f64], s: &mut [f64]) {
+        for (part, range) in self.parts.iter().zip(self.starts.windows(2)) {
+            let Some(floating) = &part.floating else {
+                continue;
+            };
+            let u = &u[range[0]..range[1]];
+            for mode in &floating.modes {
+                let force = floating.sigma * super::substructure::dot(mode, u);
+                for (s, m) in s[range[0]..range[1]].iter_mut().zip(mode) {
+                    *s -= force * m;
+                }
+            }
+        }
+    }
+
+    /// Sweeps forces over all dofs forward. Returns what is left of them at the candidates, and in the interiors what
+    /// [`recover`](Condensation::recover) needs of them.
+    pub fn sweep(&self, forces: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let swept: Vec<(Vec<f64>, Vec<f64>)> = self
+            .parts
+            .par_iter()
+            .map(|part| {
+                let fronts = part.partial.fronts();
+                let take = |dofs: &[u32]| -> Vec<f64> {
+                    dofs.iter().map(|&d| forces[d as usize]).collect()
+                };
+                let (mut interior, mut root) = (take(fronts.interior()), take(fronts.root()));
+                part.partial.forward(&mut interior, &mut root, 1);
+                (root, interior)
+            })
+            .collect();
+        let (roots, interiors): (Vec<_>, Vec<_>) = swept.into_iter().unzip();
+        (roots.concat(), interiors)
+    }
+
+    /// Finds the interiors of several states in one sweep. For each state `swept` has forces as [`sweep`](Condensation::sweep) leaves them, part
+    /// by part, and `at` the displacements of the candidates; both are written into the states' vectors over all dofs.
+    pub fn recover(&self, mut swept: Vec<Vec<Vec<f64>>>, at: &[Vec<f64>], all: &mut [Vec<f64>]) {
+        let columns = at.len();
+        let found: Vec<Vec<f64>> = (0..self.parts.len())
+            .map(|k| {
+                let mut interior = Vec::new();
+                for state in &mut swept {
+                    interior.append(&mut state[k]);
+                }
+                interior
+            })
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .enumerate()
+            .map(|(k, mut interior)| {
+                let range = self.starts[k]..self.starts[k + 1];
+                let root: Vec<f64> = at.iter().flat_map(|u| u[range.clone()].to_vec()).collect();
+                self.parts[k]
+                    .partial
+                    .backward(&mut interior, &root, columns);
+                interior
+            })
+            .collect();
+        for (part, interior) in self.parts.iter().zip(&found) {
+            let dofs = part.partial.fronts().interior();
+            for (all, values) in all.iter_mut().zip(interior.chunks(dofs.len().max(1))) {
+                for (&dof, &value) in dofs.iter().zip(values) {
+                    all[dof as usize] = value;
+                }
+            }
+        }
+        for (all, values) in all.iter_mut().zip(at) {
+            self.scatter(values, all);
+        }
+    }
+}

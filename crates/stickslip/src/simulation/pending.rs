@@ -1,0 +1,103 @@
+//! Accepted increments on their way into the results.
+
+use super::accepted::Accepted;
+use super::history;
+use super::run::{Event, Observer, Simulation};
+use crate::contact::interface::Memory;
+use crate::error::Error;
+use crate::newton::condensed::Amplitudes;
+use crate::time::Trial;
+
+/// An accepted increment that nobody has been told of.
+pub(super) struct Pending {
+    pub trial: Trial,
+    pub accepted: Accepted,
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    pub attempt: usize,
+    /// Whether fields, and a row of the history, are due.
+    pub fields: bool,
+    pub row: bool,
+    /// What the interfaces knew after it; empty if it is reported at once.
+    pub memories: Vec<Memory>,
+    /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
+    pub found: Option<(Amplitudes, Vec<f64>)>,
+}
+
+/// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
+const TOGETHER: usize = 16;
+
+impl Simulation {
+    /// Goes on from an accepted increment: at once, or with others in one sweep.
+    pub(super) fn go_on(
+        &mut self,
+        mut pending: Pending,
+        last: bool,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        if self.condensed.is_none() {
+            let from = std::mem::take(&mut self.state);
+            self.commit(&from, pending.trial, &pending.accepted);
+            let length = pending.trial.to - pending.trial.from;
+            self.state = from;
+            self.previous = Some((length, self.state.u.clone()));
+            return self.report(pending, observers);
+        }
+        self.move_ahead(&mut pending);
+        self.pending.push(pending);
+        if last || self.pending.len() >= TOGETHER {
+            self.flush(observers)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the interiors of all pending increments and reports them.
+    pub(super) fn flush(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        if self.pending.is_empty() {
+            return Ok(());
+        }
+        let mut pending = std::mem::take(&mut self.pending);
+        self.recover(&mut pending);
+        for mut one in pending {
+            self.complete(&mut one)?;
+            for (interface, memory) in self.model.interfaces.iter_mut().zip(one.memories.drain(..))
+            {
+                interface.memory = memory;
+            }
+            self.report(one, observers)?;
+        }
+        Ok(())
+    }
+
+    /// Enters an increment into the ledger and tells the observers.
+    fn report(
+        &mut self,
+        pending: Pending,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        let counts = (pending.increment, pending.attempt);
+        let effort = self.book(pending.accepted);
+        if pending.row {
+            let row = history::row(self, pending.trial, effort, counts);
+            let named = row.names.iter().cloned().zip(row.values.iter().copied());
+            self.summary.last = named.collect();
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Increment(&row))?;
+            }
+        }
+        if pending.fields {
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Output)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the last increment did is no guide for the next.
+    pub(super) fn forget_direction(&mut self) {
+        self.previous = None;
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget_direction();
+        }
+    }
+}
