@@ -27,6 +27,11 @@ pub trait Bulk {
         Ok(())
     }
 
+    /// Whether the solution makes use of the symmetric stand-ins of contact blocks.
+    fn wants_surrogate(&self) -> bool {
+        true
+    }
+
     /// Solves `(bulk + contact) du = b` for the unknowns to a relative residual of `tolerance`; `du` is zero at fixed dofs. Returns
     /// the Krylov iterations.
     fn solve(

@@ -50,15 +50,6 @@ impl ContactBlock {
     }
 }
 
-impl ContactBlock {
-    /// Adds the tangent times `v`, both over the dofs of the block.
-    pub fn apply(&self, v: &[f64], out: &mut [f64]) {
-        for (row, out) in self.tangent.chunks_exact(v.len().max(1)).zip(out) {
-            *out += row.iter().zip(v).map(|(k, v)| k * v).sum::<f64>();
-        }
-    }
-}
-
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a> {
@@ -95,6 +86,9 @@ pub struct Assembler {
     /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
+    /// The state of evaluation may be given up again: forces keep what they remember of the last iterate, from which the step was taken,
+    /// until they are told to [`settle`](super::Force::settle). `false` to begin with.
+    pub tentative: bool,
     /// Memory of former blocks and couplings, used again.
     spare_blocks: Vec<ContactBlock>,
     spare_couplings: Vec<Vec<usize>>,
@@ -118,6 +112,7 @@ impl Assembler {
             blocks: Vec::new(),
             wants_tangent: false,
             wants_surrogate: true,
+            tentative: false,
             spare_blocks: Vec::new(),
             spare_couplings: Vec::new(),
         }

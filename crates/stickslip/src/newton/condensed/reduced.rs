@@ -107,6 +107,10 @@ impl Bulk for Reduced<'_> {
         Ok(())
     }
 
+    fn wants_surrogate(&self) -> bool {
+        false
+    }
+
     fn solve(
         &mut self,
         contact: &Assembler,
