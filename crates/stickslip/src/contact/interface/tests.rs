@@ -109,10 +109,8 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
             let mut boxes = Vec::new();
             interface.enclose(&x, &mut boxes);
             // a box around everything
-            let all = Box3::around(
-                kind,
-                [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]].into_iter(),
-            );
+            let corners = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+            let all = Box3::around(ElementKind::Line2, corners.into_iter());
             let without = vec![all; boxes.len()];
             for i in 0..interface.points.len() {
                 let candidates = &interface.memory.candidates[i];
