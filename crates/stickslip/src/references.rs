@@ -29,6 +29,8 @@ references! {
     ssnv128: "Code_Aster V6.04.128, SSNV128: plaque avec contact et frottement sur un plan rigide.",
     hughes_1980: "T. J. R. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, International Journal for Numerical Methods in Engineering 15 (1980) 1413-1418.",
     karypis_kumar_1998: "G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM Journal on Scientific Computing 20 (1998) 359-392.",
+    duff_reid_1983: "I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Transactions on Mathematical Software 9 (1983) 302-325.",
+    liu_1992: "J. W. H. Liu, The multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34 (1992) 82-109.",
     saad_schultz_1986: "Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems, SIAM Journal on Scientific and Statistical Computing 7 (1986) 856-869.",
     saad_1993: "Y. Saad, A flexible inner-outer preconditioned GMRES algorithm, SIAM Journal on Scientific Computing 14 (1993) 461-469.",
     mindlin_deresiewicz_1953: "R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, Journal of Applied Mechanics 20 (1953) 327-344.",

@@ -35,6 +35,11 @@ impl BlockCsr {
         }
     }
 
+    /// A matrix without points.
+    pub fn empty(block: usize) -> BlockCsr {
+        BlockCsr::from_couplings(0, block, &mut |_| ())
+    }
+
     /// A zero matrix with the same pattern.
     pub fn zeros_like(&self) -> BlockCsr {
         BlockCsr {

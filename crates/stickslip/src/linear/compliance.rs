@@ -5,7 +5,7 @@ use faer::linalg::cholesky::llt::factor::{
     LltError, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
 };
 use faer::linalg::cholesky::llt::inverse::{inverse, inverse_scratch};
-use faer::{Mat, MatMut, Par, Spec};
+use faer::{MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
 use super::LinearError;
@@ -74,12 +74,15 @@ impl Number for f32 {
 }
 
 impl Compliance {
-    /// The inverse of `stiffness`, of which the lower triangle is read.
+    /// The inverse of a stiffness of shape `(n, n)`, column by column, of which the lower triangle is read.
     ///
     /// # Errors
     /// [`LinearError::NotPositive`] with the row, [`LinearError::OutOfMemory`].
-    pub fn of(mut stiffness: Mat<f64>) -> Result<Compliance, LinearError> {
-        let n = stiffness.nrows();
+    ///
+    /// # Panics
+    /// If `stiffness` has not `n²` entries.
+    pub fn of(n: usize, mut stiffness: Vec<f64>) -> Result<Compliance, LinearError> {
+        assert_eq!(stiffness.len(), n * n, "size of a stiffness");
         if n == 0 {
             return Ok(Compliance::from_values(0, Vec::new()));
         }
@@ -97,7 +100,7 @@ impl Compliance {
         }
         values.resize(n * n, 0.0);
         let done = cholesky_in_place(
-            stiffness.as_mut(),
+            MatMut::from_column_major_slice_mut(&mut stiffness, n, n),
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),
@@ -108,7 +111,7 @@ impl Compliance {
         }
         inverse(
             MatMut::from_column_major_slice_mut(&mut values, n, n),
-            stiffness.as_ref(),
+            MatRef::from_column_major_slice(&stiffness, n, n),
             Par::Seq,
             MemStack::new(&mut memory),
         );
@@ -302,22 +305,24 @@ mod tests {
     use super::super::testing::noise;
     use super::*;
 
-    fn sample(n: usize) -> Mat<f64> {
+    fn sample(n: usize) -> Vec<f64> {
         let b = noise(&mut 3, n * n);
         let product = |i: usize, j: usize| -> f64 {
             (0..n.min(20)).map(|k| b[i * n + k] * b[j * n + k]).sum()
         };
-        Mat::from_fn(n, n, |i, j| product(i, j) + if i == j { 3.0 } else { 0.0 })
+        (0..n * n)
+            .map(|k| product(k / n, k % n) + if k % (n + 1) == 0 { 3.0 } else { 0.0 })
+            .collect()
     }
 
     #[test]
     fn undoes_the_stiffness() {
         for n in [1, 3, 4, 7, 40, 61, 530] {
             let s = sample(n);
-            let w = Compliance::of(s.clone()).unwrap();
+            let w = Compliance::of(n, s.clone()).unwrap();
             let x = noise(&mut 9, n);
             let f: Vec<f64> = (0..n)
-                .map(|i| (0..n).map(|j| s[(i, j)] * x[j]).sum())
+                .map(|i| (0..n).map(|j| s[i * n + j] * x[j]).sum())
                 .collect();
             let mut y = vec![f64::NAN; n];
             w.mul(&f, &mut y);
@@ -333,7 +338,7 @@ mod tests {
 
     #[test]
     fn products_do_not_depend_on_threads() {
-        let w = Compliance::of(sample(600)).unwrap();
+        let w = Compliance::of(600, sample(600)).unwrap();
         let x = noise(&mut 5, 600);
         let product = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -347,11 +352,11 @@ mod tests {
     #[test]
     fn what_is_not_positive_is_refused() {
         let mut s = sample(5);
-        s[(3, 3)] = -1.0;
+        s[18] = -1.0;
         assert_eq!(
-            Compliance::of(s).unwrap_err(),
+            Compliance::of(5, s).unwrap_err(),
             LinearError::NotPositive { dof: 3 }
         );
-        assert_eq!(Compliance::of(Mat::zeros(0, 0)).unwrap().size(), 0);
+        assert_eq!(Compliance::of(0, Vec::new()).unwrap().size(), 0);
     }
 }

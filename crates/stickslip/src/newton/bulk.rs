@@ -22,14 +22,14 @@ pub trait Bulk {
     /// How stiffly a dof resists, for the rounding of forces `[N/m]`.
     fn diagonal(&self, dof: usize) -> f64;
 
+    /// Whether the solution needs symmetric stand-ins for the tangents of the interfaces.
+    fn wants_surrogates(&self) -> bool {
+        true
+    }
+
     /// Whether the bulk can tell how the dofs that the interfaces act on move.
     fn covers(&self, _contact: &Assembler) -> Result<(), StepFailure> {
         Ok(())
-    }
-
-    /// Whether the solution makes use of the symmetric stand-ins of contact blocks.
-    fn wants_surrogate(&self) -> bool {
-        true
     }
 
     /// Solves `(bulk + contact) du = b` for the unknowns to a relative residual of `tolerance`; `du` is zero at fixed dofs. Returns

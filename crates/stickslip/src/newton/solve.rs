@@ -210,7 +210,7 @@ impl Newton {
         let settings = self.settings;
         let n = system.dofs.count();
         let mut out = Assembler::new(n);
-        out.wants_surrogate = system.bulk.wants_surrogate();
+        out.wants_surrogate = system.bulk.wants_surrogates();
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();

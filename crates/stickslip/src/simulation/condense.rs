@@ -1,5 +1,6 @@
 //! Quasi-static increments on the contact candidates.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::accepted::{Accepted, Flow};
@@ -8,16 +9,23 @@ use super::model::Solution;
 use super::pending::Pending;
 use super::run::{Observer, Simulation};
 use crate::error::Error;
+use crate::linear::BlockCsr;
 use crate::math::Vec3;
 use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Plan, Reduced, Shapes};
 use crate::newton::{Progress, System};
 use crate::system::{Cause, State, StepFailure};
 use crate::time::Trial;
 
+/// What was analysed for condensing: for these dofs that are no unknowns and these candidates.
+pub(super) struct Planned {
+    held: Vec<bool>,
+    kept: Vec<bool>,
+    plan: Plan,
+}
+
 /// The bodies without their interiors, and where the analysis stands.
 pub(super) struct Condensed {
     condensation: Condensation,
-    kept: Vec<bool>,
     gaps: Gaps,
     shapes: Shapes,
     /// The last accepted state: displacements are known at candidates and where prescribed.
@@ -29,6 +37,9 @@ pub(super) struct Condensed {
     /// What the last attempt found.
     found: Option<(Amplitudes, Vec<f64>)>,
 }
+
+/// Out-of-balance force relative to the forces in play that rounding may leave in the interior.
+pub(super) const LEFT: f64 = 1e-7;
 
 impl Condensed {
     pub(super) fn forget_direction(&mut self) {
@@ -46,49 +57,21 @@ impl Simulation {
         let held = self.constraints(0.5 * (step.start + step.end)).fixed;
         let kept = self.candidates();
         if let Some(condensed) = &mut self.condensed
-            && condensed.condensation.held == held
-            && condensed.kept == kept
+            && self
+                .plan
+                .as_ref()
+                .is_some_and(|p| p.held == held && p.kept == kept)
         {
             condensed.forget_direction();
             return Ok(());
         }
-        let parts = self.parts();
-        let started = Instant::now();
-        let plan = match Plan::new(&self.matrix, &parts, &held, &kept, 0) {
-            Ok(plan) => plan,
-            Err(e) => return self.not_condensed(&e.to_string()),
+        let matrix = std::mem::replace(&mut self.matrix, BlockCsr::empty(self.model.dofs.dim));
+        let made = self.condensation(&held, &kept, (&matrix, 0));
+        self.matrix = matrix;
+        let Some(condensation) = made else {
+            self.condensed = None;
+            return Ok(());
         };
-        self.newton.statistics.analyses += 1;
-        self.newton.statistics.seconds_order += started.elapsed().as_secs_f64();
-        self.newton.statistics.factor_nonzeros = plan.cost().nonzeros as usize;
-        let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
-        let points = &self.model.mesh.points;
-        let point = |p: usize| -> Option<Vec3> { points.get(p).copied() };
-        let made = Condensation::new(
-            &plan,
-            &self.matrix,
-            &held,
-            &self.substructures,
-            &point,
-            if typical > 0.0 { typical } else { 1.0 },
-        );
-        let (condensation, count) = match made {
-            Ok(made) => made,
-            Err(e) => return self.not_condensed(&e.to_string()),
-        };
-        let statistics = &mut self.newton.statistics;
-        statistics.factorisations += count;
-        for part in &condensation.parts {
-            if !self
-                .substructures
-                .iter()
-                .any(|s| std::sync::Arc::ptr_eq(s, part))
-            {
-                statistics.seconds_factor += part.seconds.factor;
-                statistics.seconds_condense += part.seconds.condense;
-            }
-        }
-        self.substructures.clone_from(&condensation.parts);
         // Forces that go with the displacements the step starts from.
         let mut at = vec![0.0; held.len()];
         let u = condensation.gather(&self.state.u);
@@ -102,7 +85,6 @@ impl Simulation {
         }
         self.condensed = Some(Condensed {
             condensation,
-            kept,
             gaps: Gaps::default(),
             shapes: Shapes::default(),
             state: self.state.clone(),
@@ -113,11 +95,68 @@ impl Simulation {
         Ok(())
     }
 
+    /// Factors the bodies with one of their matrices, told apart by a key; `None` where the analysis goes on with the sparse matrix.
+    pub(super) fn condensation(
+        &mut self,
+        held: &[bool],
+        kept: &[bool],
+        (matrix, key): (&BlockCsr, u64),
+    ) -> Option<Condensation> {
+        let started = Instant::now();
+        let planned = match self.plan.take() {
+            Some(planned) if planned.held == held && planned.kept == kept => planned,
+            _ => {
+                let parts = self.parts();
+                match Plan::new(matrix, &parts, held, kept, key) {
+                    Ok(plan) => {
+                        self.newton.statistics.analyses += 1;
+                        Planned {
+                            held: held.to_vec(),
+                            kept: kept.to_vec(),
+                            plan,
+                        }
+                    }
+                    Err(e) => return self.not_condensed(&e.to_string()),
+                }
+            }
+        };
+        self.newton.statistics.seconds_order += started.elapsed().as_secs_f64();
+        let plan = planned.plan.for_matrix(key);
+        self.newton.statistics.factor_nonzeros = plan.cost().nonzeros as usize;
+        self.plan = Some(planned);
+        let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
+        let points = &self.model.mesh.points;
+        let point = |p: usize| -> Option<Vec3> { points.get(p).copied() };
+        let made = Condensation::new(
+            &plan,
+            matrix,
+            held,
+            &self.substructures,
+            &point,
+            if typical > 0.0 { typical } else { 1.0 },
+        );
+        let (condensation, count) = match made {
+            Ok(made) => made,
+            Err(e) => return self.not_condensed(&e.to_string()),
+        };
+        let statistics = &mut self.newton.statistics;
+        statistics.factorisations += count;
+        for part in &condensation.parts {
+            if !self.substructures.iter().any(|s| Arc::ptr_eq(s, part)) {
+                statistics.seconds_factor += part.seconds.factor;
+                statistics.seconds_condense += part.seconds.condense;
+                self.substructures.push(Arc::clone(part));
+            }
+        }
+        Some(condensation)
+    }
+
     /// The analysis goes on with the sparse matrix.
-    fn not_condensed(&mut self, why: &str) -> Result<(), Error> {
+    fn not_condensed(&mut self, why: &str) -> Option<Condensation> {
         self.condensed = None;
-        eprintln!("not condensed: {why}");
-        Ok(())
+        self.summary.method_reason = why.to_string();
+        self.model.method = Solution::Sparse;
+        None
     }
 
     /// Points of the parts of the model that are not coupled but by contact.
@@ -130,7 +169,7 @@ impl Simulation {
     }
 
     /// Points that may come into contact.
-    fn candidates(&self) -> Vec<bool> {
+    pub(super) fn candidates(&self) -> Vec<bool> {
         let mut kept = vec![false; self.model.dofs.points];
         for interface in &self.model.interfaces {
             for &node in &interface.nodes {
@@ -310,8 +349,8 @@ impl Simulation {
         }
         let contact: f64 = accepted.contact.iter().map(|c| c * c).sum();
         let size = size.max(reactions).max(contact).sqrt();
-        let limit =
-            (10.0 * self.model.settings.tolerance * size).max(1e4 * f64::EPSILON * rounding.sqrt());
+        let limit = ((10.0 * self.model.settings.tolerance).max(LEFT) * size)
+            .max(1e4 * f64::EPSILON * rounding.sqrt());
         if left.sqrt() > limit || left.is_nan() {
             return Err(StepFailure::new(
                 Cause::LinearSolver,

@@ -1,11 +1,16 @@
 //! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
 
 use super::accepted::{Accepted, Flow};
+use super::condense::LEFT;
 use super::inertia::{self, Inertia, dot, times};
-use super::model::{ContactAt, Dynamic};
+use super::model::{ContactAt, Dynamic, Solution};
 use super::run::{Observer, Simulation};
+use std::sync::Arc;
+
 use crate::error::Error;
-use crate::newton::{Origin, System, Whole};
+use crate::linear::BlockCsr;
+use crate::newton::condensed::{Gaps, Reduced};
+use crate::newton::{Converged, Origin, Progress, System, Whole};
 use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -21,6 +26,9 @@ pub(super) struct Motion {
 
 /// Fraction of the duration of a step after its start at which loads that begin with the step are read.
 pub(super) const AFTER: f64 = 1e-9;
+
+/// Most step lengths whose condensed bodies are kept.
+const MOST_CONDENSED: usize = 4;
 
 /// One implicit increment that has converged.
 struct Solved {
@@ -191,21 +199,37 @@ impl Simulation {
             ..State::default()
         };
         let mut seen = Vec::new();
-        let converged = {
+        let origin = Origin {
+            at: guess,
+            forces,
+            scale: scale / weight,
+        };
+        let rate = Rate {
+            gain: &gain,
+            shift: &shift,
+        };
+        let inertia = &motion.inertia;
+        let Some((matrix, diagonal, key)) = inertia.matrix() else {
+            return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
+        };
+        let condensed = self.ready_to_move(&constraints.fixed, (matrix, key));
+        let converged = if condensed {
+            let solver = (matrix, diagonal, key);
+            self.solve_condensed(
+                solver,
+                origin,
+                (&from, &mut at),
+                constraints,
+                rate,
+                &mut seen,
+            )
+        } else {
             let Simulation {
                 model,
                 newton,
                 factors,
                 ..
             } = self;
-            let Some((matrix, diagonal, key)) = inertia.matrix() else {
-                return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
-            };
-            let origin = Origin {
-                at: guess,
-                forces,
-                scale: scale / weight,
-            };
             let mut bulk = Whole::new(
                 (matrix, diagonal),
                 vec![0.0; at.u.len()],
@@ -218,10 +242,7 @@ impl Simulation {
                 bulk: &mut bulk,
                 constraints,
                 links: &model.links,
-                rate: Some(Rate {
-                    gain: &gain,
-                    shift: &shift,
-                }),
+                rate: Some(rate),
                 contact: inertia::contact(&mut model.interfaces),
             };
             newton.solve(&mut system, &from, &mut at, &mut |p| seen.push(*p))
@@ -252,6 +273,122 @@ impl Simulation {
             state: solved.state,
             ..Accepted::from_newton(&converged)
         })
+    }
+
+    /// Makes the condensed bodies for a matrix ready; `false` where the increment is solved with the sparse matrix.
+    fn ready_to_move(&mut self, held: &[bool], (matrix, key): (&BlockCsr, u64)) -> bool {
+        let kept = self.candidates();
+        let found = self
+            .moving
+            .iter()
+            .position(|(k, c, _)| *k == key && c.held == held);
+        let last = match found {
+            Some(i) => self.moving.remove(i),
+            None => {
+                if self.model.method == Solution::Sparse {
+                    return false;
+                }
+                let Some(made) = self.condensation(held, &kept, (matrix, key)) else {
+                    return false;
+                };
+                (key, made, Gaps::default())
+            }
+        };
+        if self.moving.len() == MOST_CONDENSED {
+            let (_, old, _) = self.moving.remove(0);
+            self.substructures
+                .retain(|s| !old.parts.iter().any(|p| Arc::ptr_eq(p, s)));
+        }
+        self.moving.push(last);
+        true
+    }
+
+    /// Solves an increment on the contact candidates and finds the interior.
+    fn solve_condensed(
+        &mut self,
+        (matrix, diagonal, key): (&BlockCsr, &[f64], u64),
+        origin: Origin,
+        (from, at): (&State, &mut State),
+        constraints: Constraints,
+        rate: Rate,
+        seen: &mut Vec<Progress>,
+    ) -> Result<Converged, StepFailure> {
+        let Simulation {
+            model,
+            newton,
+            moving,
+            ..
+        } = self;
+        let Some((_, condensation, gaps)) = moving.iter_mut().find(|(k, ..)| *k == key) else {
+            return Err(StepFailure::new(Cause::NotFinite, "nothing is condensed"));
+        };
+        let started = std::time::Instant::now();
+        let Origin {
+            at: guess,
+            forces,
+            scale,
+        } = origin;
+        let opposite: Vec<f64> = forces.iter().map(|f| -f).collect();
+        let (load, interior) = condensation.sweep(&opposite);
+        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        let base = condensation.gather(&guess);
+        let still = vec![0.0; base.len()];
+        let mut bulk = Reduced::new(
+            (condensation, gaps),
+            diagonal,
+            load,
+            base.clone(),
+            still,
+            scale,
+        );
+        let fixed = constraints.fixed.clone();
+        let mut system = System {
+            dofs: model.dofs,
+            bulk: &mut bulk,
+            constraints,
+            links: &model.links,
+            rate: Some(rate),
+            contact: inertia::contact(&mut model.interfaces),
+        };
+        let mut converged = newton.solve(&mut system, from, at, &mut |p| seen.push(*p))?;
+        let started = std::time::Instant::now();
+        let mut moved = condensation.gather(&at.u);
+        moved.iter_mut().zip(&base).for_each(|(m, b)| *m -= b);
+        let mut all = vec![vec![0.0; guess.len()]];
+        condensation.recover(vec![interior], &[moved], &mut all);
+        let moved = all.swap_remove(0);
+        let mut internal = times(matrix, &moved);
+        let (mut left, mut size) = (0.0, scale * scale);
+        for i in 0..moved.len() {
+            if !fixed[i] {
+                at.u[i] = guess[i] + moved[i];
+            }
+            internal[i] += forces[i] + converged.contact[i];
+            if fixed[i] {
+                size += internal[i] * internal[i];
+            } else {
+                left += internal[i] * internal[i];
+            }
+        }
+        let size: f64 = size + dot(&converged.contact, &converged.contact);
+        let rounding: f64 = (0..moved.len())
+            .map(|i| (diagonal[i] * at.u[i]).powi(2))
+            .sum();
+        let limit = ((10.0 * model.settings.tolerance).max(LEFT) * size.sqrt())
+            .max(1e4 * f64::EPSILON * rounding.sqrt());
+        if left.is_nan() || left.sqrt() > limit {
+            return Err(StepFailure::new(
+                Cause::LinearSolver,
+                format!(
+                    "the recovered interior is not in balance: {:.1e} of the forces in play",
+                    (left / size).sqrt()
+                ),
+            )
+            .help("set `solver.method = \"sparse\"`"));
+        }
+        converged.forces = internal;
+        newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        Ok(converged)
     }
 
     /// Whether the increment is small enough for the errors and events that are to be resolved; `false` if only just.

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::condense::Condensed;
+use super::condense::{Condensed, Planned};
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
@@ -13,7 +13,7 @@ use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::condensed::Substructure;
+use crate::newton::condensed::{Condensation, Gaps, Substructure};
 use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, Force, State, StepFailure};
 use crate::time::scheme::Method;
@@ -33,7 +33,10 @@ pub struct Simulation {
     pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
     pub(super) factors: Factors,
+    pub(super) plan: Option<Planned>,
     pub(super) condensed: Option<Condensed>,
+    /// Condensed bodies of implicit increments, by the key of their matrix.
+    pub(super) moving: Vec<(u64, Condensation, Gaps)>,
     pub(super) pending: Vec<Pending>,
     pub(super) substructures: Vec<Arc<Substructure>>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
@@ -130,7 +133,9 @@ impl Simulation {
             matrix,
             newton,
             factors: Factors::default(),
+            plan: None,
             condensed: None,
+            moving: Vec::new(),
             pending: Vec::new(),
             substructures: Vec::new(),
             previous: None,

@@ -18,6 +18,10 @@ pub struct Summary {
     pub outcome: String,
     /// Whether the run reached its end.
     pub completed: bool,
+    /// How the systems of equations were solved.
+    pub method: String,
+    /// Why so.
+    pub method_reason: String,
     /// Size of the problem.
     pub size: Size,
     /// Accepted increments.

@@ -66,12 +66,15 @@ struct Rows {
 /// Amplification up to which the factor may be in single precision.
 const SINGLE: f64 = 1e4;
 
+/// Residual relative to the right-hand side that counts as solved if the factor is fresh.
+const ROUNDING: f64 = 1e-6;
+
 /// Tolerance above which products may be in single precision.
 const SINGLE_TOLERANCE: f64 = 1e-5;
 
 /// Gap rows up to which the factor is in double precision in any case, and up to which it is made anew every time.
 const SMALL: usize = 600;
-const TINY: usize = 240;
+pub(super) const TINY: usize = 240;
 
 impl Gaps {
     /// Forgets everything: the bodies have changed.
@@ -167,7 +170,9 @@ impl Gaps {
                     "the linear solution is not finite",
                 ));
             }
-            if report.converged {
+            // With a fresh factor what is left is rounding: whether it is too much shows in the forces.
+            let rounding = fresh && report.relative_residual <= ROUNDING;
+            if report.converged || rounding {
                 self.stale = report.iterations > settings.krylov_patience;
                 let mut s = b.to_vec();
                 system.add_forces(&y, &mut s);

@@ -92,7 +92,8 @@ impl Substructure {
                 for j in 0..mode.len() {
                     let s = sigma * mode[j];
                     if s != 0.0 {
-                        let column = stiffness.col_mut(j);
+                        let n = mode.len();
+                        let column = &mut stiffness[j * n..(j + 1) * n];
                         for (k, m) in column.iter_mut().zip(mode).skip(j) {
                             *k += s * m;
                         }
@@ -100,7 +101,7 @@ impl Substructure {
                 }
             }
         }
-        let compliance = Compliance::of(stiffness).map_err(|e| match e {
+        let compliance = Compliance::of(fronts.root().len(), stiffness).map_err(|e| match e {
             LinearError::NotPositive { dof } => LinearError::NotPositive {
                 dof: fronts.root().get(dof).map_or(0, |&d| d as usize),
             },
@@ -140,7 +141,7 @@ impl Substructure {
 fn free_motions(
     root: &[u32],
     dim: usize,
-    stiffness: &Mat<f64>,
+    stiffness: &[f64],
     place: &dyn Fn(usize) -> Option<Vec3>,
     typical: f64,
 ) -> Option<(Vec<Vec<f64>>, f64)> {
@@ -148,7 +149,7 @@ fn free_motions(
     if n == 0 {
         return None;
     }
-    let trace: f64 = (0..n).map(|i| stiffness[(i, i)]).sum::<f64>() / n as f64;
+    let trace: f64 = (0..n).map(|i| stiffness[i * (n + 1)]).sum::<f64>() / n as f64;
     let hidden = root.iter().all(|&dof| place(dof as usize / dim).is_none());
     let sigma = if hidden { trace.max(typical) } else { trace };
     let motions: Vec<Vec<f64>> = if hidden {
@@ -216,9 +217,9 @@ fn orthonormal(vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 }
 
 /// Combinations of the basis that meet less than `limit` of the stiffness.
-fn softest(basis: &[Vec<f64>], stiffness: &Mat<f64>, limit: f64) -> Vec<Vec<f64>> {
+fn softest(basis: &[Vec<f64>], stiffness: &[f64], limit: f64) -> Vec<Vec<f64>> {
     let m = basis.len();
-    let n = stiffness.nrows();
+    let n = basis.first().map_or(0, Vec::len);
     let products: Vec<Vec<f64>> = basis
         .iter()
         .map(|v| symmetric_product(stiffness, v))
@@ -241,11 +242,11 @@ fn softest(basis: &[Vec<f64>], stiffness: &Mat<f64>, limit: f64) -> Vec<Vec<f64>
 }
 
 /// `S v` from the lower triangle.
-fn symmetric_product(s: &Mat<f64>, v: &[f64]) -> Vec<f64> {
+fn symmetric_product(s: &[f64], v: &[f64]) -> Vec<f64> {
     let n = v.len();
     let mut out = vec![0.0; n];
     for j in 0..n {
-        let column = s.col(j);
+        let column = &s[j * n..(j + 1) * n];
         out[j] += column[j] * v[j];
         let mut sum = 0.0;
         for i in j + 1..n {
