@@ -162,7 +162,8 @@ fn project_from(
         if !longest.is_finite() {
             return None;
         }
-        if !linear && longest < 1e-14 * (1.0 + xi[0].abs() + xi[1].abs()) {
+        // Slip is a difference of such coordinates: every digit counts.
+        if !linear && longest <= f64::EPSILON {
             return Some(p);
         }
         let damp = if !linear && longest > 1.0 {

@@ -1,5 +1,6 @@
 //! Which facets a point may meet: a tree of boxes over the facets, asked for the facets near a point.
 
+use super::pairing::FACET_NODES;
 use crate::math::Vec3;
 use crate::shape::ElementKind;
 
@@ -32,19 +33,23 @@ impl Box3 {
 
     /// A box around a facet with these nodes, bulges included.
     pub fn around(kind: ElementKind, nodes: impl Iterator<Item = Vec3>) -> Box3 {
-        let mut b = Box3::of(nodes);
-        // Shape functions that add up to one in value and to at most Λ in size leave the box of the nodes by at most (Λ - 1)/2 of its
-        // extent: Λ is 5/4, 5/3 and 3.
-        let bulge = match kind {
-            ElementKind::Line3 => 0.125,
-            ElementKind::Tri6 => 1.0 / 3.0,
-            ElementKind::Quad8 => 1.0,
-            _ => return b,
-        };
-        for i in 0..3 {
-            let more = bulge * (b.high[i] - b.low[i]);
-            b.low[i] -= more;
-            b.high[i] += more;
+        let mut x = [[0.0; 3]; FACET_NODES];
+        let mut count = 0;
+        for (x, node) in x.iter_mut().zip(nodes) {
+            *x = node;
+            count += 1;
+        }
+        let corners = kind.corner_count();
+        let mut b = Box3::of(x[..corners.min(count)].iter().copied());
+        // A quadratic facet is the linear one and, for each middle node, its distance from the middle of its edge times a function
+        // between zero and one.
+        for k in corners..count {
+            let (from, to) = (x[k - corners], x[(k - corners + 1) % corners]);
+            for i in 0..3 {
+                let away = x[k][i] - 0.5 * (from[i] + to[i]);
+                b.low[i] += away.min(0.0);
+                b.high[i] += away.max(0.0);
+            }
         }
         b
     }
@@ -252,6 +257,40 @@ mod tests {
                 .filter(|&i| boxes[i].distance2(point) <= bound * bound)
                 .collect();
             assert_eq!(found, scan);
+        }
+    }
+
+    #[test]
+    fn boxes_hold_curved_facets() {
+        use crate::contact::pairing::evaluate;
+        for kind in [
+            ElementKind::Line2,
+            ElementKind::Line3,
+            ElementKind::Tri3,
+            ElementKind::Tri6,
+            ElementKind::Quad4,
+            ElementKind::Quad8,
+        ] {
+            let bent = |(k, x): (usize, &Vec3)| {
+                let wave = |c: usize| 0.2 * (3.7 * (k + 5 * c) as f64).sin();
+                [x[0] + wave(0), x[1] + wave(1), wave(2)]
+            };
+            let nodes = kind.reference().nodes().iter().enumerate();
+            let nodes: Vec<Vec3> = nodes.map(bent).collect();
+            let b = Box3::around(kind, nodes.iter().copied());
+            for i in 0..21 {
+                for j in 0..21 {
+                    let (s, t) = (i as f64 / 20.0, j as f64 / 20.0);
+                    let xi = match kind.is_simplex() {
+                        true => [s, (1.0 - s) * t],
+                        false => [2.0 * s - 1.0, 2.0 * t - 1.0],
+                    };
+                    let x = evaluate(kind, &nodes, xi).x;
+                    assert!(b.distance2(x) < 1e-28, "{kind} at {xi:?}");
+                }
+            }
+            let extent = |i: usize| b.high[i] - b.low[i];
+            assert!(extent(0) < 4.0 && extent(2) < 2.0, "{kind}");
         }
     }
 }

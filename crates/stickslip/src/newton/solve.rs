@@ -293,7 +293,9 @@ impl Newton {
                 for force in &mut system.contact {
                     force.update_internal(&du, step);
                 }
-                balance = self.evaluate(system, from, at, &mut out, false)?;
+                // Most full steps are taken: their tangent is made at once.
+                out.tentative = halvings == 0;
+                balance = self.evaluate(system, from, at, &mut out, halvings == 0)?;
                 let now = balance.norm.max(out.multiplier_residual);
                 if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
                     best = Some((now, step));
@@ -321,14 +323,22 @@ impl Newton {
             } else {
                 step
             };
-            for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
-                *u = s + step * d;
+            out.tentative = false;
+            if halvings == 0 {
+                for force in &mut system.contact {
+                    force.settle();
+                }
+                system.bulk.covers(&out)?;
+            } else {
+                for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
+                    *u = s + step * d;
+                }
+                system.bulk.advance(step);
+                for force in &mut system.contact {
+                    force.update_internal(&du, step);
+                }
+                balance = self.evaluate(system, from, at, &mut out, true)?;
             }
-            system.bulk.advance(step);
-            for force in &mut system.contact {
-                force.update_internal(&du, step);
-            }
-            balance = self.evaluate(system, from, at, &mut out, true)?;
             log(&Progress {
                 iteration,
                 round,
@@ -385,7 +395,7 @@ impl Newton {
         // Forces in play are those on the points: what a rigid body gets from two sides may cancel.
         let contact: f64 = out.residual.iter().map(|r| r * r).sum();
         transfer(system.links, out);
-        if tangent {
+        if tangent && !out.tentative {
             system.bulk.covers(out)?;
         }
         let (mut norm, mut bulk) = (0.0, 0.0);

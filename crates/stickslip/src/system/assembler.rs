@@ -86,6 +86,9 @@ pub struct Assembler {
     /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
+    /// The state of evaluation may be given up again: forces keep what they remember of the last iterate, from which the step was taken,
+    /// until they are told to [`settle`](super::Force::settle). `false` to begin with.
+    pub tentative: bool,
     /// Memory of former blocks and couplings, used again.
     spare_blocks: Vec<ContactBlock>,
     spare_couplings: Vec<Vec<usize>>,
@@ -109,6 +112,7 @@ impl Assembler {
             blocks: Vec::new(),
             wants_tangent: false,
             wants_surrogate: true,
+            tentative: false,
             spare_blocks: Vec::new(),
             spare_couplings: Vec::new(),
         }

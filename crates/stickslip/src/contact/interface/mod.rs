@@ -90,6 +90,8 @@ pub struct Memory {
     /// Largest velocity of slip below the limit over the last increment.
     creep: f64,
     changed: usize,
+    /// The last evaluation, a tentative one, may become the next iterate.
+    pending: bool,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
     untouched: bool,
     /// Explicit dynamics: springs, whatever the enforcement.
@@ -379,6 +381,35 @@ impl Interface {
     }
 }
 
+impl Interface {
+    /// Makes the last evaluation the iterate from which Newton's method steps.
+    fn record(&mut self) {
+        let unknown = self.unknown();
+        let memory = &mut self.memory;
+        let last = &memory.last.points;
+        memory.untouched = false;
+        memory.changed = 0;
+        for (flips, e) in memory.flips.iter_mut().zip(last) {
+            let now = Some(e.response.status);
+            if flips.last[0].is_some() && flips.last[0] != now {
+                flips.count += 1;
+                memory.changed += 1;
+            }
+            let over = e.facet.is_some();
+            flips.left += usize::from(flips.over && !over);
+            flips.over = over;
+            flips.last.rotate_right(1);
+            flips.last[0] = now;
+        }
+        if unknown {
+            for (m, e) in memory.multipliers.iter_mut().zip(last) {
+                m.base = e.multiplier;
+                m.frame = e.frame_before;
+            }
+        }
+    }
+}
+
 impl Force for Interface {
     fn name(&self) -> &str {
         &self.name
@@ -414,12 +445,14 @@ impl Force for Interface {
         }
         memory.flips.fill(Flips::default());
         memory.last.points.clear();
+        memory.pending = false;
         memory.untouched = memory.committed.iter().all(|h| h.status == Status::Open);
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         if !self.schedule.active(stage.at.t) {
             self.memory.last.points.clear();
+            self.memory.pending = false;
             return Ok(());
         }
         let evaluations = self.evaluate_all(
@@ -454,39 +487,32 @@ impl Force for Interface {
             }
         }
         let memory = &mut self.memory;
-        if out.wants_tangent {
-            memory.untouched = false;
-            memory.changed = 0;
-            for (flips, e) in memory.flips.iter_mut().zip(&evaluations.points) {
-                let now = Some(e.response.status);
-                if flips.last[0].is_some() && flips.last[0] != now {
-                    flips.count += 1;
-                    memory.changed += 1;
-                }
-                let over = e.facet.is_some();
-                flips.left += usize::from(flips.over && !over);
-                flips.over = over;
-                flips.last.rotate_right(1);
-                flips.last[0] = now;
-            }
-            if unknown {
-                for (m, e) in memory.multipliers.iter_mut().zip(&evaluations.points) {
-                    m.base = e.multiplier;
-                    m.frame = e.frame_before;
-                }
-            }
-        }
-        // The multiplier rows of the tangent evaluation are needed until the step has been taken.
-        if out.wants_tangent || !unknown {
-            memory.trial = std::mem::replace(&mut memory.last, evaluations);
-        } else {
+        memory.pending = out.wants_tangent && out.tentative;
+        // The multiplier rows of the last iterate are needed until the step has been taken.
+        if unknown && (memory.pending || !out.wants_tangent) {
             for (kept, e) in memory.last.points.iter_mut().zip(&evaluations.points) {
                 kept.response = e.response;
                 kept.gap = e.gap;
             }
             memory.trial = evaluations;
+        } else {
+            memory.trial = std::mem::replace(&mut memory.last, evaluations);
+        }
+        if out.wants_tangent && !out.tentative {
+            self.record();
         }
         Ok(())
+    }
+
+    fn settle(&mut self) {
+        let unknown = self.unknown();
+        let memory = &mut self.memory;
+        if std::mem::take(&mut memory.pending) {
+            if unknown {
+                std::mem::swap(&mut memory.last, &mut memory.trial);
+            }
+            self.record();
+        }
     }
 
     fn soften(&mut self, factor: Option<f64>) -> bool {

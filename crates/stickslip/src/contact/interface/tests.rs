@@ -109,10 +109,8 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
             let mut boxes = Vec::new();
             interface.enclose(&x, &mut boxes);
             // a box around everything
-            let all = Box3::around(
-                kind,
-                [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]].into_iter(),
-            );
+            let corners = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+            let all = Box3::around(ElementKind::Line2, corners.into_iter());
             let without = vec![all; boxes.len()];
             for i in 0..interface.points.len() {
                 let candidates = &interface.memory.candidates[i];
@@ -200,6 +198,74 @@ fn the_tangent_is_that_of_the_force() {
                 assert!(!b.surrogate.is_empty());
                 assert_eq!((&a.rows, &a.change), (&b.rows, &b.change));
                 assert_eq!(a.hessian, b.hessian);
+            }
+        }
+    }
+}
+
+/// A tentative evaluation that is settled, and one that is given up, leave what a plain course leaves.
+#[test]
+fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
+    for enforcement in EnforcementModel::samples() {
+        let mut plain = sample(ElementKind::Quad4, KinematicsModel::default());
+        plain.laws.enforcement = enforcement;
+        let from = moved(&plain, 0.0, 1e-3);
+        let [first, far, next] = [1.0, 2.0, 3.0].map(|t| State {
+            t: 1.0,
+            ..moved(&plain, t, 1e-3)
+        });
+        let du = moved(&plain, 4.0, 1e-4).u;
+        let course = |interface: &mut Interface, tentative: bool, given_up: bool| {
+            let mut out = Assembler::new(interface.dofs.count());
+            let mut evaluate = |interface: &mut Interface, at, tangent, tentative| {
+                let stage = Stage {
+                    from: &from,
+                    at,
+                    dt: 1.0,
+                    rate: None,
+                };
+                out.tentative = tentative;
+                out.reset(tangent);
+                interface.prepare(&stage).expect("candidates");
+                interface.assemble(&stage, &mut out).expect("forces");
+                (out.residual.clone(), out.condensed.clone())
+            };
+            interface
+                .prepare(&Stage {
+                    from: &from,
+                    at: &first,
+                    dt: 1.0,
+                    rate: None,
+                })
+                .expect("candidates");
+            interface.begin();
+            evaluate(interface, &first, true, false);
+            if given_up {
+                interface.update_internal(&du, 1.0);
+                evaluate(interface, &far, tentative, tentative);
+            }
+            interface.update_internal(&du, 0.5);
+            evaluate(interface, &next, tentative, tentative);
+            if tentative {
+                interface.settle();
+            } else {
+                evaluate(interface, &next, true, false);
+            }
+            let tally = interface.tally();
+            interface.update_internal(&du, 1.0);
+            (
+                evaluate(interface, &first, true, false),
+                tally,
+                interface.memory.flips.clone(),
+            )
+        };
+        for given_up in [false, true] {
+            let [a, b] = [false, true].map(|t| course(&mut plain.clone(), t, given_up));
+            assert_eq!((a.1, &a.2), (b.1, &b.2));
+            let size = a.0.0.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            let pairs = a.0.0.iter().zip(&b.0.0).chain(a.0.1.iter().zip(&b.0.1));
+            for (a, b) in pairs {
+                assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
             }
         }
     }

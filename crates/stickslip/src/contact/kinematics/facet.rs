@@ -40,9 +40,9 @@ impl<'a> Projection<'a> {
         for (row, inverse) in xi.iter_mut().zip(&inverse).take(d) {
             let mut direction = [0.0; 3];
             let mut along = [0.0; FACET_NODES];
-            for beta in 0..d {
-                direction = add_scaled(direction, inverse[beta], foot.a[beta]);
-                add_scaled_row(gap * inverse[beta], &foot.dn[beta], &mut along);
+            for (beta, inverse) in inverse.iter().enumerate().take(d) {
+                direction = add_scaled(direction, *inverse, foot.a[beta]);
+                add_scaled_row(gap * inverse, &foot.dn[beta], &mut along);
             }
             add_relative(pair, direction, 1.0, row);
             add_facet(pair, &along, foot.normal, 1.0, row);
@@ -80,9 +80,9 @@ impl<'a> Projection<'a> {
         // Σ_β λ_β a_β and Σ_β λ_β N,β
         let mut a = [0.0; 3];
         let mut dn = [0.0; FACET_NODES];
-        for beta in 0..d {
-            a = add_scaled(a, lambda[beta], foot.a[beta]);
-            add_scaled_row(lambda[beta], &foot.dn[beta], &mut dn);
+        for (beta, lambda) in lambda.iter().enumerate().take(d) {
+            a = add_scaled(a, *lambda, foot.a[beta]);
+            add_scaled_row(*lambda, &foot.dn[beta], &mut dn);
         }
         // Σ_β λ_β a_βα
         let bent: [Vec3; 2] = std::array::from_fn(|alpha| {
