@@ -65,6 +65,7 @@ impl Observer for Progress {
                     p.tally.changed
                 ));
             }
+            Event::Note(text) => say(&format!("  {text}")),
             Event::Cutback(trial, failure) => {
                 say(&format!(
                     "  cut back: {:.5e} to {:.5e}: {}",

@@ -350,7 +350,11 @@ impl Simulation {
         *found = Some((amplitudes, now));
         self.tell(&seen, observers);
         let converged = converged?;
-        self.check_change(&at.u)?;
+        if let Some(condensed) = &self.condensed {
+            let dofs = &condensed.condensation.dofs;
+            let moved = dofs.iter().map(|&d| at.u[d] - condensed.state.u[d]);
+            self.judge_change(moved.fold(0.0_f64, |m, d| m.max(d.abs())))?;
+        }
         self.check_reach()?;
         Ok(Accepted {
             contact: converged.contact.clone(),

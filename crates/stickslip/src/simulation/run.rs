@@ -341,7 +341,11 @@ impl Simulation {
     /// Refuses solutions that are too far from the last one.
     pub(super) fn check_change(&self, u: &[f64]) -> Result<(), StepFailure> {
         let pairs = u.iter().zip(&self.state.u);
-        let change = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        self.judge_change(pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())))
+    }
+
+    /// Refuses displacement increments that are too large.
+    pub(super) fn judge_change(&self, change: f64) -> Result<(), StepFailure> {
         if change > self.model.largest_change * self.model.mesh.diameter() {
             return Err(StepFailure::new(
                 Cause::TooFar,
