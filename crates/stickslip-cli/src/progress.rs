@@ -30,25 +30,24 @@ pub fn say(text: &str) {
 impl Observer for Progress {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
         match event {
-            Event::Increment(row) => {
+            Event::Accepted(a) => {
                 if !self.headed {
                     say(
                         "step                inc att its        time    residual     open  stick   slip",
                     );
                     self.headed = true;
                 }
-                let get = |name: &str| row.get(name).unwrap_or(f64::NAN);
                 say(&format!(
                     "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>11.2e} {:>8} {:>6} {:>6}",
                     simulation.step_name(),
-                    get("INC"),
-                    get("ATT"),
-                    get("ITRS"),
-                    get("TIME"),
-                    get("RESIDUAL"),
-                    get("OPEN"),
-                    get("STICK"),
-                    get("SLIP")
+                    a.increment,
+                    a.attempt,
+                    a.iterations,
+                    a.time,
+                    a.residual,
+                    a.tally.open,
+                    a.tally.stick,
+                    a.tally.slip
                 ));
             }
             Event::Iteration(p) if self.verbose => {

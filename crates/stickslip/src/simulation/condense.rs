@@ -134,6 +134,25 @@ impl Simulation {
         let plan = planned.plan.for_matrix(key);
         self.newton.statistics.factor_nonzeros = plan.cost().nonzeros as usize;
         self.plan = Some(planned);
+        if self.decided.as_deref() != Some(held) {
+            let choice = self.choose(&plan.cost(), (matrix, held));
+            let forced = self.model.method == Solution::Condensed;
+            self.notes.push(format!(
+                "{}: {}",
+                if choice.condensed || forced {
+                    "condensed"
+                } else {
+                    "not condensed"
+                },
+                choice.reason
+            ));
+            if !choice.condensed && !forced {
+                self.model.method = Solution::Sparse;
+                self.choose_candidates();
+                return None;
+            }
+            self.decided = Some(held.to_vec());
+        }
         let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
         let points = &self.model.mesh.points;
         let point = |p: usize| -> Option<Vec3> { points.get(p).copied() };
@@ -164,7 +183,7 @@ impl Simulation {
     /// The analysis goes on with the sparse matrix.
     fn not_condensed(&mut self, why: &str) -> Option<Condensation> {
         self.condensed = None;
-        self.notes.push(format!("bodies are not condensed: {why}"));
+        self.notes.push(format!("not condensed: {why}"));
         self.model.method = Solution::Sparse;
         self.choose_candidates();
         None
@@ -275,11 +294,7 @@ impl Simulation {
     }
 
     /// Tries a quasi-static increment on the candidates.
-    pub(super) fn attempt_condensed(
-        &mut self,
-        trial: Trial,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<Accepted, StepFailure> {
+    pub(super) fn attempt_condensed(&mut self, trial: Trial) -> Result<Accepted, StepFailure> {
         let dt = trial.to - trial.from;
         let external = self.external(trial.to);
         let constraints = self.constraints(trial.to);
@@ -348,7 +363,7 @@ impl Simulation {
             .solve(&mut system, from, &mut at, &mut |p| seen.push(*p));
         let now = bulk.carried();
         *found = Some((amplitudes, now));
-        self.tell(&seen, observers);
+        self.seen = seen;
         let converged = converged?;
         if let Some(condensed) = &self.condensed {
             let dofs = &condensed.condensation.dofs;
@@ -381,6 +396,7 @@ impl Simulation {
             return;
         };
         self.commit(&condensed.state, pending.trial, &pending.accepted);
+        pending.seen = std::mem::take(&mut self.seen);
         pending.memories = self
             .model
             .interfaces

@@ -145,7 +145,7 @@ impl Observer for ResultFiles {
             }
             Event::Output => self.output(simulation)?,
             Event::End => self.end(simulation)?,
-            Event::Iteration(_) | Event::Cutback(..) | Event::Note(_) => {}
+            Event::Iteration(_) | Event::Accepted(_) | Event::Cutback(..) | Event::Note(_) => {}
         }
         self.seconds += started.elapsed().as_secs_f64();
         Ok(())

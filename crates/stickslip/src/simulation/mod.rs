@@ -1,6 +1,7 @@
 //! A model and its run: the step loop, observers, reports.
 
 mod accepted;
+mod choice;
 pub mod compare;
 mod condense;
 mod conditions;
@@ -26,5 +27,5 @@ pub use ledger::EnergyLedger;
 pub use model::{
     Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Solution, Step, Support,
 };
-pub use run::{Event, Observer, Simulation};
+pub use run::{Advance, Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

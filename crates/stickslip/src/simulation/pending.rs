@@ -2,9 +2,10 @@
 
 use super::accepted::Accepted;
 use super::history;
-use super::run::{Event, Observer, Simulation};
+use super::run::{Advance, Event, Observer, Simulation};
 use crate::contact::interface::Memory;
 use crate::error::Error;
+use crate::newton::Progress;
 use crate::newton::condensed::Amplitudes;
 use crate::time::Trial;
 
@@ -18,10 +19,26 @@ pub(super) struct Pending {
     /// Whether fields, and a row of the history, are due.
     pub fields: bool,
     pub row: bool,
+    /// Newton iterations nobody has been told of.
+    pub seen: Vec<Progress>,
     /// What the interfaces knew after it; empty if it is reported at once.
     pub memories: Vec<Memory>,
     /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
     pub found: Option<(Amplitudes, Vec<f64>)>,
+}
+
+impl Pending {
+    /// It at a glance.
+    pub fn advance(&self) -> Advance {
+        Advance {
+            increment: self.increment,
+            attempt: self.attempt,
+            iterations: self.accepted.iterations,
+            time: self.trial.to,
+            residual: self.accepted.residual,
+            tally: self.accepted.tally,
+        }
+    }
 }
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
@@ -87,6 +104,7 @@ impl Simulation {
         pending: Pending,
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
+        self.tell(&pending.seen, observers);
         let counts = (pending.increment, pending.attempt);
         let effort = self.book(pending.accepted);
         if pending.row {

@@ -15,7 +15,7 @@ use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
 use crate::newton::condensed::{Condensation, Gaps, Substructure};
 use crate::newton::{Factors, Newton, Progress};
-use crate::system::{Cause, Force, State, StepFailure};
+use crate::system::{Cause, Force, State, StepFailure, Tally};
 use crate::time::scheme::Method;
 use crate::time::{Stepper, Trial};
 
@@ -37,7 +37,11 @@ pub struct Simulation {
     /// Points that may come into contact, and how often they were too few.
     pub(super) kept: Option<Vec<bool>>,
     pub(super) widened: usize,
+    /// The dofs that are no unknowns for which condensing was found the cheapest.
+    pub(super) decided: Option<Vec<bool>>,
     pub(super) notes: Vec<String>,
+    /// Iterations of the last condensed attempt.
+    pub(super) seen: Vec<Progress>,
     pub(super) condensed: Option<Condensed>,
     /// Condensed bodies of implicit increments, by the key of their matrix.
     pub(super) moving: Vec<(u64, Condensation, Gaps)>,
@@ -61,7 +65,9 @@ pub struct Simulation {
 pub enum Event<'a> {
     /// A Newton iteration.
     Iteration(&'a Progress),
-    /// An increment was accepted: the history row.
+    /// An increment was accepted. What comes of it may be told later, with others.
+    Accepted(&'a Advance),
+    /// What came of an accepted increment: the history row.
     Increment(&'a history::Row),
     /// Something a user should know.
     Note(&'a str),
@@ -71,6 +77,23 @@ pub enum Event<'a> {
     Cutback(&'a Trial, &'a StepFailure),
     /// The run is over, well or not.
     End,
+}
+
+/// An accepted increment at a glance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    /// Attempts it took.
+    pub attempt: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Its end `[s]`.
+    pub time: f64,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
 }
 
 /// Looks on while a simulation runs.
@@ -142,7 +165,9 @@ impl Simulation {
             plan: None,
             kept: None,
             widened: 0,
+            decided: None,
             notes: Vec::new(),
+            seen: Vec::new(),
             condensed: None,
             moving: Vec::new(),
             pending: Vec::new(),
@@ -271,9 +296,16 @@ impl Simulation {
                         attempt,
                         fields: due,
                         row: due || increment % plan.history_every == 0,
+                        seen: Vec::new(),
                         memories: Vec::new(),
                         found: None,
                     };
+                    if pending.row {
+                        let advance = pending.advance();
+                        for observer in observers.iter_mut() {
+                            observer.see(self, Event::Accepted(&advance))?;
+                        }
+                    }
                     self.go_on(pending, last, observers)?;
                     if step.milestones.contains(&trial.to) {
                         // Tables have their corners here.
@@ -283,10 +315,12 @@ impl Simulation {
                 }
                 Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
                 Err(failure) => {
+                    self.flush(observers)?;
+                    let seen = std::mem::take(&mut self.seen);
+                    self.tell(&seen, observers);
                     attempt += 1;
                     self.reject(&step, &trial, &failure);
                     if !stepper.reject(trial) {
-                        self.flush(observers)?;
                         return Err(self.give_up(failure).into());
                     }
                     for observer in observers.iter_mut() {

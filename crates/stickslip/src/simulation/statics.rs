@@ -15,7 +15,7 @@ impl Simulation {
         observers: &mut [&mut dyn Observer],
     ) -> Result<Accepted, StepFailure> {
         if self.condensed.is_some() {
-            return self.attempt_condensed(trial, observers);
+            return self.attempt_condensed(trial);
         }
         let dt = trial.to - trial.from;
         let external = self.external(trial.to);
