@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::pattern::{Couplings, Pattern};
 
 /// Block rows multiplied by one task; fixed, so that results never depend on the number of threads.
-const ROWS_PER_TASK: usize = 1024;
+pub(super) const ROWS_PER_TASK: usize = 1024;
 
 /// A sparse matrix of `block × block` blocks over the points of a mesh, in compressed rows.
 ///
@@ -47,6 +47,11 @@ impl BlockCsr {
             block: self.block,
             values: vec![0.0; self.values.len()],
         }
+    }
+
+    /// The pattern, for matrices that share it.
+    pub(super) fn shared_pattern(&self) -> Arc<Pattern> {
+        Arc::clone(&self.pattern)
     }
 
     /// Number of points.

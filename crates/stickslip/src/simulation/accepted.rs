@@ -31,6 +31,8 @@ pub(super) struct Accepted {
     /// Energies, where the attempt knows them already.
     pub kinetic: Option<f64>,
     pub strain: Option<f64>,
+    /// `K u`, where inertia plays a part.
+    pub internal: Option<Vec<f64>>,
     pub iterations: usize,
     pub rounds: usize,
     pub residual: f64,
@@ -89,6 +91,9 @@ impl Simulation {
         summary.iterations += effort.iterations;
         let turned = self.model.links.largest_rotation(&self.state.u);
         summary.largest_rotation = summary.largest_rotation.max(turned);
+        if let (Some(motion), Some(internal)) = (&mut self.motion, accepted.internal) {
+            motion.internal = internal;
+        }
         let kinetic = match (&self.motion, accepted.kinetic) {
             (_, Some(kinetic)) => kinetic,
             (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),

@@ -215,6 +215,19 @@ pub struct Step {
     pub dynamic: Option<Dynamic>,
 }
 
+impl Step {
+    /// Whether motion is integrated without solving equations.
+    pub fn is_explicit(&self) -> bool {
+        matches!(
+            self.dynamic,
+            Some(Dynamic {
+                method: Method::Explicit { .. },
+                ..
+            })
+        )
+    }
+}
+
 /// A point whose displacement and stress go into the history.
 #[derive(Debug, Clone)]
 pub struct Probe {

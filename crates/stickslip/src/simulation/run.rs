@@ -107,16 +107,7 @@ impl Simulation {
     pub fn new(model: Model) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
-        let explicit = |s: &Step| {
-            matches!(
-                s.dynamic,
-                Some(Dynamic {
-                    method: Method::Explicit { .. },
-                    ..
-                })
-            )
-        };
-        let assembled = !model.steps.iter().all(explicit);
+        let assembled = !model.steps.iter().all(Step::is_explicit);
         let mut matrix =
             BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
                 for body in model.elastic().filter(|_| assembled) {
@@ -389,6 +380,11 @@ impl Simulation {
             ));
         }
         Ok(())
+    }
+
+    /// Dofs that are prescribed at the time of the state, by dof.
+    pub fn held_dofs(&self) -> Vec<bool> {
+        self.constraints(self.state.t).fixed
     }
 
     /// The step being run.

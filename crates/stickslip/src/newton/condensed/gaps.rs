@@ -70,7 +70,7 @@ const SINGLE: f64 = 1e4;
 const ROUNDING: f64 = 1e-6;
 
 /// Tolerance above which products may be in single precision.
-const SINGLE_TOLERANCE: f64 = 1e-5;
+const SINGLE_TOLERANCE: f64 = 3e-6;
 
 /// Gap rows up to which the factor is in double precision in any case, and up to which it is made anew every time.
 const SMALL: usize = 600;
@@ -164,6 +164,16 @@ impl Gaps {
             );
             statistics.krylov += report.iterations;
             spent += report.iterations;
+            if std::env::var("DBG").is_ok() {
+                eprintln!(
+                    "{report:?} tol {tolerance:e} b {:e} rhs {:e} modes {} lu {:?} blocks {:?}",
+                    norm(b),
+                    norm(&rhs),
+                    modes.len(),
+                    preconditioner.count,
+                    blocks.first()
+                );
+            }
             if !report.relative_residual.is_finite() {
                 return Err(StepFailure::new(
                     Cause::NotFinite,
