@@ -223,9 +223,8 @@ impl Simulation {
         };
         let condensed = self.ready_to_move(&constraints.fixed, (matrix, key));
         let converged = if condensed {
-            let solver = (matrix, diagonal, key);
             self.solve_condensed(
-                solver,
+                (diagonal, key),
                 origin,
                 (&from, &mut at),
                 constraints,
