@@ -95,6 +95,27 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
         s.solver.factorisations,
         s.phases.total
     ));
+    let p = &s.phases;
+    say(&format!(
+        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
+        p.read,
+        p.assemble,
+        p.order,
+        p.factor,
+        p.condense,
+        p.iterate,
+        p.contact,
+        p.recover,
+        p.write,
+        s.solver.flops,
+        s.peak_memory as f64 / 1e9
+    ));
+    if s.relative_to_linear > 0.0 {
+        say(&format!(
+            "  without writing {:.2} times one assembly, factorisation and solution of the same bodies ({:.2} s)",
+            s.relative_to_linear, s.linear_solve
+        ));
+    }
     if s.mass_added > 0.0 {
         say(&format!(
             "  mass scaling added {:.2} % to the mass of the bodies",

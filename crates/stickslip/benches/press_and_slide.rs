@@ -22,7 +22,7 @@ fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
     simulation.run(&mut [])?;
     let s = &simulation.summary;
     println!(
-        "{case:<22} N {n:>3} {:>7} dofs {:>3} its {:>3} factors {:>4} krylov | assemble {:.2} order {:.2} factor {:.2} solve {:.2} contact {:.2} total {:.2} s",
+        "{case:<22} N {n:>3} {:>7} dofs {:>3} its {:>3} factors {:>4} krylov | assemble {:.2} order {:.2} factor {:.2} condense {:.2} iterate {:.2} contact {:.2} recover {:.2} total {:.2} s",
         s.size.dofs,
         s.solver.iterations,
         s.solver.factorisations,
@@ -30,8 +30,10 @@ fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
         s.phases.assemble,
         s.phases.order,
         s.phases.factor,
-        s.phases.solve,
+        s.phases.condense,
+        s.phases.iterate,
         s.phases.contact,
+        s.phases.recover,
         s.phases.total
     );
     Ok(())

@@ -70,7 +70,8 @@ impl Linearised {
             self.symbolic = Some(Arc::new(symbolic));
             self.fixed = fixed.to_vec();
         }
-        statistics.seconds_order += started.elapsed().as_secs_f64();
+        let ordering = started.elapsed().as_secs_f64();
+        statistics.seconds_order += ordering;
         let started = Instant::now();
         let dense: Vec<(&[usize], &[f64])> = blocks
             .iter()
@@ -80,9 +81,15 @@ impl Linearised {
         if let Some(symbolic) = &self.symbolic {
             self.factor = Some(Factor::new(symbolic, matrix, &dense)?);
             statistics.factorisations += 1;
+            statistics.flops += symbolic.flops();
+            statistics.factor_bytes = 8 * symbolic.factor_nonzeros() as u64;
         }
         self.stale = false;
-        statistics.seconds_factor += started.elapsed().as_secs_f64();
+        let factoring = started.elapsed().as_secs_f64();
+        statistics.seconds_factor += factoring;
+        if statistics.linear_solve == 0.0 {
+            statistics.linear_solve = ordering + factoring;
+        }
         Ok(())
     }
 

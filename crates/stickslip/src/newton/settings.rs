@@ -60,6 +60,12 @@ pub struct Statistics {
     pub seconds_contact: f64,
     /// Nonzeros of the last factor.
     pub factor_nonzeros: usize,
+    /// Additions and multiplications of all numeric factorisations and inverses.
+    pub flops: f64,
+    /// Bytes of the last factor and what was condensed with it.
+    pub factor_bytes: u64,
+    /// Seconds that ordering, one factorisation and one solution of the same bodies took or would take.
+    pub linear_solve: f64,
 }
 
 /// One Newton iteration, for the log.

@@ -1,5 +1,7 @@
 //! Accepted increments on their way into the results.
 
+use std::time::Instant;
+
 use super::accepted::Accepted;
 use super::history;
 use super::run::{Advance, Event, Observer, Simulation};
@@ -107,6 +109,7 @@ impl Simulation {
         self.tell(&pending.seen, observers);
         let counts = (pending.increment, pending.attempt);
         let effort = self.book(pending.accepted);
+        let started = Instant::now();
         if pending.row {
             let row = history::row(self, pending.trial, effort, counts);
             let named = row.names.iter().cloned().zip(row.values.iter().copied());
@@ -120,6 +123,7 @@ impl Simulation {
                 observer.see(self, Event::Output)?;
             }
         }
+        self.summary.phases.write += started.elapsed().as_secs_f64();
         Ok(())
     }
 
