@@ -95,6 +95,9 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
         s.solver.factorisations,
         s.phases.total
     ));
+    for note in &s.notes {
+        say(&format!("  {note}"));
+    }
     if s.mass_added > 0.0 {
         say(&format!(
             "  mass scaling added {:.2} % to the mass of the bodies",

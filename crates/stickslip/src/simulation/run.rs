@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::condense::{Condensed, Planned};
+use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
@@ -13,7 +13,7 @@ use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::condensed::{Condensation, Gaps, Substructure};
+use crate::newton::condensed::{Condensation, Gaps, Library};
 use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, Force, State, StepFailure};
 use crate::time::scheme::Method;
@@ -33,12 +33,11 @@ pub struct Simulation {
     pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
     pub(super) factors: Factors,
-    pub(super) plan: Option<Planned>,
     pub(super) condensed: Option<Condensed>,
     /// Condensed bodies of implicit increments, by the key of their matrix.
     pub(super) moving: Vec<(u64, Condensation, Gaps)>,
     pub(super) pending: Vec<Pending>,
-    pub(super) substructures: Vec<Arc<Substructure>>,
+    pub(super) library: Arc<Library>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
@@ -76,6 +75,13 @@ pub trait Observer {
 impl Simulation {
     /// Assembles the bulk and checks the model's own consistency.
     pub fn new(model: Model) -> Result<Self, Error> {
+        let library = Library::new(Library::small_limit());
+        Simulation::with_library(model, Arc::new(library))
+    }
+
+    /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
+    /// same bits, whoever made the factors.
+    pub fn with_library(model: Model, library: Arc<Library>) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
         let explicit = |s: &Step| {
@@ -133,11 +139,10 @@ impl Simulation {
             matrix,
             newton,
             factors: Factors::default(),
-            plan: None,
             condensed: None,
             moving: Vec::new(),
             pending: Vec::new(),
-            substructures: Vec::new(),
+            library,
             previous: None,
             held: BTreeMap::new(),
             released: Vec::new(),

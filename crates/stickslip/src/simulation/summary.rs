@@ -22,6 +22,8 @@ pub struct Summary {
     pub method: String,
     /// Why so.
     pub method_reason: String,
+    /// What the user should know besides, one line each: files of the cache that could not be used or written.
+    pub notes: Vec<String>,
     /// Size of the problem.
     pub size: Size,
     /// Accepted increments.
