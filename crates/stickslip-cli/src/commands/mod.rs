@@ -8,10 +8,12 @@ pub mod run;
 pub mod schema;
 pub mod sweep;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use stickslip::Error;
+use stickslip::newton::condensed::Library;
 
 /// Gives findings about a problem their places in its file.
 pub fn located(document: &stickslip::problem::Document, error: Error) -> Error {
@@ -29,6 +31,15 @@ pub fn use_threads(threads: Option<usize>) {
             .num_threads(threads)
             .build_global();
     }
+}
+
+/// Factors of bodies, kept in memory up to a limit `[bytes]`, and in a directory if there is one.
+pub fn library(limit: u64, cache: Option<&Path>) -> Result<Arc<Library>, Error> {
+    let library = match cache {
+        Some(directory) => Library::in_directory(limit, directory)?,
+        None => Library::new(limit),
+    };
+    Ok(Arc::new(library))
 }
 
 /// What a command ends with.

@@ -1,7 +1,9 @@
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::Digest;
 use super::pattern::{Couplings, Pattern};
 
 /// Block rows multiplied by one task; fixed, so that results never depend on the number of threads.
@@ -85,6 +87,21 @@ impl BlockCsr {
         &self.values[self.pattern.starts[point] * size..self.pattern.starts[point + 1] * size]
     }
 
+    /// Mixes which points are coupled to these points.
+    pub fn mix_pattern(&self, points: Range<usize>, digest: &mut Digest) {
+        let starts = &self.pattern.starts[points.start..=points.end];
+        let lengths: Vec<u32> = starts.windows(2).map(|w| (w[1] - w[0]) as u32).collect();
+        digest.indices(&lengths);
+        digest.indices(&self.pattern.columns[starts[0]..starts[points.len()]]);
+    }
+
+    /// Mixes the values in the rows of these points, by their bits.
+    pub fn mix_values(&self, points: Range<usize>, digest: &mut Digest) {
+        let size = self.block * self.block;
+        let starts = &self.pattern.starts;
+        digest.floats(&self.values[starts[points.start] * size..starts[points.end] * size]);
+    }
+
     /// The entry at two dofs; zero outside the pattern.
     pub fn entry(&self, row: usize, column: usize) -> f64 {
         let b = self.block;
@@ -152,12 +169,7 @@ impl BlockCsr {
     }
 
     /// Adds `factor` times the rows of these points of `other`, a matrix with the same pattern.
-    pub fn add_scaled_rows(
-        &mut self,
-        factor: f64,
-        other: &BlockCsr,
-        points: std::ops::Range<usize>,
-    ) {
+    pub fn add_scaled_rows(&mut self, factor: f64, other: &BlockCsr, points: Range<usize>) {
         let size = self.block * self.block;
         let rows = self.pattern.starts[points.start] * size..self.pattern.starts[points.end] * size;
         for (v, o) in self.values[rows.clone()]

@@ -1,3 +1,4 @@
+use std::io::{self, Read, Write};
 use std::sync::OnceLock;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -133,6 +134,54 @@ impl Compliance {
             values,
             single: OnceLock::new(),
         }
+    }
+
+    /// Writes the lower triangle, column by column, little endian.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn encode(&self, out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(&(self.n as u64).to_le_bytes())?;
+        let mut bytes = Vec::new();
+        for (j, column) in self.values.chunks_exact(self.n.max(1)).enumerate() {
+            bytes.clear();
+            bytes.extend(column[j..].iter().flat_map(|v| v.to_le_bytes()));
+            out.write_all(&bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Reads a compliance of `n` rows that [`encode`](Compliance::encode) wrote. Memory grows with what is read.
+    ///
+    /// # Errors
+    /// Those of `input`; [`io::ErrorKind::InvalidData`] for another size, or numbers that are not finite.
+    pub fn decode(n: usize, input: &mut dyn Read) -> io::Result<Compliance> {
+        let invalid = |what| Err(io::Error::new(io::ErrorKind::InvalidData, what));
+        let mut size = [0; 8];
+        input.read_exact(&mut size)?;
+        if u64::from_le_bytes(size) != n as u64 {
+            return invalid("a compliance of another size");
+        }
+        let mut triangle: Vec<f64> = Vec::new();
+        let mut bytes = Vec::new();
+        for j in 0..n {
+            bytes.resize(8 * (n - j), 0);
+            input.read_exact(&mut bytes)?;
+            let (numbers, _) = bytes.as_chunks::<8>();
+            triangle.extend(numbers.iter().map(|&b| f64::from_le_bytes(b)));
+        }
+        if !triangle.iter().all(|v| v.is_finite()) {
+            return invalid("a compliance with wrong numbers");
+        }
+        let mut values = vec![0.0; n * n];
+        let mut rest = &triangle[..];
+        for (j, column) in values.chunks_exact_mut(n.max(1)).enumerate() {
+            let (own, behind) = rest.split_at(n - j);
+            column[j..].copy_from_slice(own);
+            rest = behind;
+        }
+        mirror(n, &mut values);
+        Ok(Compliance::from_values(n, values))
     }
 
     /// Rows.
@@ -347,6 +396,23 @@ mod tests {
             y.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
         };
         assert_eq!(product(1), product(3));
+    }
+
+    #[test]
+    fn a_decoded_compliance_is_the_same() {
+        for n in [0, 1, 5, 70] {
+            let w = Compliance::of(n, sample(n)).unwrap();
+            let mut bytes = Vec::new();
+            w.encode(&mut bytes).unwrap();
+            assert_eq!(bytes.len(), 8 + 4 * n * (n + 1));
+            let again = Compliance::decode(n, &mut &bytes[..]).unwrap();
+            assert_eq!(again.values(), w.values());
+            assert!(Compliance::decode(n + 1, &mut &bytes[..]).is_err());
+            if let Some(last) = bytes.last_mut() {
+                *last = 0xff;
+            }
+            assert!(n == 0 || Compliance::decode(n, &mut &bytes[..bytes.len() - 1]).is_err());
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@
 mod block_csr;
 mod compliance;
 mod dense;
+mod digest;
 mod error;
 mod factor;
 mod gmres;
@@ -22,6 +23,7 @@ mod testing;
 pub use block_csr::BlockCsr;
 pub use compliance::Compliance;
 pub use dense::DenseLu;
+pub use digest::Digest;
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};

@@ -42,10 +42,18 @@ pub struct Statistics {
     pub analyses: usize,
     /// Numeric factorisations.
     pub factorisations: usize,
+    /// Substructures factored.
+    pub substructures_made: usize,
+    /// Substructures taken from memory: of an earlier run, step or increment.
+    pub substructures_shared: usize,
+    /// Substructures read from files.
+    pub substructures_read: usize,
     /// Krylov iterations.
     pub krylov: usize,
     /// Factorisations of matrices of gaps and slips.
     pub reduced: usize,
+    /// Seconds in looking for substructures made before, reading them included.
+    pub seconds_find: f64,
     /// Seconds in symbolic factorisation.
     pub seconds_order: f64,
     /// Seconds in numeric factorisation.

@@ -1,6 +1,5 @@
 //! Quasi-static increments on the contact candidates.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::accepted::{Accepted, Flow};
@@ -12,7 +11,7 @@ use crate::contact::interface::Reach;
 use crate::error::Error;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
-use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Plan, Reduced, Shapes};
+use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Places, Plan, Reduced, Shapes};
 use crate::newton::{Progress, System};
 use crate::system::{Cause, State, StepFailure};
 use crate::time::Trial;
@@ -26,16 +25,11 @@ const MOST_WIDENED: usize = 4;
 /// Times within a step at which supports are looked at.
 const SAMPLES: usize = 16;
 
-/// What was analysed for condensing: for these dofs that are no unknowns and these candidates.
-pub(super) struct Planned {
-    held: Vec<bool>,
-    kept: Vec<bool>,
-    plan: Plan,
-}
-
 /// The bodies without their interiors, and where the analysis stands.
 pub(super) struct Condensed {
     condensation: Condensation,
+    /// The candidates it was made for.
+    kept: Vec<bool>,
     gaps: Gaps,
     shapes: Shapes,
     /// The last accepted state: displacements are known at candidates and where prescribed.
@@ -67,16 +61,14 @@ impl Simulation {
         let held = self.constraints(0.5 * (step.start + step.end)).fixed;
         let kept = self.kept.clone().unwrap_or_default();
         if let Some(condensed) = &mut self.condensed
-            && self
-                .plan
-                .as_ref()
-                .is_some_and(|p| p.held == held && p.kept == kept)
+            && condensed.condensation.held == held
+            && condensed.kept == kept
         {
             condensed.forget_direction();
             return Ok(());
         }
         let matrix = std::mem::replace(&mut self.matrix, BlockCsr::empty(self.model.dofs.dim));
-        let made = self.condensation(&held, &kept, (&matrix, 0));
+        let made = self.condensation(&held, &kept, &matrix);
         self.matrix = matrix;
         let Some(condensation) = made else {
             self.condensed = None;
@@ -95,6 +87,7 @@ impl Simulation {
         }
         self.condensed = Some(Condensed {
             condensation,
+            kept,
             gaps: Gaps::default(),
             shapes: Shapes::default(),
             state: self.state.clone(),
@@ -105,47 +98,32 @@ impl Simulation {
         Ok(())
     }
 
-    /// Factors the bodies with one of their matrices, told apart by a key; `None` where the analysis goes on with the sparse matrix.
+    /// Factors the bodies with one of their matrices, as far as the library does not have them; `None` where the analysis goes on with the sparse matrix.
     pub(super) fn condensation(
         &mut self,
         held: &[bool],
         kept: &[bool],
-        (matrix, key): (&BlockCsr, u64),
+        matrix: &BlockCsr,
     ) -> Option<Condensation> {
-        let started = Instant::now();
-        let planned = match self.plan.take() {
-            Some(planned) if planned.held == held && planned.kept == kept => planned,
-            _ => {
-                let parts = self.parts();
-                match Plan::new(matrix, &parts, held, kept, key) {
-                    Ok(plan) => {
-                        self.newton.statistics.analyses += 1;
-                        Planned {
-                            held: held.to_vec(),
-                            kept: kept.to_vec(),
-                            plan,
-                        }
-                    }
-                    Err(e) => return self.not_condensed(&e.to_string()),
-                }
-            }
+        let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
+        let typical = if typical > 0.0 { typical } else { 1.0 };
+        let points = &self.model.mesh.points;
+        let places = |p: usize| -> Option<Vec3> { points.get(p).copied() };
+        let springs: (Places, f64) = (&places, typical);
+        let library = &*self.library;
+        let plan = match Plan::new(matrix, &self.parts(), (held, kept), springs, library) {
+            Ok(plan) => plan,
+            Err(e) => return self.not_condensed(&e.to_string()),
         };
-        self.newton.statistics.seconds_order += started.elapsed().as_secs_f64();
-        let plan = planned.plan.for_matrix(key);
-        self.newton.statistics.factor_nonzeros = plan.cost().nonzeros as usize;
-        self.plan = Some(planned);
         if self.decided.as_deref() != Some(held) {
             let choice = self.choose(&plan.cost(), (matrix, held));
             let forced = self.model.method == Solution::Condensed;
-            self.notes.push(format!(
-                "{}: {}",
-                if choice.condensed || forced {
-                    "condensed"
-                } else {
-                    "not condensed"
-                },
-                choice.reason
-            ));
+            let verdict = if choice.condensed || forced {
+                "condensed"
+            } else {
+                "not condensed"
+            };
+            self.notes.push(format!("{verdict}: {}", choice.reason));
             if !choice.condensed && !forced {
                 self.model.method = Solution::Sparse;
                 self.choose_candidates();
@@ -153,30 +131,41 @@ impl Simulation {
             }
             self.decided = Some(held.to_vec());
         }
-        let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
-        let points = &self.model.mesh.points;
-        let point = |p: usize| -> Option<Vec3> { points.get(p).copied() };
-        let made = Condensation::new(
-            &plan,
-            matrix,
-            held,
-            &self.substructures,
-            &point,
-            if typical > 0.0 { typical } else { 1.0 },
-        );
-        let (condensation, count) = match made {
+        let cost = plan.cost();
+        let started = Instant::now();
+        let made = Condensation::new(plan, matrix, held, springs, library);
+        let (condensation, effort) = match made {
             Ok(made) => made,
             Err(e) => return self.not_condensed(&e.to_string()),
         };
         let statistics = &mut self.newton.statistics;
-        statistics.factorisations += count;
-        for part in &condensation.parts {
-            if !self.substructures.iter().any(|s| Arc::ptr_eq(s, part)) {
-                statistics.seconds_factor += part.seconds.factor;
-                statistics.seconds_condense += part.seconds.condense;
-                self.substructures.push(Arc::clone(part));
-            }
+        statistics.factor_nonzeros = cost.nonzeros as usize;
+        statistics.factor_bytes = cost.bytes;
+        if effort.made > 0 {
+            statistics.flops += cost.factor + cost.condense;
         }
+        statistics.analyses += effort.analysed;
+        statistics.factorisations += effort.made;
+        statistics.substructures_made += effort.made;
+        statistics.substructures_shared += effort.shared;
+        statistics.substructures_read += effort.read;
+        statistics.seconds_find += effort.seconds_find;
+        statistics.seconds_order += effort.seconds_order;
+        // Bodies are factored side by side: their times are shares of the time that has passed.
+        let passed = (started.elapsed().as_secs_f64() - effort.seconds_find).max(0.0);
+        let spent = effort.seconds.factor + effort.seconds.condense;
+        let share = if spent > 0.0 { passed / spent } else { 0.0 };
+        let (factor, condense) = (
+            share * effort.seconds.factor,
+            share * effort.seconds.condense,
+        );
+        statistics.seconds_factor += factor;
+        statistics.seconds_condense += condense;
+        if statistics.linear_solve == 0.0 && effort.made > 0 {
+            // To factor the root costs a third of its inverse.
+            statistics.linear_solve = effort.seconds_order + factor + condense / 3.0;
+        }
+        self.notes.extend(effort.notes);
         Some(condensation)
     }
 

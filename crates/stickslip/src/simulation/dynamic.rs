@@ -5,7 +5,6 @@ use super::condense::LEFT;
 use super::inertia::{self, Inertia, dot, times};
 use super::model::{ContactAt, Dynamic, Solution};
 use super::run::{Observer, Simulation};
-use std::sync::Arc;
 
 use crate::error::Error;
 use crate::linear::BlockCsr;
@@ -311,16 +310,14 @@ impl Simulation {
                 if self.model.method == Solution::Sparse {
                     return false;
                 }
-                let Some(made) = self.condensation(held, &kept, (matrix, key)) else {
+                let Some(made) = self.condensation(held, &kept, matrix) else {
                     return false;
                 };
                 (key, made, Gaps::default())
             }
         };
         if self.moving.len() == MOST_CONDENSED {
-            let (_, old, _) = self.moving.remove(0);
-            self.substructures
-                .retain(|s| !old.parts.iter().any(|p| Arc::ptr_eq(p, s)));
+            self.moving.remove(0);
         }
         self.moving.push(last);
         true

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::condense::{Condensed, Planned};
+use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
@@ -13,7 +13,7 @@ use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::condensed::{Condensation, Gaps, Substructure};
+use crate::newton::condensed::{Condensation, Gaps, Library};
 use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, Force, State, StepFailure, Tally};
 use crate::time::scheme::Method;
@@ -33,7 +33,6 @@ pub struct Simulation {
     pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
     pub(super) factors: Factors,
-    pub(super) plan: Option<Planned>,
     /// Points that may come into contact, and how often they were too few.
     pub(super) kept: Option<Vec<bool>>,
     pub(super) widened: usize,
@@ -46,7 +45,7 @@ pub struct Simulation {
     /// Condensed bodies of implicit increments, by the key of their matrix.
     pub(super) moving: Vec<(u64, Condensation, Gaps)>,
     pub(super) pending: Vec<Pending>,
-    pub(super) substructures: Vec<Arc<Substructure>>,
+    pub(super) library: Arc<Library>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
@@ -105,6 +104,13 @@ pub trait Observer {
 impl Simulation {
     /// Assembles the bulk and checks the model's own consistency.
     pub fn new(model: Model) -> Result<Self, Error> {
+        let library = Library::new(Library::small_limit());
+        Simulation::with_library(model, Arc::new(library))
+    }
+
+    /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
+    /// same bits, whoever made the factors.
+    pub fn with_library(model: Model, library: Arc<Library>) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
         let assembled = !model.steps.iter().all(Step::is_explicit);
@@ -153,7 +159,6 @@ impl Simulation {
             matrix,
             newton,
             factors: Factors::default(),
-            plan: None,
             kept: None,
             widened: 0,
             decided: None,
@@ -162,7 +167,7 @@ impl Simulation {
             condensed: None,
             moving: Vec::new(),
             pending: Vec::new(),
-            substructures: Vec::new(),
+            library,
             previous: None,
             held: BTreeMap::new(),
             released: Vec::new(),
@@ -266,6 +271,7 @@ impl Simulation {
                 ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
                 Some(_) => self.attempt_explicit(trial),
             };
+            self.tell_notes(observers)?;
             match outcome {
                 Ok(accepted) => {
                     increment += 1;

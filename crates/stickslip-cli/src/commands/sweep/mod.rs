@@ -7,13 +7,15 @@ mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Instant;
 
 use stickslip::Error;
+use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
 use stickslip::simulation::{Model, Observer, ResultFiles, Simulation, Summary};
 
-use super::{Failure, Outcome, located, use_threads};
+use super::{Failure, Outcome, library, located, use_threads};
 use crate::progress::say;
 use columns::Columns;
 use plan::Plan;
@@ -26,7 +28,7 @@ const MOST_RUNS: usize = 100_000;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
-includes both ends. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
+includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
 factorisations, seconds, and the last row of the history. All values are checked before the first run. A run that
 fails does not stop the others: its outcome says why, and the exit code is 1.
 
@@ -54,6 +56,9 @@ pub struct Arguments {
     /// Keep the result files of every run, in DIR/0001 and so on.
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
+    /// Keep the factors of bodies in DIR too, and take from there what was factored before; see `run --cache`.
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
     /// Threads; all processors if not given. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -83,7 +88,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     tell(&heading(&plan));
 
-    let mut shared = Shared;
+    let shared = Shared {
+        library: library(Library::usual_limit(), arguments.cache.as_deref())?,
+    };
     let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
     let mut failed = 0;
@@ -93,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let directory = directory.map(|d| d.join(format!("{:04}", run + 1)));
         let mut columns = Columns::new(wanted);
         let document = plan.document(&case, run);
-        let ended = analyse(&document, directory.as_deref(), &mut columns, &mut shared);
+        let ended = analyse(&document, directory.as_deref(), &mut columns, &shared);
         if let Some(refusal) = columns.refusal() {
             return Err(refusal);
         }
@@ -117,6 +124,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             values.join("  "),
             width = plan.count().to_string().len()
         ));
+        for note in ended.summary.iter().flat_map(|s| &s.notes) {
+            tell(&format!("  {note}"));
+        }
         let row = Row {
             values: values.into_iter().map(str::to_string).collect(),
             outcome,
@@ -141,10 +151,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// What runs may share. They share nothing yet; whatever outlives a run (factors of bodies that do not change) goes
-/// here.
+/// What runs share.
 #[derive(Debug)]
-struct Shared;
+struct Shared {
+    /// Factors of bodies that stay the same.
+    library: Arc<Library>,
+}
 
 /// How a run ended: its error if it failed, and what is known of it if there was a simulation.
 struct Ended {
@@ -157,7 +169,7 @@ fn analyse(
     document: &Document,
     directory: Option<&Path>,
     columns: &mut Columns,
-    shared: &mut Shared,
+    shared: &Shared,
 ) -> Ended {
     let failed = |error| Ended {
         error: Some(error),
@@ -189,9 +201,9 @@ fn simulate(
     model: Model,
     read: f64,
     observers: &mut [&mut dyn Observer],
-    _shared: &mut Shared,
+    shared: &Shared,
 ) -> Ended {
-    match Simulation::new(model) {
+    match Simulation::with_library(model, Arc::clone(&shared.library)) {
         Ok(mut simulation) => {
             simulation.summary.phases.read = read;
             let error = simulation.run(observers).err();

@@ -104,6 +104,11 @@ impl PartialFactor {
         &self.fronts
     }
 
+    /// Bytes of the numbers of the factor.
+    pub fn bytes(&self) -> u64 {
+        8 * self.panels.iter().map(|p| p.len() as u64).sum::<u64>()
+    }
+
     /// The eliminated dof with the smallest pivot relative to its diagonal, and that ratio \[1\]; infinity if
     /// nothing was eliminated.
     pub fn smallest_pivot(&self) -> (usize, f64) {

@@ -297,6 +297,26 @@ impl Fronts {
             .sum()
     }
 
+    /// The points analysed.
+    pub fn points(&self) -> Range<usize> {
+        self.points.clone()
+    }
+
+    /// Dofs a point.
+    pub fn block_size(&self) -> usize {
+        self.shape.1
+    }
+
+    /// About the memory held \[bytes\].
+    pub fn bytes(&self) -> u64 {
+        let words = self.interior.len()
+            + self.root.len()
+            + self.position_of.len()
+            + 2 * self.rows.len()
+            + 8 * self.parents.len();
+        4 * words as u64
+    }
+
     /// About the memory a factorisation needs at most, the Schur complement and the factor included \[bytes\].
     pub fn peak_bytes(&self) -> u64 {
         let blocks: u64 = (0..self.len())

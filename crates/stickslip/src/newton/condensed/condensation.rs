@@ -4,18 +4,52 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::substructure::{Identity, Substructure};
+use super::identity::{Identity, Part};
+use super::library::{Library, Source};
+use super::substructure::{Seconds, Substructure};
 use crate::linear::{BlockCsr, Fronts, LinearError};
 use crate::math::Vec3;
 
 /// What is to be condensed: known before any arithmetic.
 #[derive(Debug)]
 pub struct Plan {
-    /// By part of the model.
-    parts: Vec<(Identity, Arc<Fronts>)>,
-    /// Seconds of ordering and symbolic factorisation.
-    pub seconds: f64,
+    parts: Vec<Planned>,
+    /// What it took.
+    pub effort: Effort,
 }
+
+/// One part of the model.
+#[derive(Debug)]
+struct Planned {
+    identity: Identity,
+    fronts: Arc<Fronts>,
+    /// The substructure, if it was made before.
+    known: Option<(Arc<Substructure>, Source)>,
+}
+
+/// What was made, and what was there.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Effort {
+    /// Symbolic analyses.
+    pub analysed: usize,
+    /// Substructures factored.
+    pub made: usize,
+    /// Substructures made before in this process.
+    pub shared: usize,
+    /// Substructures read from files.
+    pub read: usize,
+    /// Seconds of looking for what was made before, reading included.
+    pub seconds_find: f64,
+    /// Seconds of ordering and symbolic factorisation.
+    pub seconds_order: f64,
+    /// Seconds of factoring; parts are factored side by side.
+    pub seconds: Seconds,
+    /// What the user should know about files.
+    pub notes: Vec<String>,
+}
+
+/// Where points are: `None` for the hidden points of rigid bodies.
+pub type Places<'a> = &'a (dyn Fn(usize) -> Option<Vec3> + Sync);
 
 /// What a plan costs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -35,61 +69,81 @@ pub struct Cost {
 }
 
 impl Plan {
-    /// Analyses every part of the model, given by its points, on its own: parts must not be coupled. `fixed` marks dofs that are no unknowns,
-    /// `kept` the points that may come into contact, and `key` tells matrices apart.
+    /// Looks for the substructures of every part of the model, given by its points, and analyses those that were not made before. Parts must not be
+    /// coupled. `fixed` marks dofs that are no unknowns, `kept` the points that may come into contact; `typical` is a stiffness for springs where
+    /// there is no other `[N/m]`.
     ///
     /// # Errors
-    /// [`LinearError::OutOfMemory`].
+    /// Those of [`Fronts::analyze`].
     pub fn new(
         matrix: &BlockCsr,
         parts: &[Range<usize>],
-        fixed: &[bool],
-        kept: &[bool],
-        key: u64,
+        (fixed, kept): (&[bool], &[bool]),
+        (places, typical): (Places, f64),
+        library: &Library,
     ) -> Result<Plan, LinearError> {
         let started = Instant::now();
-        let b = matrix.block_size();
-        let parts: Result<Vec<_>, LinearError> = parts
+        let find = |points: &Range<usize>| {
+            let part = Part {
+                matrix,
+                points: (points.start, points.end),
+                fixed,
+                kept,
+            };
+            let identity = part.substructure(places, typical);
+            let (known, note) = library.find(identity, &part);
+            let fronts = match &known {
+                Some((part, _)) => Some(Arc::clone(part.partial.fronts())),
+                None => library.analysis(part.analysis()),
+            };
+            (part, identity, known, note, fronts)
+        };
+        let found: Vec<_> = parts.par_iter().map(find).collect();
+        let mut effort = Effort {
+            seconds_find: started.elapsed().as_secs_f64(),
+            ..Effort::default()
+        };
+        let started = Instant::now();
+        let analysed: Result<Vec<Arc<Fronts>>, LinearError> = found
             .par_iter()
-            .map(|points| {
-                let identity = Identity {
-                    matrix: key,
-                    points: points.clone(),
-                    fixed: fixed[points.start * b..points.end * b].to_vec(),
-                    kept: kept[points.clone()].to_vec(),
-                };
-                let fronts = Fronts::analyze(matrix, points.clone(), fixed, kept)?;
-                Ok((identity, Arc::new(fronts)))
+            .map(|(part, _, _, _, fronts)| match fronts {
+                Some(fronts) => Ok(Arc::clone(fronts)),
+                None => {
+                    let made = Fronts::analyze(matrix, part.points(), fixed, kept)?;
+                    let made = Arc::new(made);
+                    library.keep_analysis(part.analysis(), &made);
+                    Ok(made)
+                }
             })
             .collect();
-        Ok(Plan {
-            parts: parts?,
-            seconds: started.elapsed().as_secs_f64(),
-        })
-    }
-
-    /// The same analysis for another matrix with the same pattern.
-    pub fn for_matrix(&self, key: u64) -> Plan {
-        let parts = self.parts.iter().map(|(identity, fronts)| {
-            let identity = Identity {
-                matrix: key,
-                ..identity.clone()
-            };
-            (identity, Arc::clone(fronts))
-        });
-        Plan {
-            parts: parts.collect(),
-            seconds: 0.0,
+        let mut parts = Vec::with_capacity(found.len());
+        for ((_, identity, known, note, before), fronts) in found.into_iter().zip(analysed?) {
+            effort.analysed += usize::from(before.is_none());
+            match &known {
+                Some((_, Source::Memory)) => effort.shared += 1,
+                Some((_, Source::Disk)) => effort.read += 1,
+                _ => effort.made += 1,
+            }
+            effort.notes.extend(note);
+            parts.push(Planned {
+                identity,
+                fronts,
+                known,
+            });
         }
+        effort.seconds_order = started.elapsed().as_secs_f64();
+        Ok(Plan { parts, effort })
     }
 
     /// What it would cost to carry it out.
     pub fn cost(&self) -> Cost {
         let mut cost = Cost::default();
-        for (_, fronts) in &self.parts {
+        for Planned { fronts, known, .. } in &self.parts {
             let n = fronts.root().len() as f64;
-            cost.factor += fronts.flops();
-            cost.condense += n * n * n;
+            if known.is_none() {
+                cost.factor += fronts.flops();
+                cost.condense += n * n * n;
+            }
             cost.nonzeros += fronts.nonzeros() as f64;
             cost.dense += n * n;
             cost.candidates += fronts.root().len();
@@ -121,35 +175,40 @@ pub struct Condensation {
 const NONE: u32 = u32::MAX;
 
 impl Condensation {
-    /// Carries out a plan, taking what it can from substructures made before. Also returns how many parts were factored.
+    /// Carries out a plan: factors what was not made before, and gives it to the library.
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
     pub fn new(
-        plan: &Plan,
+        plan: Plan,
         matrix: &BlockCsr,
         held: &[bool],
-        known: &[Arc<Substructure>],
-        point: &(dyn Fn(usize) -> Option<Vec3> + Sync),
-        typical: f64,
-    ) -> Result<(Condensation, usize), LinearError> {
-        let parts: Result<Vec<(Arc<Substructure>, bool)>, LinearError> = plan
-            .parts
-            .par_iter()
-            .map(
-                |(identity, fronts)| match known.iter().find(|k| k.identity == *identity) {
-                    Some(same) => Ok((Arc::clone(same), false)),
-                    None => {
-                        let made =
-                            Substructure::new(identity.clone(), fronts, matrix, point, typical)?;
-                        Ok((Arc::new(made), true))
-                    }
-                },
-            )
+        (places, typical): (Places, f64),
+        library: &Library,
+    ) -> Result<(Condensation, Effort), LinearError> {
+        let Plan { parts, mut effort } = plan;
+        let made: Result<Vec<(Arc<Substructure>, bool, Option<String>)>, LinearError> = parts
+            .into_par_iter()
+            .map(|part| match part.known {
+                Some((known, _)) => Ok((known, false, None)),
+                None => {
+                    let made =
+                        Substructure::new(part.identity, &part.fronts, matrix, places, typical)?;
+                    let made = Arc::new(made);
+                    let note = library.keep(&made);
+                    Ok((made, true, note))
+                }
+            })
             .collect();
-        let parts = parts?;
-        let made = parts.iter().filter(|(_, made)| *made).count();
-        let parts: Vec<Arc<Substructure>> = parts.into_iter().map(|(part, _)| part).collect();
+        let mut parts = Vec::new();
+        for (part, new, note) in made? {
+            if new {
+                effort.seconds.factor += part.seconds.factor;
+                effort.seconds.condense += part.seconds.condense;
+            }
+            effort.notes.extend(note);
+            parts.push(part);
+        }
         let (mut starts, mut dofs) = (vec![0], Vec::new());
         for part in &parts {
             dofs.extend(part.root().iter().map(|&d| d as usize));
@@ -169,7 +228,7 @@ impl Condensation {
             held: held.to_vec(),
             place,
         };
-        Ok((condensation, made))
+        Ok((condensation, effort))
     }
 
     /// Number of candidate dofs.

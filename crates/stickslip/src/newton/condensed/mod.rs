@@ -14,14 +14,19 @@
 //! in it is divided by their compliance.
 
 mod condensation;
+mod file;
 mod gaps;
+mod identity;
+mod library;
 mod lu;
 mod reduced;
 mod shapes;
 mod substructure;
 
-pub use condensation::{Condensation, Cost, Plan};
+pub use condensation::{Condensation, Cost, Effort, Places, Plan};
 pub use gaps::Gaps;
+pub use identity::{Identity, Part};
+pub use library::{Library, Source};
 pub use reduced::Reduced;
 pub use shapes::{Amplitudes, Shapes};
-pub use substructure::{Floating, Identity, Seconds, Substructure};
+pub use substructure::{Floating, Seconds, Substructure};

@@ -1,24 +1,11 @@
-use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
 use faer::Mat;
 
+use super::identity::Identity;
 use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor};
 use crate::math::Vec3;
-
-/// What decides whether a factor made before can be used again.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Identity {
-    /// Tells matrices apart.
-    pub matrix: u64,
-    /// Points of the body.
-    pub points: Range<usize>,
-    /// Dofs of these points that are no unknowns.
-    pub fixed: Vec<bool>,
-    /// Those of the points that may come into contact.
-    pub kept: Vec<bool>,
-}
 
 /// Times of a factorisation `[s]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -36,7 +23,7 @@ pub struct Seconds {
 /// again.
 #[derive(Debug)]
 pub struct Substructure {
-    /// What it was made for.
+    /// What it was made from.
     pub identity: Identity,
     /// Factor of the interior.
     pub partial: PartialFactor,
@@ -57,6 +44,22 @@ pub struct Floating {
     pub sigma: f64,
     /// `Z = (S + σ R Rᵀ)⁻¹ R`.
     pub yielding: Vec<Vec<f64>>,
+}
+
+impl Floating {
+    /// Motions held by artificial springs that are part of the compliance.
+    pub(super) fn new(modes: Vec<Vec<f64>>, sigma: f64, compliance: &Compliance) -> Self {
+        let yielding = modes.iter().map(|mode| {
+            let mut z = vec![0.0; mode.len()];
+            compliance.mul(mode, &mut z);
+            z
+        });
+        Floating {
+            yielding: yielding.collect(),
+            modes,
+            sigma,
+        }
+    }
 }
 
 /// Stiffness against a rigid motion, relative to the mean of the diagonal, below which artificial springs are added. They are exactly taken away
@@ -107,18 +110,7 @@ impl Substructure {
             },
             other => other,
         })?;
-        let floating = floating.map(|(modes, sigma)| {
-            let yielding = modes.iter().map(|mode| {
-                let mut z = vec![0.0; mode.len()];
-                compliance.mul(mode, &mut z);
-                z
-            });
-            Floating {
-                yielding: yielding.collect(),
-                modes,
-                sigma,
-            }
-        });
+        let floating = floating.map(|(modes, sigma)| Floating::new(modes, sigma, &compliance));
         Ok(Substructure {
             identity,
             partial,
@@ -129,6 +121,13 @@ impl Substructure {
                 condense: started.elapsed().as_secs_f64(),
             },
         })
+    }
+
+    /// About the memory held `[bytes]`, with the compliance in single precision that Newton's method makes.
+    pub fn bytes(&self) -> u64 {
+        let n = self.root().len() as u64;
+        let modes = self.floating.as_ref().map_or(0, |f| f.modes.len() as u64);
+        self.partial.bytes() + self.partial.fronts().bytes() + 12 * n * n + 16 * modes * n
     }
 
     /// The kept dofs, ascending.
