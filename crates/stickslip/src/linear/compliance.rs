@@ -1,4 +1,5 @@
 use std::io::{self, Read, Write};
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -263,8 +264,13 @@ fn product<T: Number>(n: usize, values: &[T], x: &[f64], y: &mut [f64]) {
         .par_windows(2)
         .map(|range| {
             let mut part = vec![T::ZERO; n - range[0]];
-            let work = || lower_columns(n, values, range[0]..range[1], &x, &mut part);
-            pulp::Arch::new().dispatch(work);
+            pulp::Arch::new().dispatch(LowerColumns {
+                n,
+                values,
+                columns: range[0]..range[1],
+                x: &x,
+                y: &mut part,
+            });
             part
         })
         .collect();
@@ -276,77 +282,104 @@ fn product<T: Number>(n: usize, values: &[T], x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// What the columns of the lower triangle and the rows that mirror them add to the product; `y` starts at the first column.
-#[inline(always)]
-fn lower_columns<T: Number>(
+/// What some columns of the lower triangle and the rows that mirror them add to the product; `y` starts at the first of them.
+struct LowerColumns<'a, T> {
     n: usize,
-    values: &[T],
-    columns: std::ops::Range<usize>,
-    x: &[T],
-    y: &mut [T],
-) {
-    const LANES: usize = 8;
-    let first = columns.start;
-    let mut j = first;
-    while j < columns.end {
-        let width = (columns.end - j).min(4);
-        // the triangle on the diagonal
-        for a in j..j + width {
-            for b in j..=a {
-                let v = values[b * n + a];
-                y[a - first] = y[a - first].plus(v.times(x[b]));
-                if a != b {
-                    y[b - first] = y[b - first].plus(v.times(x[a]));
-                }
-            }
-        }
-        let below = j + width;
-        if width == 4 {
-            let column = |k: usize| &values[(j + k) * n + below..(j + k + 1) * n];
-            let c = [column(0), column(1), column(2), column(3)];
-            let s = [x[j], x[j + 1], x[j + 2], x[j + 3]];
-            let xs = &x[below..n];
-            let ys = &mut y[below - first..];
-            let mut sums = [[T::ZERO; LANES]; 4];
-            let whole = xs.len() / LANES * LANES;
-            for i in (0..whole).step_by(LANES) {
-                let xv = &xs[i..i + LANES];
-                let cv = [0, 1, 2, 3].map(|k| &c[k][i..i + LANES]);
-                let yv = &mut ys[i..i + LANES];
-                for l in 0..LANES {
-                    let mut sum = yv[l];
-                    for k in 0..4 {
-                        let v = cv[k][l];
-                        sum = sum.plus(v.times(s[k]));
-                        sums[k][l] = sums[k][l].plus(v.times(xv[l]));
+    values: &'a [T],
+    columns: Range<usize>,
+    x: &'a [T],
+    y: &'a mut [T],
+}
+
+/// Numbers that go through the processor together.
+const LANES: usize = 8;
+
+impl<T: Number> pulp::NullaryFnOnce for LowerColumns<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let LowerColumns {
+            n,
+            values,
+            columns,
+            x,
+            y,
+        } = self;
+        let first = columns.start;
+        let mut j = first;
+        while j < columns.end {
+            let width = (columns.end - j).min(4);
+            // the triangle on the diagonal
+            for a in j..j + width {
+                for b in j..=a {
+                    let v = values[b * n + a];
+                    y[a - first] = y[a - first].plus(v.times(x[b]));
+                    if a != b {
+                        y[b - first] = y[b - first].plus(v.times(x[a]));
                     }
-                    yv[l] = sum;
                 }
             }
-            for i in whole..xs.len() {
-                for k in 0..4 {
-                    let v = c[k][i];
-                    ys[i] = ys[i].plus(v.times(s[k]));
-                    sums[k][0] = sums[k][0].plus(v.times(xs[i]));
+            let below = j + width;
+            let column = |k: usize| &values[(j + k) * n + below..(j + k + 1) * n];
+            let sums = if width == 4 {
+                let c = [column(0), column(1), column(2), column(3)];
+                let s = [x[j], x[j + 1], x[j + 2], x[j + 3]];
+                four_columns(c, s, &x[below..n], &mut y[below - first..])
+            } else {
+                let mut sums = [T::ZERO; 4];
+                for (k, sum) in sums.iter_mut().enumerate().take(width) {
+                    let x = &x[j..];
+                    for ((v, y), xi) in column(k)
+                        .iter()
+                        .zip(&mut y[below - first..])
+                        .zip(&x[width..])
+                    {
+                        *y = y.plus(v.times(x[k]));
+                        *sum = sum.plus(v.times(*xi));
+                    }
                 }
-            }
-            for (k, lanes) in sums.iter().enumerate() {
-                let sum = lanes.iter().fold(T::ZERO, |a, &b| a.plus(b));
+                sums
+            };
+            for (k, sum) in sums.into_iter().enumerate().take(width) {
                 y[j + k - first] = y[j + k - first].plus(sum);
             }
-        } else {
-            for k in j..j + width {
-                let mut sum = T::ZERO;
-                for i in below..n {
-                    let v = values[k * n + i];
-                    y[i - first] = y[i - first].plus(v.times(x[k]));
-                    sum = sum.plus(v.times(x[i]));
-                }
-                y[k - first] = y[k - first].plus(sum);
-            }
+            j += width;
         }
-        j += width;
     }
+}
+
+/// `y += Σ cₖ sₖ` and the products `cₖ · x`.
+#[inline(always)]
+fn four_columns<T: Number>(c: [&[T]; 4], s: [T; 4], x: &[T], y: &mut [T]) -> [T; 4] {
+    let mut lanes = [[T::ZERO; LANES]; 4];
+    let (c0, r0) = c[0].as_chunks::<LANES>();
+    let (c1, r1) = c[1].as_chunks::<LANES>();
+    let (c2, r2) = c[2].as_chunks::<LANES>();
+    let (c3, r3) = c[3].as_chunks::<LANES>();
+    let (xs, xr) = x.as_chunks::<LANES>();
+    let (ys, yr) = y.as_chunks_mut::<LANES>();
+    for (((((y, x), c0), c1), c2), c3) in ys.iter_mut().zip(xs).zip(c0).zip(c1).zip(c2).zip(c3) {
+        for l in 0..LANES {
+            let low = c0[l].times(s[0]).plus(c1[l].times(s[1]));
+            let high = c2[l].times(s[2]).plus(c3[l].times(s[3]));
+            y[l] = y[l].plus(low.plus(high));
+        }
+        for l in 0..LANES {
+            lanes[0][l] = lanes[0][l].plus(c0[l].times(x[l]));
+            lanes[1][l] = lanes[1][l].plus(c1[l].times(x[l]));
+            lanes[2][l] = lanes[2][l].plus(c2[l].times(x[l]));
+            lanes[3][l] = lanes[3][l].plus(c3[l].times(x[l]));
+        }
+    }
+    let mut sums = lanes.map(|lane| lane.iter().fold(T::ZERO, |a, &b| a.plus(b)));
+    for (((((y, x), c0), c1), c2), c3) in yr.iter_mut().zip(xr).zip(r0).zip(r1).zip(r2).zip(r3) {
+        for (k, c) in [c0, c1, c2, c3].into_iter().enumerate() {
+            *y = y.plus(c.times(s[k]));
+            sums[k] = sums[k].plus(c.times(*x));
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

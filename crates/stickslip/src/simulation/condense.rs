@@ -124,6 +124,7 @@ impl Simulation {
                 "not condensed"
             };
             self.notes.push(format!("{verdict}: {}", choice.reason));
+            self.summary.method_reason = choice.reason;
             if !choice.condensed && !forced {
                 self.model.method = Solution::Sparse;
                 self.choose_candidates();
@@ -166,6 +167,7 @@ impl Simulation {
             statistics.linear_solve = effort.seconds_order + factor + condense / 3.0;
         }
         self.notes.extend(effort.notes);
+        self.summary.method = "condensed".into();
         Some(condensation)
     }
 
@@ -190,6 +192,7 @@ impl Simulation {
     /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
     /// not looked at.
     pub(super) fn choose_candidates(&mut self) {
+        self.summary.method = "sparse".into();
         let points = self.model.dofs.points;
         let mut kept = self.kept.take().unwrap_or_else(|| vec![false; points]);
         let mut all = vec![false; points];
@@ -218,6 +221,16 @@ impl Simulation {
             kept[link.hidden..link.hidden + 2].fill(true);
         }
         self.kept = Some(kept);
+    }
+
+    /// Lets all points take part.
+    pub(super) fn wake(&mut self) {
+        let mut kept = vec![false; self.model.dofs.points];
+        for interface in &mut self.model.interfaces {
+            interface.wake(&mut kept);
+        }
+        self.kept = None;
+        self.summary.method = "explicit".into();
     }
 
     /// Distance beyond that of prescribed motion in which contact is looked for: more each time that it was too little.

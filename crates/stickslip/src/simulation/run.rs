@@ -216,7 +216,10 @@ impl Simulation {
                             self.start_motion(&dynamic)?;
                             self.choose_candidates();
                         }
-                        Method::Explicit { .. } => self.start_explicit(&dynamic)?,
+                        Method::Explicit { .. } => {
+                            self.wake();
+                            self.start_explicit(&dynamic)?;
+                        }
                     }
                 }
                 None => {
