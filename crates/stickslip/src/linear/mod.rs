@@ -2,7 +2,7 @@
 //! something close. [`relative_residual`] tells whether any of them did.
 //!
 //! [`BlockCsr`] holds a matrix over the points of a mesh. [`Symbolic`] and [`Factor`] solve symmetric positive definite
-//! systems.
+//! systems; [`Multigrid`] approximates their solution where a factor would be too large.
 
 mod block_csr;
 mod compliance;
@@ -11,6 +11,7 @@ mod error;
 mod factor;
 mod gmres;
 mod multifrontal;
+mod multigrid;
 mod ordering;
 mod pattern;
 mod residual;
@@ -25,6 +26,7 @@ pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
 pub use multifrontal::{Fronts, PartialFactor};
+pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use symbolic::Symbolic;
