@@ -60,6 +60,16 @@ pub struct Statistics {
     pub seconds_contact: f64,
     /// Nonzeros of the last factor.
     pub factor_nonzeros: usize,
+    /// Multigrid hierarchies made.
+    pub setups: usize,
+    /// Hierarchies whose finest level was made anew.
+    pub refreshes: usize,
+    /// Levels of the last hierarchy; 0 without one.
+    pub levels: usize,
+    /// Scalars on all its levels over those on the finest.
+    pub operator_complexity: f64,
+    /// Its size `[bytes]`.
+    pub hierarchy_bytes: usize,
 }
 
 /// One Newton iteration, for the log.

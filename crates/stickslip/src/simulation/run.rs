@@ -6,7 +6,7 @@ use super::condense::{Condensed, Planned};
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
-use super::model::{Dynamic, Model, Step};
+use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{Phases, Summary};
 use super::{diagnosis, history};
@@ -138,7 +138,10 @@ impl Simulation {
             diagonal: matrix.diagonal(),
             matrix,
             newton,
-            factors: Factors::default(),
+            factors: match model.method {
+                Solution::Multigrid => Factors::multigrid(model.places()),
+                _ => Factors::default(),
+            },
             plan: None,
             kept: None,
             widened: 0,
@@ -250,6 +253,11 @@ impl Simulation {
                 ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
                 Some(_) => self.attempt_explicit(trial),
             };
+            let notes = self.factors.notes();
+            if !notes.is_empty() {
+                self.notes.extend(notes);
+                self.tell_notes(observers)?;
+            }
             match outcome {
                 Ok(accepted) => {
                     increment += 1;
