@@ -40,6 +40,7 @@ references! {
     newmark_1959: "N. M. Newmark, A method of computation for structural dynamics, Journal of the Engineering Mechanics Division ASCE 85 (1959) 67-94.",
     hht_1977: "H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Improved numerical dissipation for time integration algorithms in structural dynamics, Earthquake Engineering and Structural Dynamics 5 (1977) 283-292.",
     chung_hulbert_1993: "J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical dissipation: the generalized-α method, Journal of Applied Mechanics 60 (1993) 371-375.",
+    vanek_1996: "P. Vaněk, J. Mandel, M. Brezina, Algebraic multigrid by smoothed aggregation for second and fourth order elliptic problems, Computing 56 (1996) 179-196.",
     zienkiewicz_xie_1991: "O. C. Zienkiewicz, Y. M. Xie, A simple error estimator and adaptive time stepping procedure for dynamic analysis, Earthquake Engineering and Structural Dynamics 20 (1991) 871-887.",
     hinton_1976: "E. Hinton, T. Rock, O. C. Zienkiewicz, A note on mass lumping and related processes in the finite element method, Earthquake Engineering and Structural Dynamics 4 (1976) 245-249.",
     khenous_2008: "H. B. Khenous, P. Laborde, Y. Renard, Mass redistribution method for finite element contact problems in elastodynamics, European Journal of Mechanics A/Solids 27 (2008) 918-932.",

@@ -37,6 +37,71 @@ impl BlockCsr {
         }
     }
 
+    /// The matrix of a pattern and its blocks, each row by row.
+    pub(super) fn from_parts(pattern: Pattern, block: usize, values: Vec<f64>) -> BlockCsr {
+        assert_eq!(values.len(), pattern.columns.len() * block * block);
+        BlockCsr {
+            pattern: Arc::new(pattern),
+            block,
+            values,
+        }
+    }
+
+    /// The matrix plus dense symmetric groups as for [`add_group`](BlockCsr::add_group), which may couple points that it does not.
+    ///
+    /// # Panics
+    /// If a group names a point that does not exist, or has not the size of its points.
+    pub fn with_groups(&self, groups: &[(Vec<usize>, Vec<f64>)]) -> BlockCsr {
+        let size = self.block * self.block;
+        let mut new: Vec<(u32, u32)> = Vec::new();
+        for (points, _) in groups {
+            for &row in points {
+                let others = points.iter().filter(|&&c| self.find(row, c).is_none());
+                new.extend(others.map(|&column| (row as u32, column as u32)));
+            }
+        }
+        new.sort_unstable();
+        new.dedup();
+        let mut pattern = Pattern {
+            starts: Vec::with_capacity(self.points() + 1),
+            columns: Vec::with_capacity(self.pattern.columns.len() + new.len()),
+        };
+        let mut values = Vec::with_capacity(self.values.len() + new.len() * size);
+        pattern.starts.push(0);
+        let mut new = new.into_iter().peekable();
+        for row in 0..self.points() {
+            let blocks = self.row_blocks(row).chunks_exact(size);
+            let mut old = self.neighbours(row).iter().zip(blocks).peekable();
+            loop {
+                let ahead = new.peek().filter(|(r, _)| *r as usize == row).map(|n| n.1);
+                match (old.peek(), ahead) {
+                    (Some((column, _)), Some(added)) if added < **column => {
+                        pattern.columns.push(added);
+                        values.resize(values.len() + size, 0.0);
+                        new.next();
+                    }
+                    (Some((column, block)), _) => {
+                        pattern.columns.push(**column);
+                        values.extend_from_slice(block);
+                        old.next();
+                    }
+                    (None, Some(added)) => {
+                        pattern.columns.push(added);
+                        values.resize(values.len() + size, 0.0);
+                        new.next();
+                    }
+                    (None, None) => break,
+                }
+            }
+            pattern.starts.push(pattern.columns.len());
+        }
+        let mut out = BlockCsr::from_parts(pattern, self.block, values);
+        for (points, dense) in groups {
+            out.add_group(points, dense);
+        }
+        out
+    }
+
     /// A matrix without points.
     pub fn empty(block: usize) -> BlockCsr {
         BlockCsr::from_couplings(0, block, &mut |_| ())
@@ -304,6 +369,38 @@ mod tests {
             let mut b = a.zeros_like();
             b.add_scaled(-2.0, &a);
             assert_eq!(b.entry(0, 1), -2.0 * a.entry(0, 1));
+        }
+    }
+
+    #[test]
+    fn groups_may_couple_points_that_were_not() {
+        for block in [2, 3] {
+            let a = grid([5, 3, 1], block);
+            let groups: Vec<(Vec<usize>, Vec<f64>)> = [vec![0, 14, 7], vec![7, 8], vec![14, 1]]
+                .into_iter()
+                .map(|points| {
+                    let width = points.len() * block;
+                    let dense = noise(&mut 9, width * width);
+                    (points, dense)
+                })
+                .collect();
+            let mut expected = BlockCsr::from_couplings(15, block, &mut |add| {
+                (0..15).for_each(|i| {
+                    let near = a.neighbours(i);
+                    near.iter().for_each(|&j| add(&[i, j as usize]));
+                });
+                groups.iter().for_each(|(points, _)| add(points));
+            });
+            let sum = a.with_groups(&groups);
+            assert_eq!(sum.pattern, expected.pattern);
+            for (points, dense) in &groups {
+                expected.add_group(points, dense);
+            }
+            let n = a.rows();
+            for (k, value) in dense_of(&sum).into_iter().enumerate() {
+                let right = a.entry(k / n, k % n) + expected.entry(k / n, k % n);
+                assert!((value - right).abs() < 1e-14);
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 //! something close. [`relative_residual`] tells whether any of them did.
 //!
 //! [`BlockCsr`] holds a matrix over the points of a mesh. [`Symbolic`] and [`Factor`] solve symmetric positive definite
-//! systems.
+//! systems; [`Multigrid`] approximates their solution where a factor would be too large.
 
 mod block_csr;
 mod compliance;
@@ -13,6 +13,7 @@ mod factor;
 mod gmres;
 mod isotropic;
 mod multifrontal;
+mod multigrid;
 mod ordering;
 mod pattern;
 mod residual;
@@ -29,6 +30,7 @@ pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
 pub use isotropic::Isotropic;
 pub use multifrontal::{Fronts, PartialFactor};
+pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use symbolic::Symbolic;

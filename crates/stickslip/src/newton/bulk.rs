@@ -27,6 +27,11 @@ pub trait Bulk {
         true
     }
 
+    /// Whether the solution needs to know which points meet which facets.
+    fn wants_pairs(&self) -> bool {
+        false
+    }
+
     /// Whether the bulk can tell how the dofs that the interfaces act on move.
     fn covers(&self, _contact: &Assembler) -> Result<(), StepFailure> {
         Ok(())

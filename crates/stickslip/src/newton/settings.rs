@@ -74,6 +74,16 @@ pub struct Statistics {
     pub factor_bytes: u64,
     /// Seconds that ordering, one factorisation and one solution of the same bodies took or would take.
     pub linear_solve: f64,
+    /// Multigrid hierarchies made.
+    pub setups: usize,
+    /// Hierarchies whose finest level was made anew.
+    pub refreshes: usize,
+    /// Levels of the last hierarchy; 0 without one.
+    pub levels: usize,
+    /// Scalars on all its levels over those on the finest.
+    pub operator_complexity: f64,
+    /// Its size `[bytes]`.
+    pub hierarchy_bytes: usize,
 }
 
 /// One Newton iteration, for the log.

@@ -211,6 +211,7 @@ impl Newton {
         let n = system.dofs.count();
         let mut out = Assembler::new(n);
         out.wants_surrogate = system.bulk.wants_surrogates();
+        out.wants_pairs = system.bulk.wants_pairs();
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();

@@ -54,7 +54,7 @@ impl Condensed {
 impl Simulation {
     /// Makes the bodies ready for a quasi-static step.
     pub(super) fn condense(&mut self) -> Result<(), Error> {
-        if self.model.method == Solution::Sparse {
+        if !self.model.method.condenses() {
             return Ok(());
         }
         let step = &self.model.steps[self.step];
@@ -200,7 +200,7 @@ impl Simulation {
             all[node] = true;
         }
         let count = all.iter().filter(|a| **a).count();
-        if count < FEW || self.widened >= MOST_WIDENED || self.model.method == Solution::Sparse {
+        if count < FEW || self.widened >= MOST_WIDENED || !self.model.method.condenses() {
             for interface in &mut self.model.interfaces {
                 interface.wake(&mut kept);
             }

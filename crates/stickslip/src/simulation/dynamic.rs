@@ -3,7 +3,7 @@
 use super::accepted::{Accepted, Flow};
 use super::condense::LEFT;
 use super::inertia::{self, Inertia, dot, times};
-use super::model::{ContactAt, Dynamic, Solution};
+use super::model::{ContactAt, Dynamic};
 use super::run::{Observer, Simulation};
 
 use crate::error::Error;
@@ -307,7 +307,7 @@ impl Simulation {
         let last = match found {
             Some(i) => self.moving.remove(i),
             None => {
-                if self.model.method == Solution::Sparse {
+                if !self.model.method.condenses() {
                     return false;
                 }
                 let Some(made) = self.condensation(held, &kept, matrix) else {

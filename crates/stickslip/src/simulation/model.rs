@@ -6,7 +6,7 @@ use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
 use crate::math::Mat3;
 use crate::mesh::Mesh;
-use crate::newton::Settings;
+use crate::newton::{Places, Settings};
 use crate::system::{Dofs, Fields, Force, Links, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
@@ -130,6 +130,15 @@ pub enum Solution {
     Condensed,
     /// The sparse matrix of everything is factored when the interfaces have changed much.
     Sparse,
+    /// The sparse matrix of everything is solved by multigrid and GMRES: for bodies whose factors would be too large.
+    Multigrid,
+}
+
+impl Solution {
+    /// Whether bodies may be condensed.
+    pub fn condenses(self) -> bool {
+        !matches!(self, Solution::Sparse | Solution::Multigrid)
+    }
 }
 
 /// How a dynamic step is integrated.
@@ -153,6 +162,22 @@ impl Model {
     /// Whether any step is dynamic.
     pub fn moves(&self) -> bool {
         self.steps.iter().any(|s| s.dynamic.is_some())
+    }
+
+    /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).
+    pub fn places(&self) -> Places {
+        let meshed = self.mesh.points.len();
+        let mut bodies = vec![self.bodies.len() as u32; self.dofs.points];
+        for (i, body) in self.bodies.iter().enumerate() {
+            bodies[body.points.clone()].fill(i as u32);
+        }
+        let mut coordinates = self.mesh.points.clone();
+        coordinates.resize(self.dofs.points, [0.0; 3]);
+        Places {
+            coordinates,
+            bodies,
+            meshed,
+        }
     }
 
     /// The bodies that deform.

@@ -6,7 +6,7 @@ use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
-use super::model::{Dynamic, Model, Step};
+use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{Phases, Summary};
 use super::{diagnosis, history};
@@ -158,7 +158,10 @@ impl Simulation {
             diagonal: matrix.diagonal(),
             matrix,
             newton,
-            factors: Factors::default(),
+            factors: match model.method {
+                Solution::Multigrid => Factors::multigrid(model.places()),
+                _ => Factors::default(),
+            },
             kept: None,
             widened: 0,
             decided: None,
@@ -274,6 +277,7 @@ impl Simulation {
                 ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
                 Some(_) => self.attempt_explicit(trial),
             };
+            self.notes.extend(self.factors.notes());
             self.tell_notes(observers)?;
             match outcome {
                 Ok(accepted) => {

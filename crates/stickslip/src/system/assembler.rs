@@ -1,5 +1,7 @@
 //! What contact forces write into: a residual by dof and dense tangent blocks.
 
+use crate::math::Vec3;
+
 /// The tangent of one contact point, `rowsᵀ change + hessian`, with a symmetric positive semi-definite stand-in for the preconditioner.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ContactBlock {
@@ -50,6 +52,17 @@ impl ContactBlock {
     }
 }
 
+/// A point of a secondary surface that is a point of the mesh, and the facet it meets.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ContactPair {
+    /// The point of the mesh.
+    pub point: usize,
+    /// Points of the facet and their weights where it is met; empty where no facet is, or where the primary has none.
+    pub facet: Vec<(usize, f64)>,
+    /// Unit normal there, of either side.
+    pub normal: Vec3,
+}
+
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a> {
@@ -81,8 +94,13 @@ pub struct Assembler {
     pub couplings: Vec<Vec<usize>>,
     /// Tangent blocks; left empty when only a residual is wanted.
     pub blocks: Vec<ContactBlock>,
+    /// All points that contact is checked at and that are points of the mesh, acting or not; left empty unless
+    /// [`wants_pairs`](Assembler::wants_pairs).
+    pub pairs: Vec<ContactPair>,
     /// Whether tangents are wanted.
     pub wants_tangent: bool,
+    /// Whether a tangent is to tell of its pairs. Stays as it is from one evaluation to the next; `false` to begin with.
+    pub wants_pairs: bool,
     /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
@@ -110,7 +128,9 @@ impl Assembler {
             rounding: 0.0,
             couplings: Vec::new(),
             blocks: Vec::new(),
+            pairs: Vec::new(),
             wants_tangent: false,
+            wants_pairs: false,
             wants_surrogate: true,
             tentative: false,
             spare_blocks: Vec::new(),
@@ -126,6 +146,7 @@ impl Assembler {
         self.rounding = 0.0;
         self.spare_blocks.append(&mut self.blocks);
         self.spare_couplings.append(&mut self.couplings);
+        self.pairs.clear();
         self.wants_tangent = wants_tangent;
     }
 

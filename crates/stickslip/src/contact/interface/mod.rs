@@ -22,8 +22,8 @@ use super::search::{Box3, Tree};
 use super::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
 use crate::system::{
-    Assembler, Augmentation, Culprit, Dofs, Energy, Fields, Force, Role, Schedule, Stage, State,
-    StepFailure, Tally,
+    Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
+    Stage, State, StepFailure, Tally,
 };
 use evaluate::{Anchor, Batch, Evaluation};
 
@@ -382,6 +382,38 @@ impl Interface {
 }
 
 impl Interface {
+    /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
+    /// none.
+    fn add_pairs(&self, evaluations: &[Evaluation], out: &mut Assembler) {
+        if !out.wants_tangent || !out.wants_pairs {
+            return;
+        }
+        for (i, point) in self.points.iter().enumerate() {
+            let &[node] = point.nodes.as_slice() else {
+                continue;
+            };
+            let e = evaluations.get(i);
+            let met = match (&self.primary, e.and_then(|e| Some((e, e.facet?)))) {
+                (Primary::Facets(facets), Some((e, f))) => Some((e, &facets[f])),
+                _ => None,
+            };
+            let facet = met.map_or(Vec::new(), |(e, facet)| {
+                let nodes = facet.nodes.iter().map(|&n| self.nodes[n]);
+                nodes.zip(e.facet_weights).collect()
+            });
+            let normal = e.map_or([0.0; 3], |e| e.normal);
+            out.pairs.push(ContactPair {
+                point: self.nodes[node],
+                facet,
+                normal: if normal == [0.0; 3] {
+                    point.normal
+                } else {
+                    normal
+                },
+            });
+        }
+    }
+
     /// Makes the last evaluation the iterate from which Newton's method steps.
     fn record(&mut self) {
         let unknown = self.unknown();
@@ -453,6 +485,7 @@ impl Force for Interface {
         if !self.schedule.active(stage.at.t) {
             self.memory.last.points.clear();
             self.memory.pending = false;
+            self.add_pairs(&[], out);
             return Ok(());
         }
         let evaluations = self.evaluate_all(
@@ -463,6 +496,7 @@ impl Force for Interface {
                 initial: false,
             },
         );
+        self.add_pairs(&evaluations.points, out);
         let unknown = self.unknown();
         for (i, e) in evaluations.points.iter().enumerate() {
             let (batch, area) = (evaluations.batch(i), self.points[i].area);
