@@ -164,12 +164,7 @@ impl BlockCsr {
     }
 
     /// Adds `factor` times the rows of these points of `other`, a matrix with the same pattern.
-    pub fn add_scaled_rows(
-        &mut self,
-        factor: f64,
-        other: &BlockCsr,
-        points: Range<usize>,
-    ) {
+    pub fn add_scaled_rows(&mut self, factor: f64, other: &BlockCsr, points: Range<usize>) {
         let size = self.block * self.block;
         let rows = self.pattern.starts[points.start] * size..self.pattern.starts[points.end] * size;
         for (v, o) in self.values[rows.clone()]

@@ -40,11 +40,7 @@ impl Part<'_> {
 
     /// Of its substructure: that of the analysis, the values of the matrix, and what the artificial springs of floating bodies are made from.
     /// Other bodies have no part in it.
-    pub fn substructure(
-        &self,
-        place: &dyn Fn(usize) -> Option<Vec3>,
-        typical: f64,
-    ) -> Identity {
+    pub fn substructure(&self, place: &dyn Fn(usize) -> Option<Vec3>, typical: f64) -> Identity {
         let mut digest = self.structure();
         self.matrix.mix_values(self.points(), &mut digest);
         let kept = self.points().filter(|&point| self.kept[point]);
