@@ -193,6 +193,44 @@ fn the_last_axis_changes_fastest_and_the_numbers_are_those_of_single_runs() {
 }
 
 #[test]
+fn bodies_that_stay_the_same_are_factored_once() {
+    let place = Place::new("shared");
+    let set = format!("{MU}=0.1,0.2,0.3");
+    let cache = place.path("cache");
+    for (arguments, expected) in [
+        (&["--set", &set][..], ["1", "0", "0"]),
+        (&["--set", &set, "--cache", &cache], ["1", "0", "0"]),
+        (&["--set", &set, "--cache", &cache], ["0", "0", "0"]),
+    ] {
+        let table = place.table(arguments, 0);
+        assert_eq!(table.column("factorisations"), expected);
+    }
+    // `run` uses the same directory.
+    let arguments = ["-q", "--cache", &cache, "-o", &place.path("one")];
+    let run = place.command("run", &arguments).output();
+    assert_eq!(run.expect("the binary runs").status.code(), Some(0));
+    let summary = std::fs::read_to_string(place.folder.join("one/summary.json"));
+    let summary = summary.expect("a summary");
+    assert!(summary.contains("\"substructures-read\": 1"), "{summary}");
+    // Another matrix is another body.
+    let young = "material.steel.isotropic.young=200e9,210e9,220e9,200e9";
+    let table = place.table(&["--set", young], 0);
+    assert_eq!(table.column("factorisations"), ["1", "1", "1", "0"]);
+    // What is wrong with a file is said.
+    for entry in std::fs::read_dir(place.folder.join("cache")).expect("a folder") {
+        std::fs::write(entry.expect("an entry").path(), "nothing").expect("a file to write");
+    }
+    let output = place.sweep(&["--set", &set, "--cache", &cache]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(
+        err(&output).matches("made again").count(),
+        1,
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
 fn a_run_that_fails_has_its_reason_in_the_table_and_the_others_go_on() {
     let place = Place::new("fails");
     // With the first value nothing holds the block sideways.

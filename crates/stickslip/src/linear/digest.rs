@@ -229,6 +229,9 @@ mod tests {
             d.bytes(b"digest");
             d.marks(&[true, false, true]);
         });
-        assert_eq!(digest, [0, 0]);
+        assert_eq!(
+            digest,
+            [15_386_621_094_104_780_417, 14_912_162_299_251_296_838]
+        );
     }
 }

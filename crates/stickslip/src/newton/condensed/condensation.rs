@@ -155,6 +155,9 @@ impl Plan {
     }
 }
 
+/// A substructure, whether it is new, and what the user should know about its file.
+type Got = (Arc<Substructure>, bool, Option<String>);
+
 /// All bodies without their interiors.
 #[derive(Debug)]
 pub struct Condensation {
@@ -187,7 +190,7 @@ impl Condensation {
         library: &Library,
     ) -> Result<(Condensation, Effort), LinearError> {
         let Plan { parts, mut effort } = plan;
-        let made: Result<Vec<(Arc<Substructure>, bool, Option<String>)>, LinearError> = parts
+        let made: Result<Vec<Got>, LinearError> = parts
             .into_par_iter()
             .map(|part| match part.known {
                 Some((known, _)) => Ok((known, false, None)),

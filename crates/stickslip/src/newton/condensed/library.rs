@@ -40,7 +40,7 @@ pub(super) type Found = (Option<(Arc<Substructure>, Source)>, Option<String>);
 /// Part of the memory limit that analyses may take.
 const ANALYSES: u64 = 8;
 
-/// Half of a gibibyte: substructures below it fit whatever the machine.
+/// Bytes of a gibibyte.
 const GIB: u64 = 1 << 30;
 
 impl Library {
