@@ -1,6 +1,6 @@
 //! Which way to solve is the cheapest, by counts that are known before any arithmetic.
 
-use super::model::Step;
+use super::model::{Solution, Step};
 use super::run::Simulation;
 use crate::linear::{BlockCsr, Symbolic};
 use crate::newton::condensed::Cost;
@@ -24,20 +24,33 @@ const FEW: f64 = 1.0 / 12.0;
 /// Part of the free memory that may be taken.
 const MEMORY: f64 = 0.85;
 
+/// Seconds above which the other ways are looked at in any case.
+const LONG: f64 = 60.0;
+
 /// Increments counted at most.
 const MOST_INCREMENTS: f64 = 1e5;
 
+/// Seconds of a multigrid hierarchy, and of one of its iterations, a dof in three dimensions.
+const SETUP: f64 = 1e-5;
+const CYCLE: f64 = 5e-7;
+
+/// Iterations that multigrid takes for one Newton iteration.
+const CYCLES: f64 = 14.0;
+
+/// Bytes of matrix, transformed matrix, hierarchy and Krylov vectors a dof.
+const GRID_BYTES: f64 = 3500.0;
+
 /// What is known about the way to solve.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Choice {
-    /// Whether bodies are to be condensed.
-    pub condensed: bool,
+    /// The cheapest way, never `Automatic`.
+    pub method: Solution,
     /// Why.
     pub reason: String,
 }
 
 impl Simulation {
-    /// Whether condensing is the cheapest way.
+    /// The cheapest way that fits into memory.
     pub(super) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
         let free = held.iter().filter(|h| !**h).count() as f64;
         let candidates = cost.candidates as f64;
@@ -61,36 +74,44 @@ impl Simulation {
             KRYLOV * (cost.dense + gaps * gaps) / STREAM + gaps.powi(3) / (3.0 * DENSE * SERVES);
         let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / STREAM;
         let condensed = (cost.factor + cost.condense) / DENSE + iterations * one + sweeps;
-        if !fits(cost.bytes as f64) {
+        if candidates <= FEW * free
+            && cost.condense <= cost.factor
+            && fits(cost.bytes as f64)
+            && condensed < LONG
+        {
             return Choice {
-                condensed: false,
-                reason: format!(
-                    "{what}, of which {:.2} GB are free: bodies are not condensed",
-                    memory.unwrap_or(0.0) / 1e9
-                ),
-            };
-        }
-        if candidates <= FEW * free && cost.condense <= cost.factor {
-            return Choice {
-                condensed: true,
+                method: Solution::Condensed,
                 reason: what,
             };
         }
+        let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
+        let mut ways = vec![(Solution::Condensed, condensed, cost.bytes as f64)];
         // Only now it is worth while to know what the others cost.
-        let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) else {
-            return Choice {
-                condensed: true,
-                reason: what,
-            };
-        };
-        let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
-        let sparse = flops / DENSE * (1.0 + iterations / SERVES)
-            + iterations * KRYLOV * (2.0 * nonzeros + matrix.nnz() as f64) / STREAM;
+        if let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
+            let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
+            let sparse = flops / DENSE * (1.0 + iterations / SERVES)
+                + iterations * KRYLOV * (2.0 * nonzeros + matrix.nnz() as f64) / STREAM;
+            ways.push((Solution::Sparse, sparse, 10.0 * nonzeros));
+        }
+        if self.model.dofs.dim == 3 {
+            ways.push((Solution::Multigrid, grids, GRID_BYTES * free));
+        }
+        let list: Vec<String> = ways
+            .iter()
+            .map(|(way, seconds, bytes)| {
+                format!("{way:?} {seconds:.2} ({:.2} GB)", bytes / 1e9).to_lowercase()
+            })
+            .collect();
+        let free_memory = memory.map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
+        let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
+        let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
+        // If nothing fits, what needs least is the last hope.
+        let best = best.or_else(|| ways.iter().min_by(|a, b| a.2.total_cmp(&b.2)));
         Choice {
-            condensed: condensed <= sparse,
+            method: best.map_or(Solution::Sparse, |(way, ..)| *way),
             reason: format!(
-                "{what}; about {iterations:.0} iterations would cost {:.2} condensed and {:.2} with the sparse matrix ({nonzeros:.3e} entries, {flops:.3e} flops)",
-                condensed, sparse
+                "{what}; about {iterations:.0} iterations would cost (seconds of some machine): {}{free_memory}",
+                list.join(", ")
             ),
         }
     }
@@ -112,6 +133,11 @@ impl Simulation {
         }
         counts
     }
+}
+
+/// Whether so many bytes are free, as far as is known.
+pub(super) fn cost_fits(bytes: u64) -> bool {
+    available_memory().is_none_or(|free| (bytes as f64) < free)
 }
 
 /// Memory that programs may still take `[bytes]`, where the system tells.

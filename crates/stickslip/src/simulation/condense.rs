@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::accepted::{Accepted, Flow};
+use super::choice::cost_fits;
 use super::inertia;
 use super::model::Solution;
 use super::pending::Pending;
@@ -12,7 +13,7 @@ use crate::error::Error;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
 use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Places, Plan, Reduced, Shapes};
-use crate::newton::{Progress, System};
+use crate::newton::{Factors, Progress, System};
 use crate::system::{Cause, State, StepFailure};
 use crate::time::Trial;
 
@@ -118,15 +119,30 @@ impl Simulation {
         if self.decided.as_deref() != Some(held) {
             let choice = self.choose(&plan.cost(), (matrix, held));
             let forced = self.model.method == Solution::Condensed;
-            let verdict = if choice.condensed || forced {
-                "condensed"
+            let fits = cost_fits(plan.cost().bytes);
+            let method = if forced && fits {
+                Solution::Condensed
             } else {
-                "not condensed"
+                choice.method
             };
-            self.notes.push(format!("{verdict}: {}", choice.reason));
+            if forced && !fits {
+                self.notes.push(format!(
+                    "`solver.method = \"condensed\"` needs about {:.1} GB, more than is free",
+                    plan.cost().bytes as f64 / 1e9
+                ));
+            }
+            let name = match method {
+                Solution::Condensed => "condensed",
+                Solution::Multigrid => "multigrid",
+                _ => "sparse matrix",
+            };
+            self.notes.push(format!("{name}: {}", choice.reason));
             self.summary.method_reason = choice.reason;
-            if !choice.condensed && !forced {
-                self.model.method = Solution::Sparse;
+            if method != Solution::Condensed {
+                self.model.method = method;
+                if method == Solution::Multigrid {
+                    self.factors = Factors::multigrid(self.model.places());
+                }
                 self.choose_candidates();
                 return None;
             }
@@ -192,7 +208,10 @@ impl Simulation {
     /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
     /// not looked at.
     pub(super) fn choose_candidates(&mut self) {
-        self.summary.method = "sparse".into();
+        self.summary.method = match self.model.method {
+            Solution::Multigrid => "multigrid".into(),
+            _ => "sparse".into(),
+        };
         let points = self.model.dofs.points;
         let mut kept = self.kept.take().unwrap_or_else(|| vec![false; points]);
         let mut all = vec![false; points];
