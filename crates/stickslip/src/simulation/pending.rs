@@ -9,6 +9,7 @@ use crate::contact::interface::Memory;
 use crate::error::Error;
 use crate::newton::Progress;
 use crate::newton::condensed::Amplitudes;
+use crate::system::State;
 use crate::time::Trial;
 
 /// An accepted increment that nobody has been told of.
@@ -119,6 +120,10 @@ impl Simulation {
             }
         }
         if pending.fields {
+            let State { u, t, .. } = &self.state;
+            for interface in &mut self.model.interfaces {
+                interface.measure(u, *t);
+            }
             for observer in observers.iter_mut() {
                 observer.see(self, Event::Output)?;
             }

@@ -118,6 +118,27 @@ impl Interface {
             .count()
     }
 
+    /// Finds the gaps of points that do not take part, for reports of the state with displacements `u` at time `t`.
+    pub fn measure(&mut self, u: &[f64], t: f64) {
+        if self.memory.asleep.is_empty() {
+            return;
+        }
+        let x = self.coordinates(u);
+        let here = Reach {
+            approach: 0.0,
+            along: 0.0,
+            span: [t, t],
+        };
+        let gaps = self.gaps(&x, here);
+        let memory = &mut self.memory;
+        for (i, &gap) in gaps.iter().enumerate().filter(|(i, _)| memory.asleep[*i]) {
+            if let Some(e) = memory.last.points.get_mut(i) {
+                e.gap = gap;
+            }
+            memory.committed[i].gap = gap;
+        }
+    }
+
     /// Distances from the primary, whatever side of it.
     fn distances(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
         self.gaps(x, reach)
