@@ -17,13 +17,13 @@ tasks:
 figures:
   slide [N ...]             press-and-slide with N cells an edge (default 11 18), stick and slip
   bar                       the impact of a steel bar, explicit and implicit
-  growth [N ...] [to N ...] time and memory over the number of unknowns, condensed and, after `to`, by multigrid; writes growth.svg
+  growth [METHOD] [N ...]   time and memory over the number of unknowns, condensed and multigrid or one of them; writes growth.svg
   fretting                  100 increments of a fretting loop, two sizes
   sweep [N [RUNS]]          a parameter study of 50 coefficients of friction (default N = 18)
-  shapes                    six shapes: the chosen method and what each method takes
+  shapes [K ...]            six shapes: the chosen method and what each method takes; K from 1 chooses some
   threads [N]               one and two threads on two equal bodies (default N = 24)
 
-The release binary is built first, unless STICKSLIP names one.";
+The release binary is built first, unless STICKSLIP names one. CCX names CalculiX if it is not `ccx`.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -1,5 +1,6 @@
 //! What all figures need: the binary, a place to work in, analyses and what they report.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -15,7 +16,7 @@ pub struct Bench {
     pub binary: PathBuf,
     /// Where results go.
     pub scratch: PathBuf,
-    /// Whether `ccx` can be run.
+    /// Whether CalculiX can be run.
     pub calculix: bool,
 }
 
@@ -32,7 +33,7 @@ impl Bench {
         let bench = Bench {
             binary: workspace::stickslip()?,
             scratch: workspace::target().join("peers"),
-            calculix: Command::new("ccx").arg("-v").output().is_ok(),
+            calculix: Command::new(ccx()).arg("-v").output().is_ok(),
         };
         if !bench.calculix {
             println!(
@@ -92,7 +93,7 @@ impl Bench {
 
     /// Runs CalculiX on the deck `name.inp` of a folder, on one thread.
     pub fn calculix(&self, folder: &Path, name: &str) -> Result<Run, String> {
-        let mut command = Command::new("ccx");
+        let mut command = Command::new(ccx());
         command.args(["-i", name]).current_dir(folder);
         command.env("OMP_NUM_THREADS", "1").stdout(Stdio::null());
         measure(&mut command)
@@ -169,6 +170,11 @@ impl Analysis {
     pub fn method(&self) -> &str {
         self.text("/method")
     }
+}
+
+/// CalculiX: `ccx`, or what the environment variable `CCX` names.
+fn ccx() -> OsString {
+    std::env::var_os("CCX").unwrap_or_else(|| "ccx".into())
 }
 
 /// `a / b` with three digits, `-` without `b`.
