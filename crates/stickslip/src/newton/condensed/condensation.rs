@@ -174,6 +174,9 @@ pub struct Condensation {
     place: Vec<u32>,
 }
 
+/// Forces swept forward: what is left of them at the candidates, and what the interiors keep, part by part.
+pub type Swept = (Vec<f64>, Vec<Vec<f64>>);
+
 /// No candidate.
 const NONE: u32 = u32::MAX;
 
@@ -292,7 +295,7 @@ impl Condensation {
 
     /// Sweeps forces over all dofs forward. Returns what is left of them at the candidates, and in the interiors what
     /// [`recover`](Condensation::recover) needs of them.
-    pub fn sweep(&self, forces: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    pub fn sweep(&self, forces: &[f64]) -> Swept {
         let swept: Vec<(Vec<f64>, Vec<f64>)> = self
             .parts
             .par_iter()

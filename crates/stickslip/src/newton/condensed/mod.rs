@@ -23,7 +23,7 @@ mod reduced;
 mod shapes;
 mod substructure;
 
-pub use condensation::{Condensation, Cost, Effort, Places, Plan};
+pub use condensation::{Condensation, Cost, Effort, Places, Plan, Swept};
 pub use gaps::Gaps;
 pub use identity::{Identity, Part};
 pub use library::{Library, Source};

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::condensation::Condensation;
+use super::condensation::{Condensation, Swept};
 use super::substructure::{dot, norm};
 use crate::linear::BlockCsr;
 
@@ -110,7 +110,7 @@ fn resolve(
     shapes: &mut Vec<Shape>,
     others: &mut Vec<Arc<Shape>>,
     vector: &[f64],
-    sweep: &mut dyn FnMut(&[f64]) -> (Vec<f64>, Vec<Vec<f64>>),
+    sweep: &mut dyn FnMut(&[f64]) -> Swept,
 ) -> Vec<f64> {
     let size = norm(vector);
     let mut amplitudes = vec![0.0; shapes.len()];
