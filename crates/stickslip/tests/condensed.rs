@@ -90,9 +90,9 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 /// every change: rigid motion of a cell is 1e-8 of the numbers in its matrix, so that both ways have no more than eight digits of it.
 fn demanded(name: &str) -> (f64, bool) {
     match name {
-        "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-5, true),
+        "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-4, true),
         // Stick that is regularised, or held by multipliers over a thousand iterations, keeps what each of them leaves.
-        "braking-block" => (1e-7, false),
+        "braking-block" => (1e-6, false),
         "shear-lag" => (1e-8, false),
         _ => (1e-9, false),
     }

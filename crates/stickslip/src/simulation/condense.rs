@@ -208,10 +208,11 @@ impl Simulation {
     /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
     /// not looked at.
     pub(super) fn choose_candidates(&mut self) {
-        self.summary.method = match self.model.method {
-            Solution::Multigrid => "multigrid".into(),
-            _ => "sparse".into(),
-        };
+        match self.model.method {
+            Solution::Multigrid => self.summary.method = "multigrid".into(),
+            Solution::Sparse => self.summary.method = "sparse".into(),
+            Solution::Automatic | Solution::Condensed => {}
+        }
         let points = self.model.dofs.points;
         let mut kept = self.kept.take().unwrap_or_else(|| vec![false; points]);
         let mut all = vec![false; points];

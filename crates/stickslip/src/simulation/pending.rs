@@ -138,7 +138,11 @@ impl Simulation {
             for observer in observers.iter_mut() {
                 observer.see(self, Event::Note(&note))?;
             }
-            self.summary.notes.push(note);
+            // Which method was chosen and why has a place of its own in the summary.
+            let reason = &self.summary.method_reason;
+            if reason.is_empty() || !note.ends_with(reason.as_str()) {
+                self.summary.notes.push(note);
+            }
         }
         Ok(())
     }

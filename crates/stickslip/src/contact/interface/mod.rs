@@ -288,7 +288,14 @@ impl Interface {
             return;
         }
         let size = |f: &Facet| distance(x[f.nodes[0]], x[f.nodes[1]]);
-        memory.margin = facets.iter().map(size).fold(0.0, f64::max);
+        // Curved facets leave the boxes of their nodes by a part of their size. Flat ones do not, and where a mesh is graded the longest of them
+        // would bring in far too many of the small ones.
+        let curved = |f: &Facet| f.kind.order() > 1;
+        memory.margin = if facets.iter().any(curved) {
+            facets.iter().map(size).fold(0.0, f64::max)
+        } else {
+            facets.iter().map(size).sum::<f64>() / facets.len().max(1) as f64
+        };
         let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
         memory.candidates.resize(self.points.len(), Vec::new());
         let margin = memory.margin;
