@@ -10,15 +10,26 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  schema          write stickslip.schema.json, the JSON schema of problem files
-  peers [N ...]   run press-and-slide with N cells an edge (default 11 18) in stickslip and in CalculiX,
-                  and print both CPU times";
+  schema                    write stickslip.schema.json, the JSON schema of problem files
+  peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
+                            Without a figure: slide and bar
+
+figures:
+  slide [N ...]             press-and-slide with N cells an edge (default 11 18), stick and slip
+  bar                       the impact of a steel bar, explicit and implicit
+  growth [METHOD] [N ...]   time and memory over the number of unknowns, condensed and multigrid or one of them; writes growth.svg
+  fretting                  100 increments of a fretting loop, two sizes
+  sweep [N [RUNS]]          a parameter study of 50 coefficients of friction (default N = 18)
+  shapes [K ...]            six shapes: the chosen method and what each method takes; K from 1 chooses some
+  threads [N]               one and two threads on two equal bodies (default N = 24)
+
+The release binary is built first, unless STICKSLIP names one. CCX names CalculiX if it is not `ccx`.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
-        Some((task, sizes)) if task == "peers" => peers::compare(sizes),
+        Some((task, what)) if task == "peers" => peers::compare(what),
         _ => Err(USAGE.to_string()),
     };
     match result {

@@ -17,8 +17,14 @@ pub fn target() -> PathBuf {
     }
 }
 
-/// Builds the release binary `stickslip` and returns its path.
+/// Builds the release binary `stickslip` and returns its path; where the environment variable `STICKSLIP` names a binary, that one.
 pub fn stickslip() -> Result<PathBuf, String> {
+    if let Some(binary) = std::env::var_os("STICKSLIP") {
+        return std::path::absolute(&binary)
+            .ok()
+            .filter(|p| p.is_file())
+            .ok_or_else(|| format!("STICKSLIP: no file {}", Path::new(&binary).display()));
+    }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         .args(["build", "--release", "--package", "stickslip-cli"])

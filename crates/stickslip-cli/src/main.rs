@@ -1,7 +1,7 @@
 //! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
 //!
-//! Exit codes: 0 done, 1 the input is wrong, 2 results fail a check, 3 not converged. Results and listings go to
-//! standard output, diagnostics to standard error.
+//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check, 3 not converged.
+//! Results and listings go to standard output, diagnostics to standard error.
 
 mod commands;
 mod print;
@@ -23,6 +23,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(commands::run::Arguments),
+    Sweep(commands::sweep::Arguments),
     Check(commands::check::Arguments),
     Compare(commands::compare::Arguments),
     Curve(commands::curve::Arguments),
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Curve(arguments) => commands::curve::run(&arguments),

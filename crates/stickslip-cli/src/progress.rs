@@ -22,33 +22,32 @@ impl Progress {
     }
 }
 
-/// A closed standard error is no reason to stop.
-fn say(text: &str) {
+/// Prints a line. A closed standard error is no reason to stop.
+pub fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 impl Observer for Progress {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
         match event {
-            Event::Increment(row) => {
+            Event::Accepted(a) => {
                 if !self.headed {
                     say(
                         "step                inc att its        time    residual     open  stick   slip",
                     );
                     self.headed = true;
                 }
-                let get = |name: &str| row.get(name).unwrap_or(f64::NAN);
                 say(&format!(
                     "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>11.2e} {:>8} {:>6} {:>6}",
                     simulation.step_name(),
-                    get("INC"),
-                    get("ATT"),
-                    get("ITRS"),
-                    get("TIME"),
-                    get("RESIDUAL"),
-                    get("OPEN"),
-                    get("STICK"),
-                    get("SLIP")
+                    a.increment,
+                    a.attempt,
+                    a.iterations,
+                    a.time,
+                    a.residual,
+                    a.tally.open,
+                    a.tally.stick,
+                    a.tally.slip
                 ));
             }
             Event::Iteration(p) if self.verbose => {
@@ -65,6 +64,7 @@ impl Observer for Progress {
                     p.tally.changed
                 ));
             }
+            Event::Note(text) => say(&format!("  {text}")),
             Event::Cutback(trial, failure) => {
                 say(&format!(
                     "  cut back: {:.5e} to {:.5e}: {}",
@@ -95,6 +95,27 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
         s.solver.factorisations,
         s.phases.total
     ));
+    let p = &s.phases;
+    say(&format!(
+        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
+        p.read,
+        p.assemble,
+        p.order,
+        p.factor,
+        p.condense,
+        p.iterate,
+        p.contact,
+        p.recover,
+        p.write,
+        s.solver.flops,
+        s.peak_memory as f64 / 1e9
+    ));
+    if s.relative_to_linear > 0.0 {
+        say(&format!(
+            "  without writing {:.2} times one assembly, factorisation and solution of the same bodies ({:.2} s)",
+            s.relative_to_linear, s.linear_solve
+        ));
+    }
     if s.mass_added > 0.0 {
         say(&format!(
             "  mass scaling added {:.2} % to the mass of the bodies",

@@ -25,6 +25,10 @@ fn text(failure: &Failure, renderer: &Renderer) -> String {
         Failure::Library(Error::Problem(error)) => problem(error, renderer),
         Failure::Library(other) => format!("error: {other}"),
         Failure::Arguments(message, help) => format!("error: {message}\n  help: {help}"),
+        Failure::Runs { failed, all, table } => format!(
+            "error: {failed} of {all} runs failed\n  help: the column `outcome` of {} says why",
+            table.display()
+        ),
         Failure::Output(error) => format!("error: standard output: {error}"),
     }
 }

@@ -1,4 +1,5 @@
-//! `cargo bench`: the press-and-slide problem of `examples/press-and-slide` in two sizes, with the time of every phase.
+//! `cargo bench`: the press-and-slide problem of `examples/press-and-slide` in three sizes, stick and slip, with the time of every phase and the
+//! price of the whole analysis in linear solves of the same bodies.
 //!
 //! Times are those of this machine now; what counts is their ratio to another program's in the same session
 //! (`cargo xtask peers`).
@@ -22,7 +23,7 @@ fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
     simulation.run(&mut [])?;
     let s = &simulation.summary;
     println!(
-        "{case:<22} N {n:>3} {:>7} dofs {:>3} its {:>3} factors {:>4} krylov | assemble {:.2} order {:.2} factor {:.2} solve {:.2} contact {:.2} total {:.2} s",
+        "{case:<22} N {n:>3} {:>7} dofs {:>3} its {:>3} factors {:>4} krylov | assemble {:.2} order {:.2} factor {:.2} condense {:.2} iterate {:.2} contact {:.2} recover {:.2} total {:.2} s = {:.2} linear solves of {:.2} s",
         s.size.dofs,
         s.solver.iterations,
         s.solver.factorisations,
@@ -30,16 +31,20 @@ fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
         s.phases.assemble,
         s.phases.order,
         s.phases.factor,
-        s.phases.solve,
+        s.phases.condense,
+        s.phases.iterate,
         s.phases.contact,
-        s.phases.total
+        s.phases.recover,
+        s.phases.total,
+        s.relative_to_linear,
+        s.linear_solve
     );
     Ok(())
 }
 
 fn main() {
     for case in ["case.toml", "case-slip.toml"] {
-        for n in [11, 18] {
+        for n in [11, 18, 27] {
             if let Err(e) = run(case, n) {
                 eprintln!("{case} at N = {n}: {e}");
             }

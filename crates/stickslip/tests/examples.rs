@@ -88,6 +88,7 @@ examples! {
     hertz_line = "hertz-line",
     hertz_sphere = "hertz-sphere",
     mindlin_sphere = "mindlin-sphere",
+    fretting_sphere = "fretting-sphere",
     belt_block = "belt-block",
     belt_mass = "belt-mass",
     block_limits = "block-limits",

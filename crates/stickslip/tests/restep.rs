@@ -53,7 +53,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
 
 impl Bits {
     fn of(out: &Assembler) -> Self {
-        let block = |b: &ContactBlock| (b.dofs.clone(), bits(&b.tangent), bits(&b.surrogate));
+        let block = |b: &ContactBlock| (b.dofs.clone(), bits(&b.tangent()), bits(&b.surrogate));
         Bits {
             residual: bits(&out.residual),
             condensed: bits(&out.condensed),

@@ -4,10 +4,9 @@
 //! contact with 1e13 Pa/m, no friction; implicit with increments of 5 µs.
 
 use std::fmt::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
 
-use super::cpu::{Run, measure};
+use super::bench::{Bench, example, ratio, seconds};
+use super::table::Table;
 
 /// Cells across and along.
 const CELLS: [usize; 2] = [8, 80];
@@ -101,31 +100,61 @@ pub fn deck() -> String {
     out
 }
 
-/// Runs CalculiX on it.
-pub fn run_calculix(directory: &Path) -> Result<Run, String> {
-    let file = directory.join("bar.inp");
-    std::fs::write(&file, deck()).map_err(|e| format!("{}: {e}", file.display()))?;
-    let mut command = Command::new("ccx");
-    command.args(["-i", "bar"]).current_dir(directory);
-    command.env("OMP_NUM_THREADS", "1").stdout(Stdio::null());
-    measure(&mut command)
-}
-
-/// Runs stickslip on `examples/steel-bar` with these settings.
-pub fn run_stickslip(
-    binary: &Path,
-    case: &Path,
-    settings: &[&str],
-    directory: &Path,
-) -> Result<Run, String> {
-    let mut command = Command::new(binary);
-    command.arg("run").arg(case);
-    command.args(["--threads", "1", "--quiet", "--set", "output.every=0"]);
-    for setting in settings {
-        command.args(["--set", setting]);
+/// Runs the impact: explicit by itself, implicit against CalculiX.
+pub fn measure(bench: &Bench) -> Result<(), String> {
+    let case = example("steel-bar/case.toml")?;
+    let fixed = |n: usize| format!("step.0.increments.fixed={n}");
+    let explicit = bench.analyse(&case, &[fixed(EXPLICIT)])?;
+    let settings = [
+        fixed(IMPLICIT),
+        // springs and masses as CalculiX has them
+        "step.0.dynamic={scheme={hht={}},contact-mass=\"as-meshed\"}".to_string(),
+    ];
+    let implicit = bench.analyse(&case, &settings)?;
+    let theirs = match bench.calculix {
+        true => {
+            let folder = bench.folder("calculix-bar")?;
+            let file = folder.join("bar.inp");
+            std::fs::write(&file, deck()).map_err(|e| format!("{}: {e}", file.display()))?;
+            Some(bench.calculix(&folder, "bar")?.cpu)
+        }
+        false => None,
+    };
+    let table = Table::new(
+        &format!("Impact of a bar, {DOFS} dofs, one thread, CPU seconds of the whole process"),
+        &[
+            "",
+            "increments",
+            "iterations",
+            "stickslip",
+            "CalculiX",
+            "stickslip / CalculiX",
+        ],
+    );
+    for (name, run, theirs) in [
+        ("explicit", &explicit, None),
+        ("implicit", &implicit, theirs),
+    ] {
+        table.row([
+            name.to_string(),
+            run.number("/increments").to_string(),
+            run.number("/iterations").to_string(),
+            seconds(Some(run.run.cpu)),
+            seconds(theirs),
+            ratio(run.run.cpu, theirs),
+        ]);
     }
-    command.arg("-o").arg(directory.join("stickslip.out"));
-    measure(&mut command)
+    println!(
+        "\n- explicit: {:.2e} s a step and dof",
+        explicit.run.cpu / (EXPLICIT * DOFS) as f64
+    );
+    let (increment, factor) = (implicit.increment(), implicit.one_factor());
+    println!(
+        "- implicit: an increment takes {increment:.4} s, one factorisation {factor:.3} s: {:.2} % of it",
+        100.0 * increment / factor
+    );
+    println!("- implicit: {} s", implicit.phases());
+    Ok(())
 }
 
 #[cfg(test)]

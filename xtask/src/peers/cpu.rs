@@ -1,26 +1,40 @@
-//! CPU time of a program.
+//! CPU and wall time of a program.
 
 use std::process::Command;
+use std::time::Instant;
 
 /// What a program took.
+#[derive(Debug, Clone, Copy)]
 pub struct Run {
     /// Processor time, user and system `[s]`.
     pub cpu: f64,
+    /// Wall time `[s]`.
+    pub wall: f64,
 }
 
 /// Runs a program to its end. It is an error if it cannot be run or fails.
 pub fn measure(command: &mut Command) -> Result<Run, String> {
     let name = command.get_program().to_string_lossy().into_owned();
     let before = of_children()?;
+    let started = Instant::now();
     let status = command
         .status()
         .map_err(|e| format!("cannot run {name}: {e}"))?;
+    let wall = started.elapsed().as_secs_f64();
     if !status.success() {
         return Err(format!("{name} failed: {status}"));
     }
     Ok(Run {
         cpu: of_children()? - before,
+        wall,
     })
+}
+
+/// Load averages over one, five and fifteen minutes, as the system prints them; empty where it does not.
+pub fn load() -> String {
+    let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let words: Vec<&str> = text.split_whitespace().take(3).collect();
+    words.join(" ")
 }
 
 /// The time of all programs run and waited for so far `[s]`.

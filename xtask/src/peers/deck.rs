@@ -1,7 +1,7 @@
 //! The press-and-slide problem as a CalculiX deck.
 //!
 //! Two stacked unit cubes of steel, `n³` cells below and `(n - 1)³` above. The top face is pressed down by 1 mm in five
-//! increments and moved sideways by 0.5 mm in ten. Node-to-face contact with a normal and a tangential stiffness of
+//! increments and moved sideways in ten. Node-to-face contact with a normal and a tangential stiffness of
 //! 1e13 Pa/m and a coefficient of friction of 0.3; the upper cube is the secondary.
 
 use std::fmt::Write;
@@ -79,8 +79,8 @@ fn write_set(deck: &mut String, name: &str, nodes: impl Iterator<Item = usize>) 
     }
 }
 
-/// The deck for `n` cells an edge of the lower cube, at least 2.
-pub fn press_and_slide(n: usize) -> String {
+/// The deck for `n` cells an edge of the lower cube, at least 2, with the top face moved sideways by `slide` `[m]`.
+pub fn press_and_slide(n: usize, slide: f64) -> String {
     let lower = Cube {
         n,
         base: 0,
@@ -124,7 +124,7 @@ POINTS, FACES
 BOTTOM, 1, 3
 ",
     );
-    for (increment, sideways) in [("0.2", "0."), ("0.1", "5e-4")] {
+    for (increment, sideways) in [("0.2", 0.0), ("0.1", slide)] {
         line(
             &mut deck,
             format_args!(
@@ -132,7 +132,7 @@ BOTTOM, 1, 3
 *STATIC, DIRECT, SOLVER=ITERATIVE CHOLESKY
 {increment}, 1.
 *BOUNDARY
-TOP, 1, 1, {sideways}
+TOP, 1, 1, {sideways:e}
 TOP, 2, 2, 0.
 TOP, 3, 3, -1e-3
 *NODE PRINT, NSET=TOP, TOTALS=ONLY
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn labels_are_complete_and_sets_lie_where_they_should() {
-        let deck = press_and_slide(3);
+        let deck = press_and_slide(3, 5e-4);
         let numbers =
             |l: &str| -> Vec<f64> { l.split(',').flat_map(|x| x.trim().parse()).collect() };
         let section = |start: &str| -> Vec<Vec<f64>> {
@@ -184,6 +184,7 @@ mod tests {
                 assert!((1..5).all(|k| height(cell[k]) < height(cell[k + 4])));
             }
         }
+        assert!(deck.contains("TOP, 1, 1, 5e-4\n"));
         let faces = section("*SURFACE, NAME=FACES, TYPE=ELEMENT");
         let faces: Vec<f64> = faces.iter().map(|l| l[0]).collect();
         assert_eq!(faces, (19..28).map(f64::from).collect::<Vec<_>>());

@@ -2,10 +2,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
 use stickslip::simulation::{Observer, ResultFiles, Simulation};
 
-use super::{Outcome, located};
+use super::{Outcome, library, located, use_threads};
 use crate::progress::Progress;
 
 /// Run an analysis and write its results.
@@ -22,6 +23,10 @@ pub struct Arguments {
     /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
+    /// Keep the factors of bodies in DIR, and take from there what was factored before: for other loads, laws of
+    /// interfaces and steps nothing has to be factored again. What is in it can be deleted at any time.
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
     /// No progress on standard error.
     #[arg(short, long)]
     quiet: bool,
@@ -32,12 +37,7 @@ pub struct Arguments {
 
 /// Runs the analysis.
 pub fn run(arguments: &Arguments) -> Outcome {
-    if let Some(threads) = arguments.threads {
-        // Fails only if a pool exists already, which cannot be: this is the first use.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global();
-    }
+    use_threads(arguments.threads);
     let started = Instant::now();
     let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
     let problem = document.problem()?;
@@ -49,7 +49,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .clone()
         .unwrap_or_else(|| arguments.file.with_extension("out"));
     let read = started.elapsed().as_secs_f64();
-    let mut simulation = Simulation::new(model)?;
+    let library = library(Library::small_limit(), arguments.cache.as_deref())?;
+    let mut simulation = Simulation::with_library(model, library)?;
     simulation.summary.phases.read = read;
     let mut files = ResultFiles::new(&directory)?;
     let mut progress = Progress::new(arguments.verbose);

@@ -49,7 +49,8 @@ pub fn evaluate(kind: ElementKind, coordinates: &[Vec3], xi: [f64; 2]) -> FacetP
         p.dn[0][k] = dk[0];
         p.dn[1][k] = dk[1];
     }
-    if !matches!(kind, ElementKind::Line2 | ElementKind::Tri3) {
+    let straight = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
+    if !straight {
         reference.second_derivatives(at, &mut d[..count]);
         for (k, dk) in d[..count].iter().enumerate() {
             for (q, &value) in dk.iter().enumerate() {
@@ -61,8 +62,10 @@ pub fn evaluate(kind: ElementKind, coordinates: &[Vec3], xi: [f64; 2]) -> FacetP
         p.x = add_scaled(p.x, p.n[k], c);
         p.a[0] = add_scaled(p.a[0], p.dn[0][k], c);
         p.a[1] = add_scaled(p.a[1], p.dn[1][k], c);
-        for q in 0..3 {
-            p.aa[q] = add_scaled(p.aa[q], p.ddn[q][k], c);
+        if !straight {
+            for q in 0..3 {
+                p.aa[q] = add_scaled(p.aa[q], p.ddn[q][k], c);
+            }
         }
     }
     if kind.dim() == 1 {
@@ -99,13 +102,41 @@ pub(crate) fn invert2(m: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     ])
 }
 
+/// Step in reference coordinates after which Newton's method, which squares the error, has converged to rounding.
+const LAST_STEP: f64 = 1e-9;
+
 /// Projects `point` orthogonally on a facet extended beyond its edges. `None` if the iteration does not settle, which
 /// happens only far from a strongly curved facet.
 pub fn project(kind: ElementKind, coordinates: &[Vec3], point: Vec3) -> Option<FacetPoint> {
-    let mut xi = match kind {
+    let centre = match kind {
         ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0; 2],
         _ => [0.0; 2],
     };
+    project_from(kind, coordinates, point, centre)
+}
+
+/// The same from the projection of a place nearby; from the centre if that leads nowhere.
+pub fn project_near(
+    kind: ElementKind,
+    coordinates: &[Vec3],
+    point: Vec3,
+    xi: [f64; 2],
+) -> Option<FacetPoint> {
+    // Far outside the facet its extension is no guide.
+    let near = xi[0].abs().max(xi[1].abs()) < 1.5;
+    let found = near.then(|| project_from(kind, coordinates, point, xi));
+    found
+        .flatten()
+        .or_else(|| project(kind, coordinates, point))
+}
+
+fn project_from(
+    kind: ElementKind,
+    coordinates: &[Vec3],
+    point: Vec3,
+    start: [f64; 2],
+) -> Option<FacetPoint> {
+    let mut xi = start;
     let linear = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
     for _ in 0..25 {
         let p = evaluate(kind, coordinates, xi);
@@ -131,13 +162,17 @@ pub fn project(kind: ElementKind, coordinates: &[Vec3], point: Vec3) -> Option<F
         if !longest.is_finite() {
             return None;
         }
+        // Slip is a difference of such coordinates: every digit counts.
+        if !linear && longest <= f64::EPSILON {
+            return Some(p);
+        }
         let damp = if !linear && longest > 1.0 {
             1.0 / longest
         } else {
             1.0
         };
         xi = [xi[0] + damp * step[0], xi[1] + damp * step[1]];
-        if linear || longest < 1e-14 * (1.0 + xi[0].abs() + xi[1].abs()) {
+        if linear || (positive && longest < LAST_STEP) {
             return Some(evaluate(kind, coordinates, xi));
         }
         if xi[0].abs() + xi[1].abs() > 1e3 {
@@ -202,9 +237,13 @@ pub fn beyond(kind: ElementKind, coordinates: &[Vec3], p: &FacetPoint) -> Beyond
             edge,
         };
     }
-    let q = evaluate(kind, coordinates, inside);
+    let mut n = [0.0; FACET_NODES];
+    let n = &mut n[..coordinates.len()];
+    kind.reference().values([inside[0], inside[1], 0.0], n);
+    let weighted = n.iter().zip(coordinates);
+    let x = weighted.fold([0.0; 3], |x, (&n, &c)| add_scaled(x, n, c));
     Beyond {
-        distance: distance(p.x, q.x),
+        distance: distance(p.x, x),
         edge,
     }
 }

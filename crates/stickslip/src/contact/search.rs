@@ -1,10 +1,12 @@
 //! Which facets a point may meet: a tree of boxes over the facets, asked for the facets near a point.
 
+use super::pairing::FACET_NODES;
 use crate::math::Vec3;
+use crate::shape::ElementKind;
 
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Box3 {
+pub struct Box3 {
     low: Vec3,
     high: Vec3,
 }
@@ -29,8 +31,32 @@ impl Box3 {
         })
     }
 
+    /// A box around a facet with these nodes, bulges included.
+    pub fn around(kind: ElementKind, nodes: impl Iterator<Item = Vec3>) -> Box3 {
+        let mut x = [[0.0; 3]; FACET_NODES];
+        let mut count = 0;
+        for (x, node) in x.iter_mut().zip(nodes) {
+            *x = node;
+            count += 1;
+        }
+        let corners = kind.corner_count();
+        let mut b = Box3::of(x[..corners.min(count)].iter().copied());
+        // A quadratic facet is the linear one and, for each middle node, its distance from the middle of its edge times a function
+        // between zero and one.
+        for k in corners..count {
+            let (from, to) = (x[k - corners], x[(k - corners + 1) % corners]);
+            for i in 0..3 {
+                let away = x[k][i] - 0.5 * (from[i] + to[i]);
+                b.low[i] += away.min(0.0);
+                b.high[i] += away.max(0.0);
+            }
+        }
+        b
+    }
+
     /// Squared distance from a point to the box.
-    fn distance2(&self, p: Vec3) -> f64 {
+    #[inline]
+    pub fn distance2(&self, p: Vec3) -> f64 {
         (0..3)
             .map(|i| {
                 (self.low[i] - p[i])
@@ -75,6 +101,36 @@ pub struct Tree {
 }
 
 const LEAF: usize = 4;
+
+/// More nodes than any walk through a tree has before it: two for each level, which halves its items.
+const STACK: usize = 2 * usize::BITS as usize;
+
+/// Nodes a walk through a tree has still to visit.
+struct Stack {
+    nodes: [usize; STACK],
+    count: usize,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Stack {
+            nodes: [0; STACK],
+            count: 1,
+        }
+    }
+
+    #[inline]
+    fn push(&mut self, node: usize) {
+        self.nodes[self.count] = node;
+        self.count += 1;
+    }
+
+    #[inline]
+    fn pop(&mut self) -> Option<usize> {
+        self.count = self.count.checked_sub(1)?;
+        Some(self.nodes[self.count])
+    }
+}
 
 impl Tree {
     /// Builds the tree over facets given by their node coordinates. A curved facet may bulge out of the box of its nodes by
@@ -132,7 +188,7 @@ impl Tree {
         }
         // The nearest facet is not farther than the farthest corner of any one box.
         let mut bound = f64::INFINITY;
-        let mut stack = vec![0];
+        let mut stack = Stack::new();
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i];
             if node.bounds.distance2(point) > bound {
@@ -142,7 +198,9 @@ impl Tree {
                 let (a, b) = (i + 1, node.index);
                 let near = |i: usize| self.nodes[i].bounds.distance2(point);
                 // the nearer child is looked at first
-                stack.extend(if near(a) <= near(b) { [b, a] } else { [a, b] });
+                let (first, second) = if near(a) <= near(b) { (a, b) } else { (b, a) };
+                stack.push(second);
+                stack.push(first);
             } else {
                 for &item in &self.items[node.index..node.index + node.count] {
                     bound = bound.min(self.boxes[item].farthest2(point));
@@ -150,14 +208,15 @@ impl Tree {
             }
         }
         let reach = (bound.sqrt() + margin).powi(2);
-        stack.push(0);
+        let mut stack = Stack::new();
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i];
             if node.bounds.distance2(point) > reach {
                 continue;
             }
             if node.count == 0 {
-                stack.extend([i + 1, node.index]);
+                stack.push(i + 1);
+                stack.push(node.index);
             } else {
                 let items = &self.items[node.index..node.index + node.count];
                 out.extend(
@@ -198,6 +257,40 @@ mod tests {
                 .filter(|&i| boxes[i].distance2(point) <= bound * bound)
                 .collect();
             assert_eq!(found, scan);
+        }
+    }
+
+    #[test]
+    fn boxes_hold_curved_facets() {
+        use crate::contact::pairing::evaluate;
+        for kind in [
+            ElementKind::Line2,
+            ElementKind::Line3,
+            ElementKind::Tri3,
+            ElementKind::Tri6,
+            ElementKind::Quad4,
+            ElementKind::Quad8,
+        ] {
+            let bent = |(k, x): (usize, &Vec3)| {
+                let wave = |c: usize| 0.2 * (3.7 * (k + 5 * c) as f64).sin();
+                [x[0] + wave(0), x[1] + wave(1), wave(2)]
+            };
+            let nodes = kind.reference().nodes().iter().enumerate();
+            let nodes: Vec<Vec3> = nodes.map(bent).collect();
+            let b = Box3::around(kind, nodes.iter().copied());
+            for i in 0..21 {
+                for j in 0..21 {
+                    let (s, t) = (i as f64 / 20.0, j as f64 / 20.0);
+                    let xi = match kind.is_simplex() {
+                        true => [s, (1.0 - s) * t],
+                        false => [2.0 * s - 1.0, 2.0 * t - 1.0],
+                    };
+                    let x = evaluate(kind, &nodes, xi).x;
+                    assert!(b.distance2(x) < 1e-28, "{kind} at {xi:?}");
+                }
+            }
+            let extent = |i: usize| b.high[i] - b.low[i];
+            assert!(extent(0) < 4.0 && extent(2) < 2.0, "{kind}");
         }
     }
 }

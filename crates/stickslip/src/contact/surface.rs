@@ -8,7 +8,7 @@ use crate::shape::ElementKind;
 /// A point of the secondary surface at which contact is checked: a node, or a quadrature point of a face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPoint {
-    /// Mesh points it hangs on.
+    /// Mesh points it hangs on: one, or those of a face, so at most eight.
     pub nodes: Vec<usize>,
     /// Their weights, adding up to one.
     pub weights: Vec<f64>,

@@ -1,11 +1,13 @@
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::Digest;
 use super::pattern::{Couplings, Pattern};
 
 /// Block rows multiplied by one task; fixed, so that results never depend on the number of threads.
-const ROWS_PER_TASK: usize = 1024;
+pub(super) const ROWS_PER_TASK: usize = 1024;
 
 /// A sparse matrix of `block × block` blocks over the points of a mesh, in compressed rows.
 ///
@@ -35,6 +37,76 @@ impl BlockCsr {
         }
     }
 
+    /// The matrix of a pattern and its blocks, each row by row.
+    pub(super) fn from_parts(pattern: Pattern, block: usize, values: Vec<f64>) -> BlockCsr {
+        assert_eq!(values.len(), pattern.columns.len() * block * block);
+        BlockCsr {
+            pattern: Arc::new(pattern),
+            block,
+            values,
+        }
+    }
+
+    /// The matrix plus dense symmetric groups as for [`add_group`](BlockCsr::add_group), which may couple points that it does not.
+    ///
+    /// # Panics
+    /// If a group names a point that does not exist, or has not the size of its points.
+    pub fn with_groups(&self, groups: &[(Vec<usize>, Vec<f64>)]) -> BlockCsr {
+        let size = self.block * self.block;
+        let mut new: Vec<(u32, u32)> = Vec::new();
+        for (points, _) in groups {
+            for &row in points {
+                let others = points.iter().filter(|&&c| self.find(row, c).is_none());
+                new.extend(others.map(|&column| (row as u32, column as u32)));
+            }
+        }
+        new.sort_unstable();
+        new.dedup();
+        let mut pattern = Pattern {
+            starts: Vec::with_capacity(self.points() + 1),
+            columns: Vec::with_capacity(self.pattern.columns.len() + new.len()),
+        };
+        let mut values = Vec::with_capacity(self.values.len() + new.len() * size);
+        pattern.starts.push(0);
+        let mut new = new.into_iter().peekable();
+        for row in 0..self.points() {
+            let blocks = self.row_blocks(row).chunks_exact(size);
+            let mut old = self.neighbours(row).iter().zip(blocks).peekable();
+            loop {
+                let ahead = new.peek().filter(|(r, _)| *r as usize == row).map(|n| n.1);
+                match (old.peek(), ahead) {
+                    (Some((column, _)), Some(added)) if added < **column => {
+                        pattern.columns.push(added);
+                        values.resize(values.len() + size, 0.0);
+                        new.next();
+                    }
+                    (Some((column, block)), _) => {
+                        pattern.columns.push(**column);
+                        values.extend_from_slice(block);
+                        old.next();
+                    }
+                    (None, Some(added)) => {
+                        pattern.columns.push(added);
+                        values.resize(values.len() + size, 0.0);
+                        new.next();
+                    }
+                    (None, None) => break,
+                }
+            }
+            pattern.starts.push(pattern.columns.len());
+        }
+        let mut out = BlockCsr::from_parts(pattern, self.block, values);
+        for (points, dense) in groups {
+            out.add_group(points, dense);
+        }
+        out
+    }
+
+    /// A matrix without points.
+    pub fn empty(block: usize) -> BlockCsr {
+        BlockCsr::from_couplings(0, block, &mut |_| ())
+    }
+
     /// A zero matrix with the same pattern.
     pub fn zeros_like(&self) -> BlockCsr {
         BlockCsr {
@@ -42,6 +114,11 @@ impl BlockCsr {
             block: self.block,
             values: vec![0.0; self.values.len()],
         }
+    }
+
+    /// The pattern, for matrices that share it.
+    pub(super) fn shared_pattern(&self) -> Arc<Pattern> {
+        Arc::clone(&self.pattern)
     }
 
     /// Number of points.
@@ -73,6 +150,21 @@ impl BlockCsr {
     pub fn row_blocks(&self, point: usize) -> &[f64] {
         let size = self.block * self.block;
         &self.values[self.pattern.starts[point] * size..self.pattern.starts[point + 1] * size]
+    }
+
+    /// Mixes which points are coupled to these points.
+    pub fn mix_pattern(&self, points: Range<usize>, digest: &mut Digest) {
+        let starts = &self.pattern.starts[points.start..=points.end];
+        let lengths: Vec<u32> = starts.windows(2).map(|w| (w[1] - w[0]) as u32).collect();
+        digest.indices(&lengths);
+        digest.indices(&self.pattern.columns[starts[0]..starts[points.len()]]);
+    }
+
+    /// Mixes the values in the rows of these points, by their bits.
+    pub fn mix_values(&self, points: Range<usize>, digest: &mut Digest) {
+        let size = self.block * self.block;
+        let starts = &self.pattern.starts;
+        digest.floats(&self.values[starts[points.start] * size..starts[points.end] * size]);
     }
 
     /// The entry at two dofs; zero outside the pattern.
@@ -142,12 +234,7 @@ impl BlockCsr {
     }
 
     /// Adds `factor` times the rows of these points of `other`, a matrix with the same pattern.
-    pub fn add_scaled_rows(
-        &mut self,
-        factor: f64,
-        other: &BlockCsr,
-        points: std::ops::Range<usize>,
-    ) {
+    pub fn add_scaled_rows(&mut self, factor: f64, other: &BlockCsr, points: Range<usize>) {
         let size = self.block * self.block;
         let rows = self.pattern.starts[points.start] * size..self.pattern.starts[points.end] * size;
         for (v, o) in self.values[rows.clone()]
@@ -282,6 +369,38 @@ mod tests {
             let mut b = a.zeros_like();
             b.add_scaled(-2.0, &a);
             assert_eq!(b.entry(0, 1), -2.0 * a.entry(0, 1));
+        }
+    }
+
+    #[test]
+    fn groups_may_couple_points_that_were_not() {
+        for block in [2, 3] {
+            let a = grid([5, 3, 1], block);
+            let groups: Vec<(Vec<usize>, Vec<f64>)> = [vec![0, 14, 7], vec![7, 8], vec![14, 1]]
+                .into_iter()
+                .map(|points| {
+                    let width = points.len() * block;
+                    let dense = noise(&mut 9, width * width);
+                    (points, dense)
+                })
+                .collect();
+            let mut expected = BlockCsr::from_couplings(15, block, &mut |add| {
+                (0..15).for_each(|i| {
+                    let near = a.neighbours(i);
+                    near.iter().for_each(|&j| add(&[i, j as usize]));
+                });
+                groups.iter().for_each(|(points, _)| add(points));
+            });
+            let sum = a.with_groups(&groups);
+            assert_eq!(sum.pattern, expected.pattern);
+            for (points, dense) in &groups {
+                expected.add_group(points, dense);
+            }
+            let n = a.rows();
+            for (k, value) in dense_of(&sum).into_iter().enumerate() {
+                let right = a.entry(k / n, k % n) + expected.entry(k / n, k % n);
+                assert!((value - right).abs() < 1e-14);
+            }
         }
     }
 

@@ -142,7 +142,7 @@ impl Factor {
 }
 
 /// Zeros, or the news that they do not fit.
-fn zeros(length: usize) -> Result<Vec<f64>, LinearError> {
+pub(super) fn zeros(length: usize) -> Result<Vec<f64>, LinearError> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(length)

@@ -67,7 +67,12 @@ pub fn gmres(
         return report;
     }
     let mut residual = vec![0.0; n];
-    let mut size = residual_into(apply, b, x, &mut residual);
+    let mut size = b_norm;
+    if x.iter().all(|x| *x == 0.0) {
+        residual.copy_from_slice(b);
+    } else {
+        size = residual_into(apply, b, x, &mut residual);
+    }
     loop {
         report.relative_residual = size / b_norm;
         report.converged = report.relative_residual <= settings.tolerance;

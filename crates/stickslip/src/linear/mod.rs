@@ -2,13 +2,18 @@
 //! something close. [`relative_residual`] tells whether any of them did.
 //!
 //! [`BlockCsr`] holds a matrix over the points of a mesh. [`Symbolic`] and [`Factor`] solve symmetric positive definite
-//! systems.
+//! systems; [`Multigrid`] approximates their solution where a factor would be too large.
 
 mod block_csr;
+mod compliance;
 mod dense;
+mod digest;
 mod error;
 mod factor;
 mod gmres;
+mod isotropic;
+mod multifrontal;
+mod multigrid;
 mod ordering;
 mod pattern;
 mod residual;
@@ -17,10 +22,15 @@ mod symbolic;
 mod testing;
 
 pub use block_csr::BlockCsr;
+pub use compliance::Compliance;
 pub use dense::DenseLu;
+pub use digest::Digest;
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
+pub use isotropic::Isotropic;
+pub use multifrontal::{Fronts, PartialFactor};
+pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use symbolic::Symbolic;

@@ -114,10 +114,10 @@ fn minimum_degree(graph: &Graph) -> Vec<u32> {
 }
 
 /// No parent, or not numbered.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// The parent of each step of the elimination, by step (Liu's algorithm with path compression).
-fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
+pub(super) fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
     let n = order.len();
     let mut step_of = vec![NONE; n];
     for (step, &node) in order.iter().enumerate() {

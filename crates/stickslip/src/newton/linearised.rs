@@ -1,11 +1,12 @@
-//! The linear system of one Newton iteration: the constant bulk plus contact blocks, solved by GMRES with a frozen factor.
+//! The linear system of one Newton iteration: the constant bulk plus contact blocks, solved by GMRES with a frozen factor or by multigrid.
 
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::grids::{Grids, Places};
 use super::settings::{Settings, Statistics};
 use crate::linear::{BlockCsr, Factor, GmresSettings, LinearError, Symbolic, gmres};
-use crate::system::{Cause, ContactBlock, StepFailure};
+use crate::system::{Cause, ContactBlock, ContactPair, StepFailure};
 
 /// The matrix of one Newton iteration: the bulk on the free dofs plus the blocks of the interfaces.
 #[derive(Debug, Clone, Copy)]
@@ -18,14 +19,19 @@ pub struct Operator<'a> {
     pub blocks: &'a [ContactBlock],
     /// Dofs that may come to be coupled by contact, for the symbolic factorisation.
     pub couplings: &'a [Vec<usize>],
+    /// Which points meet which facets, for multigrid.
+    pub pairs: &'a [ContactPair],
 }
 
 /// A symmetric positive definite factor that outlives the state it was made at.
 ///
 /// It is made of the bulk and the symmetric part of the interface at some iteration; GMRES makes up for what has changed since
 /// and for the unsymmetry of slip. When that takes too many iterations, a fresh factor is made.
+///
+/// Or it is multigrid; where that does not work, a factor takes its place.
 #[derive(Debug, Default)]
 pub struct Linearised {
+    grids: Option<Grids>,
     fixed: Vec<bool>,
     symbolic: Option<Arc<Symbolic>>,
     factor: Option<Factor>,
@@ -36,10 +42,29 @@ impl Linearised {
     /// The same without numbers, for another matrix with the same pattern.
     pub(super) fn without_factor(&self) -> Self {
         Linearised {
+            grids: self.grids.as_ref().map(Grids::without_levels),
             fixed: self.fixed.clone(),
             symbolic: self.symbolic.clone(),
             ..Linearised::default()
         }
+    }
+
+    /// Solves by multigrid on this mesh.
+    pub(super) fn multigrid(places: Arc<Places>) -> Self {
+        Linearised {
+            grids: Some(Grids::new(places)),
+            ..Linearised::default()
+        }
+    }
+
+    /// Whether multigrid is used.
+    pub(super) fn uses_multigrid(&self) -> bool {
+        self.grids.as_ref().is_some_and(Grids::works)
+    }
+
+    /// Why multigrid has been given up since the last time somebody asked.
+    pub(super) fn note(&mut self) -> Option<String> {
+        self.grids.as_mut()?.note()
     }
 
     fn matches(&self, fixed: &[bool]) -> bool {
@@ -56,6 +81,7 @@ impl Linearised {
             fixed,
             blocks,
             couplings,
+            ..
         } = operator;
         let started = Instant::now();
         let covered = self.matches(fixed)
@@ -70,7 +96,8 @@ impl Linearised {
             self.symbolic = Some(Arc::new(symbolic));
             self.fixed = fixed.to_vec();
         }
-        statistics.seconds_order += started.elapsed().as_secs_f64();
+        let ordering = started.elapsed().as_secs_f64();
+        statistics.seconds_order += ordering;
         let started = Instant::now();
         let dense: Vec<(&[usize], &[f64])> = blocks
             .iter()
@@ -80,9 +107,15 @@ impl Linearised {
         if let Some(symbolic) = &self.symbolic {
             self.factor = Some(Factor::new(symbolic, matrix, &dense)?);
             statistics.factorisations += 1;
+            statistics.flops += symbolic.flops();
+            statistics.factor_bytes = 8 * symbolic.factor_nonzeros() as u64;
         }
         self.stale = false;
-        statistics.seconds_factor += started.elapsed().as_secs_f64();
+        let factoring = started.elapsed().as_secs_f64();
+        statistics.seconds_factor += factoring;
+        if statistics.linear_solve == 0.0 {
+            statistics.linear_solve = ordering + factoring;
+        }
         Ok(())
     }
 
@@ -95,6 +128,11 @@ impl Linearised {
         settings: &Settings,
         statistics: &mut Statistics,
     ) -> Result<(Vec<f64>, usize), StepFailure> {
+        if let Some(grids) = self.grids.as_mut().filter(|g| g.works())
+            && let Some(solved) = grids.solve(operator, b, tolerance, statistics)?
+        {
+            return Ok(solved);
+        }
         if !self.matches(operator.fixed) {
             self.factor = None;
         }
@@ -151,27 +189,28 @@ impl Linearised {
         statistics.krylov += report.iterations;
         statistics.seconds_solve += started.elapsed().as_secs_f64();
         if !report.relative_residual.is_finite() {
-            return Err(StepFailure::new(
-                Cause::NotFinite,
-                "the linear solution is not finite",
-            ));
+            return Err(not_finite());
         }
         Ok((x, report.iterations, report.converged))
     }
 }
 
+pub(super) fn not_finite() -> StepFailure {
+    StepFailure::new(Cause::NotFinite, "the linear solution is not finite")
+}
+
 /// `out = (bulk + blocks) v` on the free dofs.
-fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
+pub(super) fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
     operator.matrix.mul(v, out);
+    let (mut moved, mut force) = (Vec::new(), Vec::new());
     for block in operator.blocks {
-        let n = block.dofs.len();
-        for (i, &dof) in block.dofs.iter().enumerate() {
-            let row = &block.tangent[i * n..(i + 1) * n];
-            out[dof] += row
-                .iter()
-                .zip(&block.dofs)
-                .map(|(k, &d)| k * v[d])
-                .sum::<f64>();
+        moved.clear();
+        moved.extend(block.dofs.iter().map(|&dof| v[dof]));
+        force.clear();
+        force.resize(moved.len(), 0.0);
+        block.apply(&moved, &mut force);
+        for (&dof, f) in block.dofs.iter().zip(&force) {
+            out[dof] += f;
         }
     }
     for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
@@ -181,7 +220,7 @@ fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
     }
 }
 
-fn describe(error: LinearError) -> StepFailure {
+pub(super) fn describe(error: LinearError) -> StepFailure {
     let cause = match error {
         LinearError::Singular { .. } | LinearError::NotPositive { .. } => Cause::Singular,
         LinearError::NotFinite { .. } => Cause::NotFinite,

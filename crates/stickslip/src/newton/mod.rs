@@ -1,12 +1,20 @@
 //! Newton's method for a linear bulk with interfaces.
 //!
-//! The bulk comes in as one constant matrix; interfaces come in as [`Force`](crate::system::Force)s that are assembled in every iteration. What a
-//! later solver condenses away is everything but the contact blocks, so nothing here may touch the bulk matrix.
+//! The bulk comes in as a [`Bulk`]; interfaces come in as [`Force`](crate::system::Force)s that are assembled in every iteration.
+//! [`Whole`] is the bulk as one sparse matrix, factored whenever the interfaces have changed too much, or solved by multigrid; in
+//! [`condensed`] it is factored once.
 
+mod bulk;
+pub mod condensed;
+mod grids;
 mod linearised;
 mod settings;
 mod solve;
+mod whole;
 
+pub use bulk::Bulk;
+pub use grids::Places;
 pub use linearised::{Linearised, Operator};
 pub use settings::{Progress, Settings, Statistics};
-pub use solve::{Converged, Newton, Origin, System};
+pub use solve::{Converged, Newton, System};
+pub use whole::{Factors, Origin, Whole};

@@ -1,51 +1,26 @@
 use std::time::Instant;
 
-use super::linearised::{Linearised, Operator};
+use super::bulk::Bulk;
 use super::settings::{Progress, Settings, Statistics};
-use crate::linear::BlockCsr;
 use crate::system::{
     Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
     StepFailure, Tally,
 };
 
-/// What is solved: `A u + contact(u) = external` with prescribed displacements.
-///
-/// In statics `A` is the stiffness. In dynamics it is the stiffness and what inertia and damping add, and the bulk is given by its
-/// [`Origin`].
+/// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
 pub struct System<'a> {
     /// Numbering.
     pub dofs: Dofs,
-    /// The bulk, over all dofs.
-    pub matrix: &'a BlockCsr,
-    /// Its diagonal, by which the rounding of bulk forces is judged.
-    pub diagonal: &'a [f64],
+    /// Everything but the interfaces.
+    pub bulk: &'a mut dyn Bulk,
     /// The interfaces.
     pub contact: Vec<&'a mut dyn Force>,
-    /// External forces at the time of evaluation.
-    pub external: Vec<f64>,
     /// How velocities follow from displacements, for friction.
     pub rate: Option<Rate<'a>>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
-    /// Rigid bodies; the dofs of their points are fixed, `external` has nothing there and the bulk no entries.
+    /// Rigid bodies; the dofs of their points are fixed, and the bulk has nothing there.
     pub links: &'a Links,
-    /// Where the forces of the bulk are known; `None`: they are `A u`.
-    pub origin: Option<Origin>,
-    /// Tells matrices apart: a factor is used again for the key it was made with.
-    pub key: u64,
-}
-
-/// The forces of the bulk at some displacements, from which they follow as `forces + A (u - at)`.
-///
-/// With a time step much smaller than the periods of the bodies `A u` is the difference of large numbers; inertia from the
-/// velocities themselves is not.
-pub struct Origin {
-    /// Displacements.
-    pub at: Vec<f64>,
-    /// Internal and inertial forces of the bulk there, without external ones.
-    pub forces: Vec<f64>,
-    /// Size of the forces that balance each other there.
-    pub scale: f64,
 }
 
 /// An equilibrium.
@@ -57,31 +32,26 @@ pub struct Converged {
     pub rounds: usize,
     /// Out-of-balance force relative to the forces in play.
     pub residual: f64,
-    /// Internal minus external forces: reactions at the fixed dofs.
+    /// Internal minus external forces at the dofs of the bulk: reactions at the fixed ones.
     pub forces: Vec<f64>,
-    /// The part of the interfaces.
+    /// The part of the interfaces, at all dofs.
     pub contact: Vec<f64>,
     /// Points by status.
     pub tally: Tally,
 }
 
-/// Newton's method with a line search and multiplier updates. Keeps its factor from one increment to the next.
+/// Newton's method with a line search and multiplier updates.
 #[derive(Debug, Default)]
 pub struct Newton {
     /// Settings.
     pub settings: Settings,
     /// Counts since the start.
     pub statistics: Statistics,
-    /// By the key of the matrix, the last used last.
-    linearised: Vec<(u64, Linearised)>,
 }
-
-/// Most matrices whose factors are kept.
-const MOST_FACTORS: usize = 4;
 
 /// A residual and what it is compared with.
 struct Balance {
-    /// `K u + contact - external`, by dof.
+    /// Bulk and interfaces, by dof.
     forces: Vec<f64>,
     /// Norm over the free dofs.
     norm: f64,
@@ -124,14 +94,16 @@ impl Newton {
         for force in &mut system.contact {
             force.begin();
         }
+        system.bulk.begin();
         let failure = match self.rounds(system, from, at, log) {
-            Err(failure) if failure.cause != Cause::NotFinite => failure,
+            Err(failure) if !matches!(failure.cause, Cause::NotFinite | Cause::Reach) => failure,
             outcome => return outcome,
         };
         // Continuation: stick that yields like the bodies first, then ever more stiffly, each from the solution before. What holds a
         // body may be far softer than the body itself: then so must stick be.
         for first in [1.0, 1e-3, 1e-6, 1e-9] {
             at.u.clone_from(&guess);
+            system.bulk.begin();
             let mut softened = false;
             for force in &mut system.contact {
                 force.begin();
@@ -150,25 +122,6 @@ impl Newton {
             }
         }
         Err(failure)
-    }
-
-    /// The factor for the matrix with this key. The least recently used one is dropped when there are too many.
-    fn linearised(&mut self, key: u64) -> &mut Linearised {
-        let kept = self.linearised.iter().position(|(k, _)| *k == key);
-        let last = match kept {
-            Some(i) => self.linearised.remove(i),
-            None => {
-                // the symbolic factorisation serves all
-                let symbolic = self.linearised.last().map(|(_, l)| l.without_factor());
-                (key, symbolic.unwrap_or_default())
-            }
-        };
-        if self.linearised.len() == MOST_FACTORS {
-            self.linearised.remove(0);
-        }
-        self.linearised.push(last);
-        let i = self.linearised.len() - 1;
-        &mut self.linearised[i].1
     }
 
     fn continuation(
@@ -255,7 +208,11 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         let settings = self.settings;
-        let mut out = Assembler::new(system.dofs.count());
+        let n = system.dofs.count();
+        let mut out = Assembler::new(n);
+        out.wants_surrogate = system.bulk.wants_surrogates();
+        out.wants_pairs = system.bulk.wants_pairs();
+        let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();
         // Residual at which steps began to have to gain; they have to until a hundredth of it is left.
@@ -283,35 +240,28 @@ impl Newton {
             if iteration == settings.max_iterations {
                 break;
             }
-            let b: Vec<f64> = balance
-                .forces
-                .iter()
-                .zip(&out.condensed)
-                .zip(&system.constraints.fixed)
-                .map(|((f, c), &fixed)| if fixed { 0.0 } else { -(f + c) })
-                .collect();
+            b.fill(0.0);
+            let mut size = 0.0;
+            for &i in system.bulk.dofs() {
+                if !system.bulk.fixed()[i] {
+                    b[i] = -(balance.forces[i] + out.condensed[i]);
+                    size += b[i] * b[i];
+                }
+            }
             // While points still change status the linear problem is not the last one: digits would be thrown away.
             let loose = settings.linear_tolerance;
             let wanted = if iteration == 0 || tally(system).changed > 0 {
                 loose
             } else {
-                0.1 * target / norm(&b).max(f64::MIN_POSITIVE)
+                0.1 * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
             };
-            let mut statistics = self.statistics;
-            let solved = self.linearised(system.key).solve(
-                Operator {
-                    matrix: system.matrix,
-                    fixed: &system.constraints.fixed,
-                    blocks: &out.blocks,
-                    couplings: &out.couplings,
-                },
+            let krylov = system.bulk.solve(
+                &out,
                 &b,
                 wanted.clamp(1e-13, loose.max(1e-13)),
-                &settings,
-                &mut statistics,
-            );
-            self.statistics = statistics;
-            let (mut du, krylov) = solved?;
+                &mut du,
+                (&settings, &mut self.statistics),
+            )?;
             system.links.impose(&mut du);
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);
@@ -340,10 +290,13 @@ impl Newton {
                 for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
                     *u = s + step * d;
                 }
+                system.bulk.advance(step);
                 for force in &mut system.contact {
                     force.update_internal(&du, step);
                 }
-                balance = self.evaluate(system, from, at, &mut out, false)?;
+                // Most full steps are taken: their tangent is made at once.
+                out.tentative = halvings == 0;
+                balance = self.evaluate(system, from, at, &mut out, halvings == 0)?;
                 let now = balance.norm.max(out.multiplier_residual);
                 if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
                     best = Some((now, step));
@@ -371,13 +324,22 @@ impl Newton {
             } else {
                 step
             };
-            for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
-                *u = s + step * d;
+            out.tentative = false;
+            if halvings == 0 {
+                for force in &mut system.contact {
+                    force.settle();
+                }
+                system.bulk.covers(&out)?;
+            } else {
+                for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&du) {
+                    *u = s + step * d;
+                }
+                system.bulk.advance(step);
+                for force in &mut system.contact {
+                    force.update_internal(&du, step);
+                }
+                balance = self.evaluate(system, from, at, &mut out, true)?;
             }
-            for force in &mut system.contact {
-                force.update_internal(&du, step);
-            }
-            balance = self.evaluate(system, from, at, &mut out, true)?;
             log(&Progress {
                 iteration,
                 round,
@@ -430,39 +392,27 @@ impl Newton {
         }
         self.statistics.seconds_contact += started.elapsed().as_secs_f64();
         let mut forces = vec![0.0; at.u.len()];
-        match &system.origin {
-            None => system.matrix.mul(&at.u, &mut forces),
-            Some(origin) => {
-                let moved: Vec<f64> = at.u.iter().zip(&origin.at).map(|(u, o)| u - o).collect();
-                system.matrix.mul(&moved, &mut forces);
-                for (f, known) in forces.iter_mut().zip(&origin.forces) {
-                    *f += known;
-                }
-            }
-        }
+        let others = system.bulk.forces(&at.u, &mut forces);
         // Forces in play are those on the points: what a rigid body gets from two sides may cancel.
         let contact: f64 = out.residual.iter().map(|r| r * r).sum();
         transfer(system.links, out);
-        let (mut norm, mut internal, mut external) = (0.0, 0.0, 0.0);
-        let mut bulk = 0.0;
-        for (i, f) in forces.iter_mut().enumerate() {
-            if system.constraints.fixed[i] {
-                internal += *f * *f;
-            }
-            *f += out.residual[i] - system.external[i];
-            external += system.external[i] * system.external[i];
-            if !system.constraints.fixed[i] {
-                bulk += (4.0 * f64::EPSILON * system.diagonal[i] * at.u[i]).powi(2);
-                norm += *f * *f;
+        if tangent && !out.tentative {
+            system.bulk.covers(out)?;
+        }
+        let (mut norm, mut bulk) = (0.0, 0.0);
+        let fixed = system.bulk.fixed();
+        for &i in system.bulk.dofs() {
+            forces[i] += out.residual[i];
+            if !fixed[i] {
+                let stiffness = system.bulk.diagonal(i);
+                bulk += (4.0 * f64::EPSILON * stiffness * at.u[i]).powi(2);
+                norm += forces[i] * forces[i];
             }
         }
-        let known = system.origin.as_ref().map_or(0.0, |o| o.scale);
-        let scale = f64::max(internal, f64::max(external, contact)).sqrt();
-        let scale = scale.max(known);
         Ok(Balance {
             forces,
             norm: norm.sqrt(),
-            scale,
+            scale: others.max(contact.sqrt()),
             floor: (out.rounding + bulk).sqrt(),
         })
     }
@@ -494,10 +444,6 @@ fn transfer(links: &Links, out: &mut Assembler) {
             *dofs = moved;
         }
     }
-}
-
-fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn tally(system: &System) -> Tally {

@@ -1,6 +1,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::simulation::Solution;
+
 /// `[solver]`: when an increment counts as solved, and how equations are solved. All dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
@@ -22,6 +24,8 @@ pub struct Solver {
     /// kept.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub energy_limit: f64,
+    /// How the systems of Newton's method are solved.
+    pub method: Solution,
     /// Systems of linear equations.
     pub linear: Linear,
 }
@@ -35,6 +39,7 @@ impl Default for Solver {
             line_search: settings.line_search,
             largest_change: None,
             energy_limit: 0.01,
+            method: Solution::default(),
             linear: Linear::default(),
         }
     }

@@ -31,6 +31,8 @@ pub(super) struct Accepted {
     /// Energies, where the attempt knows them already.
     pub kinetic: Option<f64>,
     pub strain: Option<f64>,
+    /// `K u`, where inertia plays a part.
+    pub internal: Option<Vec<f64>>,
     pub iterations: usize,
     pub rounds: usize,
     pub residual: f64,
@@ -61,11 +63,10 @@ impl Accepted {
 }
 
 impl Simulation {
-    /// Makes an attempt the last accepted state.
-    pub(super) fn accept(&mut self, trial: Trial, accepted: Accepted) -> history::Effort {
-        let effort = accepted.summary();
+    /// Tells the interfaces that an attempt is accepted.
+    pub(super) fn commit(&mut self, from: &State, trial: Trial, accepted: &Accepted) {
         let stage = Stage {
-            from: &self.state,
+            from,
             at: &accepted.state,
             dt: trial.to - trial.from,
             rate: accepted
@@ -76,7 +77,11 @@ impl Simulation {
         for interface in &mut self.model.interfaces {
             interface.commit(&stage);
         }
-        self.previous = Some((trial.to - trial.from, std::mem::take(&mut self.state.u)));
+    }
+
+    /// Makes an accepted attempt the last state, and enters it into the ledger.
+    pub(super) fn book(&mut self, accepted: Accepted) -> history::Effort {
+        let effort = accepted.summary();
         self.state = accepted.state;
         self.forces = accepted.forces;
         self.contact = accepted.contact;
@@ -86,6 +91,9 @@ impl Simulation {
         summary.iterations += effort.iterations;
         let turned = self.model.links.largest_rotation(&self.state.u);
         summary.largest_rotation = summary.largest_rotation.max(turned);
+        if let (Some(motion), Some(internal)) = (&mut self.motion, accepted.internal) {
+            motion.internal = internal;
+        }
         let kinetic = match (&self.motion, accepted.kinetic) {
             (_, Some(kinetic)) => kinetic,
             (Some(motion), None) => motion.inertia.kinetic_energy(&self.state.v),

@@ -1,11 +1,15 @@
 //! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
 
 use super::accepted::{Accepted, Flow};
+use super::condense::LEFT;
 use super::inertia::{self, Inertia, dot, times};
 use super::model::{ContactAt, Dynamic};
 use super::run::{Observer, Simulation};
+
 use crate::error::Error;
-use crate::newton::{Origin, System};
+use crate::linear::BlockCsr;
+use crate::newton::condensed::{Gaps, Reduced};
+use crate::newton::{Converged, Origin, Progress, System, Whole};
 use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -14,6 +18,8 @@ use crate::time::scheme::Alphas;
 /// What motion needs beside the state.
 pub(super) struct Motion {
     pub inertia: Inertia,
+    /// `K u` at the last accepted state.
+    pub internal: Vec<f64>,
     /// Displacements at the start of the step, and the farthest the bodies have been from there (in the norm of the mass).
     start: Vec<f64>,
     reach: f64,
@@ -22,6 +28,9 @@ pub(super) struct Motion {
 /// Fraction of the duration of a step after its start at which loads that begin with the step are read.
 pub(super) const AFTER: f64 = 1e-9;
 
+/// Most step lengths whose condensed bodies are kept.
+const MOST_CONDENSED: usize = 4;
+
 /// One implicit increment that has converged.
 struct Solved {
     state: State,
@@ -29,6 +38,8 @@ struct Solved {
     reactions: Vec<f64>,
     contact: Vec<f64>,
     external: Vec<f64>,
+    /// `K u`.
+    internal: Vec<f64>,
 }
 
 impl Simulation {
@@ -68,6 +79,7 @@ impl Simulation {
         self.load = self.external(t);
         self.motion = Some(Motion {
             inertia,
+            internal: times(&self.matrix, &self.state.u),
             start: self.state.u.clone(),
             reach: 0.0,
         });
@@ -110,7 +122,7 @@ impl Simulation {
             return Ok(());
         };
         let inertia = &motion.inertia;
-        let internal = times(&self.matrix, &self.state.u);
+        let internal = &motion.internal;
         let damping = inertia.damping_force(&self.state.v);
         let force: Vec<f64> = (0..internal.len())
             .map(|i| self.load[i] - internal[i] - damping[i] - self.contact[i])
@@ -182,8 +194,12 @@ impl Simulation {
             weight,
             external: &external,
         };
-        let (mut forces, scale) = balance.at(&increment, &guess);
+        let internal = times(&self.matrix, &guess);
+        let stage = mix(alphas.alpha_f, &motion.internal, &internal);
+        let (mut forces, scale) = balance.at(&increment, &guess, &stage);
+        let start = guess.clone();
         forces.iter_mut().for_each(|f| *f /= weight);
+        let known = forces.clone();
         let (gain, shift) = increment.rate();
         let mut at = State {
             t: trial.to,
@@ -191,34 +207,66 @@ impl Simulation {
             ..State::default()
         };
         let mut seen = Vec::new();
-        let converged = {
-            let Simulation { model, newton, .. } = self;
-            let Some((matrix, diagonal, key)) = inertia.matrix() else {
-                return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
-            };
+        let origin = Origin {
+            at: guess,
+            forces,
+            scale: scale / weight,
+        };
+        let rate = Rate {
+            gain: &gain,
+            shift: &shift,
+        };
+        let inertia = &motion.inertia;
+        let Some((matrix, diagonal, key)) = inertia.matrix() else {
+            return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
+        };
+        let condensed = self.ready_to_move(&constraints.fixed, (matrix, key));
+        let converged = if condensed {
+            self.solve_condensed(
+                (diagonal, key),
+                origin,
+                (&from, &mut at),
+                constraints,
+                rate,
+                &mut seen,
+            )
+        } else {
+            let Simulation {
+                model,
+                newton,
+                factors,
+                ..
+            } = self;
+            let mut bulk = Whole::new(
+                (matrix, diagonal),
+                vec![0.0; at.u.len()],
+                fixed.clone(),
+                Some(origin),
+                factors.of(key),
+            );
             let mut system = System {
                 dofs: model.dofs,
-                matrix,
-                diagonal,
-                external: vec![0.0; guess.len()],
+                bulk: &mut bulk,
                 constraints,
                 links: &model.links,
-                origin: Some(Origin {
-                    at: guess,
-                    forces,
-                    scale: scale / weight,
-                }),
-                key,
-                rate: Some(Rate {
-                    gain: &gain,
-                    shift: &shift,
-                }),
+                rate: Some(rate),
                 contact: inertia::contact(&mut model.interfaces),
             };
             newton.solve(&mut system, &from, &mut at, &mut |p| seen.push(*p))
         };
         self.tell(&seen, observers);
-        let converged = converged?;
+        let mut converged = converged?;
+        let moved = difference(&at.u, &start);
+        let change = times(&self.matrix, &moved);
+        if condensed {
+            let stage = motion.inertia.stage_times(&moved, &change);
+            converged.forces = (0..moved.len())
+                .map(|i| known[i] + stage[i] + converged.contact[i])
+                .collect();
+            let (_, diagonal, _) = motion.inertia.matrix().unwrap_or((&self.matrix, &[], 0));
+            self.check_balance(&converged, &at.u, (diagonal, &fixed), scale / weight)?;
+        }
+        let internal: Vec<f64> = internal.iter().zip(&change).map(|(a, b)| a + b).collect();
         (at.v, at.a) = increment.motion(&at.u);
         for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
             *a = 0.0;
@@ -229,20 +277,147 @@ impl Simulation {
             reactions: converged.forces.iter().map(|f| weight * f).collect(),
             contact: converged.contact.clone(),
             external: external.clone(),
+            internal,
             state: at,
         };
+        self.check_reach()?;
         let easy = self.judge(motion, dynamic, alphas, (dt, trial), &solved)?;
-        let flow = self.flow(&motion.inertia, alphas, weight, &fixed, &solved);
+        let flow = self.flow(motion, alphas, weight, &fixed, &solved);
         Ok(Accepted {
             forces: solved.reactions.clone(),
             contact: solved.contact,
             external,
             flow,
             rate: Some((gain, shift)),
+            strain: Some(0.5 * dot(&solved.state.u, &solved.internal)),
+            internal: Some(solved.internal),
             hard: !easy,
             state: solved.state,
             ..Accepted::from_newton(&converged)
         })
+    }
+
+    /// Makes the condensed bodies for a matrix ready; `false` where the increment is solved with the sparse matrix.
+    fn ready_to_move(&mut self, held: &[bool], (matrix, key): (&BlockCsr, u64)) -> bool {
+        let kept = self.kept.clone().unwrap_or_default();
+        let found = self
+            .moving
+            .iter()
+            .position(|(k, c, _)| *k == key && c.held == held);
+        let last = match found {
+            Some(i) => self.moving.remove(i),
+            None => {
+                if !self.model.method.condenses() {
+                    return false;
+                }
+                let Some(made) = self.condensation(held, &kept, matrix) else {
+                    return false;
+                };
+                (key, made, Gaps::default())
+            }
+        };
+        if self.moving.len() == MOST_CONDENSED {
+            self.moving.remove(0);
+        }
+        self.moving.push(last);
+        true
+    }
+
+    /// Solves an increment on the contact candidates and finds the interior.
+    fn solve_condensed(
+        &mut self,
+        (diagonal, key): (&[f64], u64),
+        origin: Origin,
+        (from, at): (&State, &mut State),
+        constraints: Constraints,
+        rate: Rate,
+        seen: &mut Vec<Progress>,
+    ) -> Result<Converged, StepFailure> {
+        let Simulation {
+            model,
+            newton,
+            moving,
+            ..
+        } = self;
+        let Some((_, condensation, gaps)) = moving.iter_mut().find(|(k, ..)| *k == key) else {
+            return Err(StepFailure::new(Cause::NotFinite, "nothing is condensed"));
+        };
+        let started = std::time::Instant::now();
+        let Origin {
+            at: guess,
+            forces,
+            scale,
+        } = origin;
+        let opposite: Vec<f64> = forces.iter().map(|f| -f).collect();
+        let (load, interior) = condensation.sweep(&opposite);
+        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        let base = condensation.gather(&guess);
+        let still = vec![0.0; base.len()];
+        let mut bulk = Reduced::new(
+            (condensation, gaps),
+            diagonal,
+            load,
+            base.clone(),
+            still,
+            scale,
+        );
+        let fixed = constraints.fixed.clone();
+        let mut system = System {
+            dofs: model.dofs,
+            bulk: &mut bulk,
+            constraints,
+            links: &model.links,
+            rate: Some(rate),
+            contact: inertia::contact(&mut model.interfaces),
+        };
+        let converged = newton.solve(&mut system, from, at, &mut |p| seen.push(*p))?;
+        let started = std::time::Instant::now();
+        let mut moved = condensation.gather(&at.u);
+        moved.iter_mut().zip(&base).for_each(|(m, b)| *m -= b);
+        let mut all = vec![vec![0.0; guess.len()]];
+        condensation.recover(vec![interior], &[moved], &mut all);
+        let moved = all.swap_remove(0);
+        for i in 0..moved.len() {
+            if !fixed[i] {
+                at.u[i] = guess[i] + moved[i];
+            }
+        }
+        newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        Ok(converged)
+    }
+
+    /// Refuses a solution whose interior is not in balance.
+    fn check_balance(
+        &self,
+        converged: &Converged,
+        u: &[f64],
+        (diagonal, fixed): (&[f64], &[bool]),
+        scale: f64,
+    ) -> Result<(), StepFailure> {
+        let (mut left, mut size, mut rounding) = (0.0, scale * scale, 0.0);
+        for (i, f) in converged.forces.iter().enumerate() {
+            if fixed[i] {
+                size += f * f;
+            } else {
+                left += f * f;
+                rounding += (diagonal[i] * u[i]).powi(2);
+            }
+        }
+        let size: f64 = size + dot(&converged.contact, &converged.contact);
+        let rounding: f64 = rounding;
+        let limit = ((10.0 * self.model.settings.tolerance).max(LEFT) * size.sqrt())
+            .max(1e4 * f64::EPSILON * rounding.sqrt());
+        if left.is_nan() || left.sqrt() > limit {
+            return Err(StepFailure::new(
+                Cause::LinearSolver,
+                format!(
+                    "the recovered interior is not in balance: {:.1e} of the forces in play",
+                    (left / size).sqrt()
+                ),
+            )
+            .help("set `solver.method = \"sparse\"`"));
+        }
+        Ok(())
     }
 
     /// Whether the increment is small enough for the errors and events that are to be resolved; `false` if only just.
@@ -256,8 +431,8 @@ impl Simulation {
     ) -> Result<bool, StepFailure> {
         self.check_change(&solved.state.u)?;
         let mut easy = true;
-        let mass = &motion.inertia.mass;
-        let norm = |x: &[f64]| dot(x, &times(mass, x)).max(0.0).sqrt();
+        let inertia = &motion.inertia;
+        let norm = |x: &[f64]| dot(x, &inertia.mass_times(x)).max(0.0).sqrt();
         let smallest = self.model.steps[self.step].increments.smallest;
         if let Some(limit) = dynamic.error {
             let moved: Vec<f64> = difference(&solved.state.u, &motion.start);
@@ -315,12 +490,13 @@ impl Simulation {
     /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
     fn flow(
         &self,
-        inertia: &Inertia,
+        motion: &Motion,
         alphas: Alphas,
         weight: f64,
         fixed: &[bool],
         solved: &Solved,
     ) -> Flow {
+        let inertia = &motion.inertia;
         let (from, to) = (&self.state, &solved.state);
         let du = difference(&to.u, &from.u);
         let dv = difference(&to.v, &from.v);
@@ -334,9 +510,9 @@ impl Simulation {
         }
         let contact = difference(&solved.contact, &self.contact);
         let load = difference(&solved.external, &self.load);
-        let mut numerical = dot(&du, &times(&inertia.mass, &stage_a))
-            - dot(&mean_v, &times(&inertia.mass, &dv))
-            + half * dot(&du, &times(&self.matrix, &du))
+        let mut numerical = dot(&du, &inertia.mass_times(&stage_a))
+            - dot(&mean_v, &inertia.mass_times(&dv))
+            + half * dot(&du, &difference(&solved.internal, &motion.internal))
             + (weight - 0.5) * dot(&contact, &du)
             - half * dot(&load, &du);
         let mut damped = 0.0;
@@ -362,8 +538,8 @@ struct Balance<'a> {
 }
 
 impl Balance<'_> {
-    /// Forces with displacements `u` at the end, and the size of what balances in them.
-    fn at(&self, increment: &Increment, u: &[f64]) -> (Vec<f64>, f64) {
+    /// Forces with displacements `u` at the end and elastic forces `internal` at the stage, and the size of what balances in them.
+    fn at(&self, increment: &Increment, u: &[f64], internal: &[f64]) -> (Vec<f64>, f64) {
         let Alphas {
             alpha_m, alpha_f, ..
         } = self.alphas;
@@ -373,8 +549,7 @@ impl Balance<'_> {
         for (a, _) in a.iter_mut().zip(&self.inertia.light).filter(|(_, l)| **l) {
             *a = 0.0;
         }
-        let inertial = times(&self.inertia.mass, &a);
-        let internal = times(&self.simulation.matrix, &mix(alpha_f, &from.u, u));
+        let inertial = self.inertia.mass_times(&a);
         let damping = self.inertia.damping_force(&mix(alpha_f, &from.v, &v));
         let load = mix(alpha_f, &self.simulation.load, self.external);
         let old = 1.0 - self.weight;
@@ -384,7 +559,7 @@ impl Balance<'_> {
             })
             .collect();
         let size = |x: &[f64]| dot(x, x).sqrt();
-        let scale = size(&inertial).max(size(&load)).max(size(&internal));
+        let scale = size(&inertial).max(size(&load)).max(size(internal));
         (forces, scale)
     }
 }

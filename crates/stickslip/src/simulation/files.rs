@@ -1,7 +1,6 @@
 //! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use super::run::{Event, Observer, Simulation};
 use crate::error::Error;
@@ -14,7 +13,6 @@ pub struct ResultFiles {
     pvd: pvd::Collection,
     history: Option<csv::History>,
     count: usize,
-    seconds: f64,
 }
 
 impl ResultFiles {
@@ -29,7 +27,6 @@ impl ResultFiles {
             pvd: pvd::Collection::new(&directory.join("fields.pvd")),
             history: None,
             count: 0,
-            seconds: 0.0,
         })
     }
 
@@ -58,9 +55,7 @@ impl ResultFiles {
     }
 
     fn end(&mut self, simulation: &Simulation) -> Result<(), Error> {
-        let mut summary = simulation.summary.clone();
-        summary.phases.write = self.seconds;
-        let text = serde_json::to_string_pretty(&summary)
+        let text = serde_json::to_string_pretty(&simulation.summary)
             .map_err(|e| Error::io(&self.directory, std::io::Error::other(e)))?;
         write_atomically(&self.directory.join("summary.json"), text.as_bytes())
     }
@@ -132,7 +127,6 @@ fn owners(simulation: &Simulation) -> Vec<usize> {
 
 impl Observer for ResultFiles {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
-        let started = Instant::now();
         match event {
             Event::Increment(row) => {
                 if self.history.is_none() {
@@ -145,9 +139,8 @@ impl Observer for ResultFiles {
             }
             Event::Output => self.output(simulation)?,
             Event::End => self.end(simulation)?,
-            Event::Iteration(_) | Event::Cutback(..) => {}
+            Event::Iteration(_) | Event::Accepted(_) | Event::Cutback(..) | Event::Note(_) => {}
         }
-        self.seconds += started.elapsed().as_secs_f64();
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use super::model::{ContactMass, Dynamic, Model};
 use super::spin::mobility;
 use crate::body::MassKind;
 use crate::contact::interface::Interface;
-use crate::linear::{BlockCsr, GmresSettings, gmres};
+use crate::linear::{BlockCsr, GmresSettings, Isotropic, gmres};
 use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
@@ -13,7 +13,9 @@ pub(super) struct Inertia {
     mass_kind: MassKind,
     contact_mass: Option<ContactMass>,
     /// `M`, over all dofs.
-    pub mass: BlockCsr,
+    mass: BlockCsr,
+    /// The same in fewer numbers, where no rigid body turns.
+    masses: Option<Isotropic>,
     /// `C`, where a body has Rayleigh damping.
     pub damping: Option<BlockCsr>,
     /// Dofs whose mass was given to their neighbours.
@@ -71,6 +73,7 @@ impl Inertia {
         Inertia {
             mass_kind: dynamic.mass,
             contact_mass: dynamic.contact_mass,
+            masses: Isotropic::of(&mass),
             mass,
             damping,
             light: light
@@ -124,18 +127,13 @@ impl Inertia {
         let matrix = match found {
             Some(i) => self.matrices.remove(i),
             None => {
-                let Alphas {
-                    alpha_m,
-                    alpha_f,
-                    beta,
-                    gamma,
-                } = alphas;
+                let [mass, damping, elastic] = factors(alphas, dt, weight);
                 let mut values = self.mass.zeros_like();
-                values.add_scaled((1.0 - alpha_m) / (beta * dt * dt * weight), &self.mass);
-                if let Some(damping) = &self.damping {
-                    values.add_scaled((1.0 - alpha_f) * gamma / (beta * dt * weight), damping);
+                values.add_scaled(mass, &self.mass);
+                if let Some(matrix) = &self.damping {
+                    values.add_scaled(damping, matrix);
                 }
-                values.add_scaled((1.0 - alpha_f) / weight, stiffness);
+                values.add_scaled(elastic, stiffness);
                 self.keys += 1;
                 Matrix {
                     key: self.keys,
@@ -161,6 +159,34 @@ impl Inertia {
         Some((&m.values, &m.diagonal, m.key))
     }
 
+    /// `A x` of the matrix made ready last, from `K x`.
+    pub fn stage_times(&self, x: &[f64], stiffness_x: &[f64]) -> Vec<f64> {
+        let Some(m) = self.matrices.last() else {
+            return vec![0.0; x.len()];
+        };
+        let [mass, damping, stiffness] = factors(m.alphas, m.dt, m.weight);
+        let mut out = self.mass_times(x);
+        for (o, k) in out.iter_mut().zip(stiffness_x) {
+            *o = mass * *o + stiffness * k;
+        }
+        if let Some(c) = &self.damping {
+            for (o, c) in out.iter_mut().zip(times(c, x)) {
+                *o += damping * c;
+            }
+        }
+        out
+    }
+
+    /// `M x`.
+    pub fn mass_times(&self, x: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; x.len()];
+        match &self.masses {
+            Some(masses) => masses.mul(x, &mut out),
+            None => self.mass.mul(x, &mut out),
+        }
+        out
+    }
+
     /// `C v`.
     pub fn damping_force(&self, v: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; v.len()];
@@ -172,7 +198,7 @@ impl Inertia {
 
     /// `vᵀ M v / 2`.
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        0.5 * dot(v, &times(&self.mass, v))
+        0.5 * dot(v, &self.mass_times(v))
     }
 
     /// The acceleration that a force gives to the dofs that are neither fixed nor light: `M a = f`.
@@ -216,6 +242,21 @@ impl Inertia {
         }
         Ok(a)
     }
+}
+
+/// The factors of mass, damping and stiffness in the matrix of an increment.
+fn factors(alphas: Alphas, dt: f64, weight: f64) -> [f64; 3] {
+    let Alphas {
+        alpha_m,
+        alpha_f,
+        beta,
+        gamma,
+    } = alphas;
+    [
+        (1.0 - alpha_m) / (beta * dt * dt * weight),
+        (1.0 - alpha_f) * gamma / (beta * dt * weight),
+        (1.0 - alpha_f) / weight,
+    ]
 }
 
 /// Lumped masses of the elastic bodies, by point.

@@ -1,7 +1,9 @@
 //! A model and its run: the step loop, observers, reports.
 
 mod accepted;
+mod choice;
 pub mod compare;
+mod condense;
 mod conditions;
 mod diagnosis;
 mod dynamic;
@@ -12,6 +14,7 @@ mod inertia;
 mod leap;
 mod ledger;
 mod model;
+mod pending;
 mod run;
 mod spin;
 mod statics;
@@ -22,7 +25,7 @@ pub use files::{ResultFiles, fields};
 pub use history::Row;
 pub use ledger::EnergyLedger;
 pub use model::{
-    Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Step, Support,
+    Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Solution, Step, Support,
 };
-pub use run::{Event, Observer, Simulation};
+pub use run::{Advance, Event, Observer, Simulation};
 pub use summary::{Phases, Summary};

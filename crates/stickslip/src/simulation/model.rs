@@ -6,7 +6,7 @@ use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
 use crate::math::Mat3;
 use crate::mesh::Mesh;
-use crate::newton::Settings;
+use crate::newton::{Places, Settings};
 use crate::system::{Dofs, Fields, Force, Links, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
@@ -44,6 +44,8 @@ pub struct Model {
     pub output: OutputPlan,
     /// Settings of Newton's method.
     pub settings: Settings,
+    /// How its systems are solved.
+    pub method: Solution,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,
     /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
@@ -107,6 +109,38 @@ pub struct Initial {
     pub step: usize,
 }
 
+/// How the systems of Newton's method are solved.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solution {
+    /// Whatever costs least by the counts of the symbolic factorisation.
+    #[default]
+    Automatic,
+    /// Bodies are factored once and felt at the contact candidates only.
+    Condensed,
+    /// The sparse matrix of everything is factored when the interfaces have changed much.
+    Sparse,
+    /// The sparse matrix of everything is solved by multigrid and GMRES: for bodies whose factors would be too large.
+    Multigrid,
+}
+
+impl Solution {
+    /// Whether bodies may be condensed.
+    pub fn condenses(self) -> bool {
+        !matches!(self, Solution::Sparse | Solution::Multigrid)
+    }
+}
+
 /// How a dynamic step is integrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dynamic {
@@ -128,6 +162,22 @@ impl Model {
     /// Whether any step is dynamic.
     pub fn moves(&self) -> bool {
         self.steps.iter().any(|s| s.dynamic.is_some())
+    }
+
+    /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).
+    pub fn places(&self) -> Places {
+        let meshed = self.mesh.points.len();
+        let mut bodies = vec![self.bodies.len() as u32; self.dofs.points];
+        for (i, body) in self.bodies.iter().enumerate() {
+            bodies[body.points.clone()].fill(i as u32);
+        }
+        let mut coordinates = self.mesh.points.clone();
+        coordinates.resize(self.dofs.points, [0.0; 3]);
+        Places {
+            coordinates,
+            bodies,
+            meshed,
+        }
     }
 
     /// The bodies that deform.
@@ -188,6 +238,19 @@ pub struct Step {
     pub fixed: bool,
     /// How motion is integrated; `None` in a quasi-static step.
     pub dynamic: Option<Dynamic>,
+}
+
+impl Step {
+    /// Whether motion is integrated without solving equations.
+    pub fn is_explicit(&self) -> bool {
+        matches!(
+            self.dynamic,
+            Some(Dynamic {
+                method: Method::Explicit { .. },
+                ..
+            })
+        )
+    }
 }
 
 /// A point whose displacement and stress go into the history.

@@ -1,17 +1,21 @@
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Instant;
 
+use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
-use super::model::{Dynamic, Model, Step};
+use super::model::{Dynamic, Model, Solution, Step};
+use super::pending::Pending;
 use super::summary::{Phases, Summary};
 use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::{Newton, Progress};
-use crate::system::{Cause, Force, State, StepFailure};
+use crate::newton::condensed::{Condensation, Gaps, Library};
+use crate::newton::{Factors, Newton, Progress};
+use crate::system::{Cause, Force, State, StepFailure, Tally};
 use crate::time::scheme::Method;
 use crate::time::{Stepper, Trial};
 
@@ -28,6 +32,20 @@ pub struct Simulation {
     pub(super) matrix: BlockCsr,
     pub(super) diagonal: Vec<f64>,
     pub(super) newton: Newton,
+    pub(super) factors: Factors,
+    /// Points that may come into contact, and how often they were too few.
+    pub(super) kept: Option<Vec<bool>>,
+    pub(super) widened: usize,
+    /// The dofs that are no unknowns for which condensing was found the cheapest.
+    pub(super) decided: Option<Vec<bool>>,
+    pub(super) notes: Vec<String>,
+    /// Iterations of the last condensed attempt.
+    pub(super) seen: Vec<Progress>,
+    pub(super) condensed: Option<Condensed>,
+    /// Condensed bodies of implicit increments, by the key of their matrix.
+    pub(super) moving: Vec<(u64, Condensation, Gaps)>,
+    pub(super) pending: Vec<Pending>,
+    pub(super) library: Arc<Library>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
@@ -46,14 +64,35 @@ pub struct Simulation {
 pub enum Event<'a> {
     /// A Newton iteration.
     Iteration(&'a Progress),
-    /// An increment was accepted: the history row.
+    /// An increment was accepted. What comes of it may be told later, with others.
+    Accepted(&'a Advance),
+    /// What came of an accepted increment: the history row.
     Increment(&'a history::Row),
+    /// Something a user should know.
+    Note(&'a str),
     /// Fields are due at the state of the simulation.
     Output,
     /// An increment failed and will be tried again, smaller.
     Cutback(&'a Trial, &'a StepFailure),
     /// The run is over, well or not.
     End,
+}
+
+/// An accepted increment at a glance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    /// Attempts it took.
+    pub attempt: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Its end `[s]`.
+    pub time: f64,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
 }
 
 /// Looks on while a simulation runs.
@@ -65,18 +104,16 @@ pub trait Observer {
 impl Simulation {
     /// Assembles the bulk and checks the model's own consistency.
     pub fn new(model: Model) -> Result<Self, Error> {
+        let library = Library::new(Library::small_limit());
+        Simulation::with_library(model, Arc::new(library))
+    }
+
+    /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
+    /// same bits, whoever made the factors.
+    pub fn with_library(model: Model, library: Arc<Library>) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
-        let explicit = |s: &Step| {
-            matches!(
-                s.dynamic,
-                Some(Dynamic {
-                    method: Method::Explicit { .. },
-                    ..
-                })
-            )
-        };
-        let assembled = !model.steps.iter().all(explicit);
+        let assembled = !model.steps.iter().all(Step::is_explicit);
         let mut matrix =
             BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
                 for body in model.elastic().filter(|_| assembled) {
@@ -121,6 +158,19 @@ impl Simulation {
             diagonal: matrix.diagonal(),
             matrix,
             newton,
+            factors: match model.method {
+                Solution::Multigrid => Factors::multigrid(model.places()),
+                _ => Factors::default(),
+            },
+            kept: None,
+            widened: 0,
+            decided: None,
+            notes: Vec::new(),
+            seen: Vec::new(),
+            condensed: None,
+            moving: Vec::new(),
+            pending: Vec::new(),
+            library,
             previous: None,
             held: BTreeMap::new(),
             released: Vec::new(),
@@ -160,16 +210,28 @@ impl Simulation {
             match self.model.steps[step].dynamic {
                 Some(dynamic) => {
                     self.explicit = None;
+                    self.condensed = None;
                     for interface in &mut self.model.interfaces {
                         self.summary.energy.initial += interface.use_springs(false);
                     }
                     match dynamic.method {
-                        Method::Implicit(_) => self.start_motion(&dynamic)?,
-                        Method::Explicit { .. } => self.start_explicit(&dynamic)?,
+                        Method::Implicit(_) => {
+                            self.start_motion(&dynamic)?;
+                            self.choose_candidates();
+                        }
+                        Method::Explicit { .. } => {
+                            self.wake();
+                            self.start_explicit(&dynamic)?;
+                        }
                     }
                 }
-                None => self.rest(),
+                None => {
+                    self.rest();
+                    self.choose_candidates();
+                    self.condense()?;
+                }
             }
+            self.tell_notes(observers)?;
             self.run_step(observers)?;
         }
         Ok(())
@@ -215,6 +277,8 @@ impl Simulation {
                 ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
                 Some(_) => self.attempt_explicit(trial),
             };
+            self.notes.extend(self.factors.notes());
+            self.tell_notes(observers)?;
             match outcome {
                 Ok(accepted) => {
                     increment += 1;
@@ -223,33 +287,41 @@ impl Simulation {
                     } else {
                         accepted.iterations
                     };
-                    let effort = self.accept(trial, accepted);
                     stepper.accept(trial, iterations);
-                    if step.milestones.contains(&trial.to) {
-                        // Tables have their corners here.
-                        self.previous = None;
-                    }
                     let plan = &self.model.output;
                     let last = stepper.next().is_none();
                     let due = last
                         || plan.times.contains(&trial.to)
                         || (plan.every > 0 && increment % plan.every == 0);
-                    if due || increment % plan.history_every == 0 {
-                        let row = history::row(self, trial, effort, (increment, attempt));
-                        let named = row.names.iter().cloned().zip(row.values.iter().copied());
-                        self.summary.last = named.collect();
+                    let pending = Pending {
+                        trial,
+                        accepted,
+                        increment,
+                        attempt,
+                        fields: due,
+                        row: due || increment % plan.history_every == 0,
+                        seen: Vec::new(),
+                        memories: Vec::new(),
+                        found: None,
+                    };
+                    if pending.row {
+                        let advance = pending.advance();
                         for observer in observers.iter_mut() {
-                            observer.see(self, Event::Increment(&row))?;
+                            observer.see(self, Event::Accepted(&advance))?;
                         }
+                    }
+                    self.go_on(pending, last, observers)?;
+                    if step.milestones.contains(&trial.to) {
+                        // Tables have their corners here.
+                        self.forget_direction();
                     }
                     attempt = 1;
-                    if due {
-                        for observer in observers.iter_mut() {
-                            observer.see(self, Event::Output)?;
-                        }
-                    }
                 }
+                Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
                 Err(failure) => {
+                    self.flush(observers)?;
+                    let seen = std::mem::take(&mut self.seen);
+                    self.tell(&seen, observers);
                     attempt += 1;
                     self.reject(&step, &trial, &failure);
                     if !stepper.reject(trial) {
@@ -267,7 +339,7 @@ impl Simulation {
     /// Takes note of an attempt that failed.
     fn reject(&mut self, step: &Step, trial: &Trial, failure: &StepFailure) {
         // What the last increment did is no guide any more.
-        self.previous = None;
+        self.forget_direction();
         let summary = &mut self.summary;
         if failure.cause == Cause::Event {
             summary.events += 1;
@@ -307,7 +379,11 @@ impl Simulation {
     /// Refuses solutions that are too far from the last one.
     pub(super) fn check_change(&self, u: &[f64]) -> Result<(), StepFailure> {
         let pairs = u.iter().zip(&self.state.u);
-        let change = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        self.judge_change(pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())))
+    }
+
+    /// Refuses displacement increments that are too large.
+    pub(super) fn judge_change(&self, change: f64) -> Result<(), StepFailure> {
         if change > self.model.largest_change * self.model.mesh.diameter() {
             return Err(StepFailure::new(
                 Cause::TooFar,
@@ -317,6 +393,11 @@ impl Simulation {
             ));
         }
         Ok(())
+    }
+
+    /// Dofs that are prescribed at the time of the state, by dof.
+    pub fn held_dofs(&self) -> Vec<bool> {
+        self.constraints(self.state.t).fixed
     }
 
     /// The step being run.

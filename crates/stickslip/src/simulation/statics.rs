@@ -3,7 +3,7 @@
 use super::accepted::{Accepted, Flow};
 use super::inertia;
 use super::run::{Observer, Simulation};
-use crate::newton::{Progress, System};
+use crate::newton::{Progress, System, Whole};
 use crate::system::{State, StepFailure};
 use crate::time::Trial;
 
@@ -14,6 +14,9 @@ impl Simulation {
         trial: Trial,
         observers: &mut [&mut dyn Observer],
     ) -> Result<Accepted, StepFailure> {
+        if self.condensed.is_some() {
+            return self.attempt_condensed(trial);
+        }
         let dt = trial.to - trial.from;
         let external = self.external(trial.to);
         let constraints = self.constraints(trial.to);
@@ -35,21 +38,25 @@ impl Simulation {
             let Simulation {
                 model,
                 newton,
+                factors,
                 matrix,
                 diagonal,
                 state,
                 ..
             } = self;
+            let mut bulk = Whole::new(
+                (matrix, diagonal),
+                external.clone(),
+                fixed.clone(),
+                None,
+                factors.of(0),
+            );
             let mut system = System {
                 dofs: model.dofs,
-                matrix,
-                diagonal,
-                external: external.clone(),
+                bulk: &mut bulk,
                 rate: None,
                 constraints,
                 links: &model.links,
-                origin: None,
-                key: 0,
                 contact: inertia::contact(&mut model.interfaces),
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
@@ -57,16 +64,7 @@ impl Simulation {
         self.tell(&seen, observers);
         let converged = converged?;
         self.check_change(&at.u)?;
-        // Work of loads and reactions by the trapezoidal rule: exact for forces that vary linearly over the increment.
-        let before = self.external(trial.from);
-        let mut work = 0.0;
-        for (i, (before, after)) in before.iter().zip(&external).enumerate() {
-            work += 0.5 * (before + after) * (at.u[i] - self.state.u[i]);
-        }
-        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            let mean = 0.5 * (self.forces[i] + converged.forces[i]);
-            work += mean * (at.u[i] - self.state.u[i]);
-        }
+        let work = self.work(trial, &fixed, (&at.u, &converged.forces), &external);
         Ok(Accepted {
             forces: converged.forces.clone(),
             contact: converged.contact.clone(),
@@ -78,5 +76,25 @@ impl Simulation {
             state: at,
             ..Accepted::from_newton(&converged)
         })
+    }
+
+    /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly.
+    pub(super) fn work(
+        &self,
+        trial: Trial,
+        fixed: &[bool],
+        (u, forces): (&[f64], &[f64]),
+        external: &[f64],
+    ) -> f64 {
+        let before = self.external(trial.from);
+        let mut work = 0.0;
+        for (i, (before, after)) in before.iter().zip(external).enumerate() {
+            work += 0.5 * (before + after) * (u[i] - self.state.u[i]);
+        }
+        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
+            let mean = 0.5 * (self.forces[i] + forces[i]);
+            work += mean * (u[i] - self.state.u[i]);
+        }
+        work
     }
 }

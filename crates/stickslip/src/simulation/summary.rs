@@ -18,6 +18,12 @@ pub struct Summary {
     pub outcome: String,
     /// Whether the run reached its end.
     pub completed: bool,
+    /// How the systems of equations were solved.
+    pub method: String,
+    /// Why so.
+    pub method_reason: String,
+    /// What else a user should know.
+    pub notes: Vec<String>,
     /// Size of the problem.
     pub size: Size,
     /// Accepted increments.
@@ -41,6 +47,11 @@ pub struct Summary {
     pub solver: Statistics,
     /// Seconds by phase.
     pub phases: Phases,
+    /// Seconds that one assembly, ordering, factorisation and solution of the same bodies takes, as measured in this run; 0 if nothing was
+    /// factored.
+    pub linear_solve: f64,
+    /// The whole analysis without writing, over that.
+    pub relative_to_linear: f64,
     /// Largest memory of the process `[bytes]`; 0 if the system does not tell.
     pub peak_memory: u64,
     /// Threads used.
@@ -81,10 +92,14 @@ pub struct Phases {
     pub order: f64,
     /// Numeric factorisation.
     pub factor: f64,
-    /// Krylov iterations with the factor.
-    pub solve: f64,
+    /// Inverses of what partial factorisations leave.
+    pub condense: f64,
+    /// Linear systems of Newton's method.
+    pub iterate: f64,
     /// Search, pairing and assembly of interfaces.
     pub contact: f64,
+    /// Interiors of condensed bodies, and the check that they balance.
+    pub recover: f64,
     /// Writing results.
     pub write: f64,
     /// Wall time of the run.
@@ -127,9 +142,16 @@ impl Summary {
         self.solver = *solver;
         self.phases.order = solver.seconds_order;
         self.phases.factor = solver.seconds_factor;
-        self.phases.solve = solver.seconds_solve;
+        self.phases.condense = solver.seconds_condense;
+        self.phases.iterate = solver.seconds_solve;
+        self.phases.recover = solver.seconds_recover;
         self.phases.contact = solver.seconds_contact;
         self.phases.total = total;
+        self.linear_solve = solver.linear_solve + self.phases.assemble;
+        if self.linear_solve > 0.0 && solver.linear_solve > 0.0 {
+            self.relative_to_linear =
+                (total + self.phases.assemble - self.phases.write) / self.linear_solve;
+        }
         self.completed = error.is_none();
         self.outcome = error.map_or("done".into(), Error::to_string);
         self.peak_memory = peak_memory();

@@ -1,58 +1,90 @@
 //! What contact forces write into: a residual by dof and dense tangent blocks.
 
-/// A dense tangent block of one contact point, with a symmetric positive semi-definite stand-in for the preconditioner.
-#[derive(Debug, Clone, PartialEq)]
+use crate::math::Vec3;
+
+/// The tangent of one contact point, `rowsᵀ change + hessian`, with a symmetric positive semi-definite stand-in for the preconditioner.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ContactBlock {
     /// Global dofs.
     pub dofs: Vec<usize>,
-    /// Tangent, row by row, shape `(n, n)`; unsymmetric where points slip.
-    pub tangent: Vec<f64>,
-    /// Symmetric positive semi-definite approximation of the tangent, same shape.
-    pub surrogate: Vec<f64>,
     /// Gradients of the gap and of the two components of slip, row by row, shape `(3, n)`.
     pub rows: Vec<f64>,
-    /// How the force along each row changes, shape `(3, n)`: without the curvature of the gap the tangent is `rowsᵀ change`.
+    /// How the force along each row changes, multipliers eliminated, shape `(3, n)`.
     pub change: Vec<f64>,
+    /// What the curvature of gap and slip adds to the tangent, symmetric, row by row, shape `(n, n)`; empty where there is none.
+    pub hessian: Vec<f64>,
+    /// Symmetric positive semi-definite approximation of the tangent, shape `(n, n)`; empty unless it was asked for.
+    pub surrogate: Vec<f64>,
+}
+
+impl ContactBlock {
+    /// Adds the tangent times `v`, both over the dofs of the block.
+    pub fn apply(&self, v: &[f64], out: &mut [f64]) {
+        let n = self.dofs.len();
+        let times = |row: &[f64]| -> f64 { row.iter().zip(v).map(|(k, v)| k * v).sum() };
+        for q in 0..3 {
+            let along = times(&self.change[q * n..(q + 1) * n]);
+            for (row, out) in self.rows[q * n..(q + 1) * n].iter().zip(&mut *out) {
+                *out += row * along;
+            }
+        }
+        if !self.hessian.is_empty() {
+            for (row, out) in self.hessian.chunks_exact(n).zip(out) {
+                *out += times(row);
+            }
+        }
+    }
+
+    /// The tangent, row by row, shape `(n, n)`; unsymmetric where points slip.
+    pub fn tangent(&self) -> Vec<f64> {
+        let n = self.dofs.len();
+        let mut dense = self.hessian.clone();
+        dense.resize(n * n, 0.0);
+        for q in 0..3 {
+            let (rows, change) = (&self.rows[q * n..], &self.change[q * n..]);
+            for k in 0..n {
+                for l in 0..n {
+                    dense[k * n + l] += rows[k] * change[l];
+                }
+            }
+        }
+        dense
+    }
+}
+
+/// A point of a secondary surface that is a point of the mesh, and the facet it meets.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ContactPair {
+    /// The point of the mesh.
+    pub point: usize,
+    /// Points of the facet and their weights where it is met; empty where no facet is, or where the primary has none.
+    pub facet: Vec<(usize, f64)>,
+    /// Unit normal there, of either side.
+    pub normal: Vec3,
 }
 
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a> {
-    /// Tangent, or `K_uu` of a point with multipliers.
-    pub whole: &'a [f64],
-    /// Symmetric stand-in.
-    pub surrogate: &'a [f64],
     /// Gradients of gap and slip.
     pub rows: &'a [f64],
-    /// Change of the forces along them, multipliers eliminated.
+    /// Change of the tractions along them, multipliers eliminated.
     pub change: &'a [f64],
-}
-
-/// The multiplier rows of a point in a perturbed Lagrangian, to be eliminated: `n` displacement dofs, `m` multipliers.
-///
-/// ```text
-/// [ K_uu  K_ul ] [du]     [ r_u ]
-/// [ K_lu  K_ll ] [dl] = - [ r_l ]
-/// ```
-#[derive(Debug, Clone, Copy)]
-pub struct Saddle<'a> {
-    /// `(n, m)`, row by row.
-    pub k_ul: &'a [f64],
-    /// `(m, n)`, row by row.
-    pub k_lu: &'a [f64],
-    /// Inverse of `K_ll`, `(m, m)`, row by row.
-    pub k_ll_inverse: &'a [f64],
-    /// Residual of the multiplier rows, length `m`.
-    pub r_l: &'a [f64],
+    /// Area that makes them forces.
+    pub area: f64,
+    /// Curvature; may be empty.
+    pub hessian: &'a [f64],
+    /// Symmetric stand-in; may be empty.
+    pub surrogate: &'a [f64],
 }
 
 /// Collects the residual and the tangent blocks of contact forces.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Assembler {
-    /// Residual (internal minus external), by dof. For blocks with multipliers it holds the residual of the
+    /// Residual (internal minus external), by dof. For points with multipliers it holds the residual of the
     /// displacement rows themselves, which is what convergence is judged by.
     pub residual: Vec<f64>,
-    /// What condensing the multipliers adds to the right-hand side of the Newton system, `-K_ul K_ll⁻¹ r_l`.
+    /// What condensing the multipliers adds to the right-hand side of the Newton system.
     pub condensed: Vec<f64>,
     /// Largest multiplier-row residual, as a force, for the convergence test.
     pub multiplier_residual: f64,
@@ -62,8 +94,28 @@ pub struct Assembler {
     pub couplings: Vec<Vec<usize>>,
     /// Tangent blocks; left empty when only a residual is wanted.
     pub blocks: Vec<ContactBlock>,
+    /// All points that contact is checked at and that are points of the mesh, acting or not; left empty unless
+    /// [`wants_pairs`](Assembler::wants_pairs).
+    pub pairs: Vec<ContactPair>,
     /// Whether tangents are wanted.
     pub wants_tangent: bool,
+    /// Whether a tangent is to tell of its pairs. Stays as it is from one evaluation to the next; `false` to begin with.
+    pub wants_pairs: bool,
+    /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
+    /// next; `true` to begin with.
+    pub wants_surrogate: bool,
+    /// The state of evaluation may be given up again: forces keep what they remember of the last iterate, from which the step was taken,
+    /// until they are told to [`settle`](super::Force::settle). `false` to begin with.
+    pub tentative: bool,
+    /// Memory of former blocks and couplings, used again.
+    spare_blocks: Vec<ContactBlock>,
+    spare_couplings: Vec<Vec<usize>>,
+}
+
+impl Default for Assembler {
+    fn default() -> Self {
+        Assembler::new(0)
+    }
 }
 
 impl Assembler {
@@ -72,7 +124,17 @@ impl Assembler {
         Assembler {
             residual: vec![0.0; dofs],
             condensed: vec![0.0; dofs],
-            ..Default::default()
+            multiplier_residual: 0.0,
+            rounding: 0.0,
+            couplings: Vec::new(),
+            blocks: Vec::new(),
+            pairs: Vec::new(),
+            wants_tangent: false,
+            wants_pairs: false,
+            wants_surrogate: true,
+            tentative: false,
+            spare_blocks: Vec::new(),
+            spare_couplings: Vec::new(),
         }
     }
 
@@ -82,8 +144,9 @@ impl Assembler {
         self.condensed.fill(0.0);
         self.multiplier_residual = 0.0;
         self.rounding = 0.0;
-        self.blocks.clear();
-        self.couplings.clear();
+        self.spare_blocks.append(&mut self.blocks);
+        self.spare_couplings.append(&mut self.couplings);
+        self.pairs.clear();
         self.wants_tangent = wants_tangent;
     }
 
@@ -94,38 +157,85 @@ impl Assembler {
         }
     }
 
-    /// Adds the tangent of one point, if tangents are wanted.
-    pub fn add_tangent(&mut self, dofs: &[usize], tangent: Tangent) {
+    /// Notes the dofs of a point that may come to act, if tangents are wanted.
+    pub fn add_coupling(&mut self, dofs: &[usize]) {
         if self.wants_tangent {
-            self.blocks.push(ContactBlock {
-                dofs: dofs.to_vec(),
-                tangent: tangent.whole.to_vec(),
-                surrogate: tangent.surrogate.to_vec(),
-                rows: tangent.rows.to_vec(),
-                change: tangent.change.to_vec(),
-            });
+            let mut coupling = self.spare_couplings.pop().unwrap_or_default();
+            coupling.clear();
+            coupling.extend_from_slice(dofs);
+            self.couplings.push(coupling);
         }
     }
 
-    /// Adds the condensed form of a point with multipliers: of `K_uu` in `tangent` remains the Schur complement.
-    pub fn add_saddle(&mut self, dofs: &[usize], tangent: Tangent, saddle: Saddle) {
-        let mut whole = tangent.whole.to_vec();
-        let n = dofs.len();
-        let m = saddle.r_l.len();
-        // a = K_ul K_ll⁻¹
-        let mut a = [0.0; 3];
-        for i in 0..n {
-            for (q, aq) in a.iter_mut().enumerate().take(m) {
-                *aq = (0..m)
-                    .map(|p| saddle.k_ul[i * m + p] * saddle.k_ll_inverse[p * m + q])
-                    .sum();
-            }
-            for (j, t) in whole[i * n..(i + 1) * n].iter_mut().enumerate() {
-                *t -= (0..m).map(|q| a[q] * saddle.k_lu[q * n + j]).sum::<f64>();
-            }
-            self.condensed[dofs[i]] -= (0..m).map(|q| a[q] * saddle.r_l[q]).sum::<f64>();
+    /// Adds the tangent of one point, if tangents are wanted.
+    pub fn add_tangent(&mut self, dofs: &[usize], tangent: Tangent) {
+        if !self.wants_tangent {
+            return;
         }
-        let whole = &whole;
-        self.add_tangent(dofs, Tangent { whole, ..tangent });
+        let mut block = self.spare_blocks.pop().unwrap_or_default();
+        block.dofs.clear();
+        block.dofs.extend_from_slice(dofs);
+        let parts = [
+            (&mut block.rows, tangent.rows),
+            (&mut block.change, tangent.change),
+            (&mut block.hessian, tangent.hessian),
+            (&mut block.surrogate, tangent.surrogate),
+        ];
+        for (to, from) in parts {
+            to.clear();
+            to.extend_from_slice(from);
+        }
+        for c in &mut block.change {
+            *c *= tangent.area;
+        }
+        self.blocks.push(block);
+    }
+
+    /// Adds what the elimination of its multipliers asks for of one point: they change by `-shift` without any displacement.
+    pub fn add_condensed(&mut self, dofs: &[usize], tangent: Tangent, shift: [f64; 3]) {
+        let n = dofs.len();
+        for (q, shift) in shift.iter().enumerate() {
+            for (row, &dof) in tangent.rows[q * n..(q + 1) * n].iter().zip(dofs) {
+                self.condensed[dof] += tangent.area * shift * row;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_applies_its_tangent() {
+        let numbers = |count: usize, seed: usize| -> Vec<f64> {
+            (0..count)
+                .map(|k| ((k * 7 + seed * 13) % 11) as f64 - 5.0)
+                .collect()
+        };
+        for hessian in [Vec::new(), numbers(16, 3)] {
+            let mut out = Assembler::new(8);
+            // twice, as memory is used again
+            for _ in 0..2 {
+                out.reset(true);
+                let tangent = Tangent {
+                    rows: &numbers(12, 1),
+                    change: &numbers(12, 2),
+                    area: 0.5,
+                    hessian: &hessian,
+                    surrogate: &[],
+                };
+                out.add_tangent(&[7, 2, 4, 0], tangent);
+            }
+            let block = &out.blocks[0];
+            let v = numbers(4, 5);
+            let mut product = vec![1.0; 4];
+            block.apply(&v, &mut product);
+            for (row, product) in block.tangent().chunks(4).zip(product) {
+                let expected: f64 = row.iter().zip(&v).map(|(k, v)| k * v).sum();
+                assert!((product - 1.0 - expected).abs() < 1e-12);
+            }
+            assert_eq!(block.change[0], 0.5 * numbers(12, 2)[0]);
+        }
     }
 }

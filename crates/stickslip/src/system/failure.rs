@@ -15,6 +15,8 @@ pub enum Cause {
     CollapsedCell,
     /// Two successive solutions are too far apart, or the local error is too large.
     TooFar,
+    /// Contact reaches points that the solver did not provide for.
+    Reach,
     /// Points change status, and the time at which they do is wanted more precisely.
     Event,
 }

@@ -106,6 +106,10 @@ pub trait Force: Send {
         Ok(())
     }
 
+    /// The state of the last evaluation, a [tentative](Assembler::tentative) one with tangent, is the next iterate: as if it had been evaluated
+    /// for good.
+    fn settle(&mut self) {}
+
     /// Tells a force with unknowns of its own (multipliers) the Newton increment `step · du` that was accepted.
     fn update_internal(&mut self, _du: &[f64], _step: f64) {}
 

@@ -11,7 +11,7 @@ mod links;
 mod schedule;
 
 pub use amplitude::{Amplitude, AmplitudeError};
-pub use assembler::{Assembler, ContactBlock, Saddle, Tangent};
+pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
 pub use constraints::Constraints;
 pub use dofs::Dofs;
 pub use failure::{Cause, Culprit, StepFailure};

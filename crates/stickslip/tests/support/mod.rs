@@ -54,7 +54,7 @@ impl Observer for Record {
                 self.cutbacks += 1;
                 self.current.clear();
             }
-            Event::Output | Event::End => {}
+            Event::Accepted(_) | Event::Note(_) | Event::Output | Event::End => {}
         }
         Ok(())
     }

@@ -1,14 +1,17 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
-use super::{Interface, Primary, SaddleRows};
+use super::{Interface, Primary};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
 use crate::contact::obstacle::Pose;
-use crate::contact::pairing::{FacetPoint, beyond, facet_distance, project};
+use crate::contact::pairing::{
+    FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
+};
 use crate::contact::response::{Circumstances, Response, Status};
-use crate::contact::surface::Facet;
+use crate::contact::search::Box3;
+use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
-use crate::system::Rate;
+use crate::system::{Rate, Tangent};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
@@ -27,6 +30,8 @@ const TOUCHING: f64 = 1e-6;
 pub(super) struct Scene<'a> {
     pub x: &'a [Vec3],
     pub before: &'a [Vec3],
+    /// Boxes around the facets; empty where they are not looked for.
+    pub boxes: &'a [Box3],
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,
     /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
@@ -37,20 +42,22 @@ pub(super) struct Scene<'a> {
     /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
     pub initial: bool,
     pub tangent: bool,
+    pub surrogate: bool,
 }
 
-/// The outcome at one point.
-#[derive(Debug, Clone, Default)]
+/// The outcome at one point. What has a size of its own lies in a [`Batch`].
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Evaluation {
-    /// Global dofs; empty where there is no force.
-    pub dofs: Vec<usize>,
-    pub residual: Vec<f64>,
-    pub tangent: Vec<f64>,
-    pub surrogate: Vec<f64>,
-    /// Gradients of gap and slip and how the forces along them change, shape `(3, n)` each.
-    pub rows: Vec<f64>,
-    pub change: Vec<f64>,
-    pub saddle: Option<SaddleRows>,
+    /// Number of dofs, zero where there is no force, and where they start.
+    n: usize,
+    dofs: usize,
+    /// Where force, `3 × n` gradients and changes, and matrices start, where there are such.
+    force: Option<usize>,
+    rows: Option<usize>,
+    hessian: Option<usize>,
+    surrogate: Option<usize>,
+    /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
+    pub saddle: Option<([f64; 3], [f64; 3])>,
     /// Force that rounding may leave.
     pub rounding: f64,
     pub response: Response,
@@ -62,16 +69,130 @@ pub(super) struct Evaluation {
     /// Relative slip since the last accepted state, in space, belt included.
     pub moved: Vec3,
     pub facet: Option<usize>,
-    /// Facet weights, for output on the primary side.
-    pub facet_weights: Vec<(usize, f64)>,
+    /// Weights of its nodes, for output on the primary side.
+    pub facet_weights: [f64; FACET_NODES],
     pub normal_stiffness: f64,
     pub tangential_stiffness: f64,
     /// Shear traction at the last accepted state, in the frame.
     pub carried: [f64; 2],
     /// Multipliers as components in the frame, where they are unknowns.
     pub multiplier: [f64; 3],
+}
+
+impl Evaluation {
+    /// A point that carries nothing.
+    pub fn open(gap: f64) -> Self {
+        Evaluation {
+            gap,
+            ..Evaluation::default()
+        }
+    }
+}
+
+/// Numbers of the points of one chunk, one point after the other, and room to work in. The memory is used again by the next evaluation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Batch {
+    dofs: Vec<usize>,
+    force: Vec<f64>,
+    /// Gradients of gap and slip and how the tractions along them change, multipliers eliminated; `(3, n)` a point.
+    rows: Vec<f64>,
+    change: Vec<f64>,
+    hessian: Vec<f64>,
+    surrogate: Vec<f64>,
+    stencil: Stencil,
     /// Gradients of the slip as friction sees it; empty where they are those of the slip.
-    pub rated: [Vec<f64>; 2],
+    rated: [Vec<f64>; 2],
+}
+
+impl Batch {
+    pub fn clear(&mut self) {
+        self.dofs.clear();
+        self.force.clear();
+        self.rows.clear();
+        self.change.clear();
+        self.hessian.clear();
+        self.surrogate.clear();
+    }
+
+    /// Dofs of a point; none where there is no force.
+    pub fn dofs(&self, e: &Evaluation) -> &[usize] {
+        &self.dofs[e.dofs..e.dofs + e.n]
+    }
+
+    /// Force on them; `None` where a point carries nothing.
+    pub fn force(&self, e: &Evaluation) -> Option<&[f64]> {
+        e.force.map(|start| &self.force[start..start + e.n])
+    }
+
+    /// What a tangent evaluation leaves for the assembler.
+    pub fn tangent(&self, e: &Evaluation, area: f64) -> Option<Tangent<'_>> {
+        let start = e.rows?;
+        let matrix = |all: &'_ [f64], start: Option<usize>| -> std::ops::Range<usize> {
+            start.map_or(all.len()..all.len(), |s| s..s + e.n * e.n)
+        };
+        Some(Tangent {
+            rows: &self.rows[start..start + 3 * e.n],
+            change: &self.change[start..start + 3 * e.n],
+            area,
+            hessian: &self.hessian[matrix(&self.hessian, e.hessian)],
+            surrogate: &self.surrogate[matrix(&self.surrogate, e.surrogate)],
+        })
+    }
+}
+
+/// The projection of a point on a facet at the last accepted state. It is kept from one evaluation to the next with the coordinates that it
+/// follows from.
+#[derive(Debug, Clone)]
+pub(super) struct Anchor {
+    facet: usize,
+    point: Vec3,
+    nodes: [Vec3; FACET_NODES],
+    foot: Option<FacetPoint>,
+}
+
+impl Anchor {
+    /// The projection, made anew if `kept` is another one.
+    fn at<'a>(
+        kept: &'a mut Option<Anchor>,
+        f: usize,
+        facet: &Facet,
+        before: &[Vec3],
+        point: Vec3,
+    ) -> Option<&'a FacetPoint> {
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let then = gather(facet, before, &mut nodes);
+        let same = matches!(kept, Some(k) if k.facet == f && k.point == point
+            && k.nodes[..then.len()] == *then);
+        if !same {
+            let foot = project(facet.kind, then, point);
+            *kept = Some(Anchor {
+                facet: f,
+                point,
+                nodes,
+                foot,
+            });
+        }
+        kept.as_ref()?.foot.as_ref()
+    }
+}
+
+/// Coordinates of the nodes of a facet.
+#[inline]
+fn gather<'a>(facet: &Facet, x: &[Vec3], out: &'a mut [Vec3; FACET_NODES]) -> &'a [Vec3] {
+    for (c, &n) in out.iter_mut().zip(&facet.nodes) {
+        *c = x[n];
+    }
+    &out[..facet.nodes.len()]
+}
+
+/// A point over one of its candidates.
+struct Look {
+    p: FacetPoint,
+    /// A length of the facet, for tolerances.
+    size: f64,
+    away: f64,
+    beyond: f64,
+    carried: bool,
 }
 
 /// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
@@ -114,95 +235,165 @@ impl Interface {
         }
     }
 
+    /// A point at `position` over a facet; `None` if it has no projection there, or if the two do not face each other.
+    fn look(
+        &self,
+        facet: &Facet,
+        x: &[Vec3],
+        point: &ContactPoint,
+        position: Vec3,
+        near: Option<[f64; 2]>,
+    ) -> Option<Look> {
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let nodes = gather(facet, x, &mut nodes);
+        let p = match near {
+            Some(xi) => project_near(facet.kind, nodes, position, xi)?,
+            None => project(facet.kind, nodes, position)?,
+        };
+        if dot(p.normal, point.normal) >= 0.0 {
+            return None;
+        }
+        let size = Self::facet_size(facet, &p);
+        let over = beyond(facet.kind, nodes, &p);
+        Some(Look {
+            p,
+            size,
+            away: facet_distance(position, &p, over),
+            beyond: over.distance,
+            carried: over.distance <= self.edge_tolerance * size || facet.continues[over.edge],
+        })
+    }
+
     /// The facet a point belongs to and its projection there; the distance to the surface if it belongs to none.
     ///
-    /// The nearest facet wins; between equally near ones the one it was on. Beyond an edge where the surface goes on the facet is
-    /// extended, so that a point in a re-entrant corner is not lost; beyond an outer edge the point is free.
+    /// The nearest facet wins; between equally near ones the one it was on, `previous`, where its projection was at `near`. Beyond an edge
+    /// where the surface goes on the facet is extended, so that a point in a re-entrant corner is not lost; beyond an outer edge the
+    /// point is free.
     pub(super) fn closest(
         &self,
         i: usize,
         x: &[Vec3],
+        boxes: &[Box3],
         previous: Option<usize>,
+        near: Option<[f64; 2]>,
     ) -> Result<(usize, FacetPoint), f64> {
         let Primary::Facets(facets) = &self.primary else {
             return Err(f64::INFINITY);
         };
         let point = &self.points[i];
         let position = point.position(x);
-        let mut best: Option<(f64, usize, FacetPoint, bool)> = None;
-        let mut nearest = f64::INFINITY;
+        let candidates = &self.memory.candidates[i];
+        let box_distance2 = |f: usize| boxes[f].distance2(position);
+        // The likely one first: facets that cannot be as near need not be projected on.
+        let first = previous.filter(|f| candidates.binary_search(f).is_ok());
+        let first = first.or_else(|| {
+            let nearest = candidates.iter().map(|&f| (box_distance2(f), f));
+            nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f)
+        });
+        let Some(first) = first else {
+            return Err(f64::INFINITY);
+        };
+        let near = near.filter(|_| previous == Some(first));
+        let mut seed = self.look(&facets[first], x, point, position, near);
+        let mut nearest = seed.as_ref().map_or(f64::INFINITY, |look| look.away);
+        let mut best: Option<(usize, Look)> = None;
         let mut kept: Option<FacetPoint> = None;
-        let mut nodes = [[0.0; 3]; crate::contact::pairing::FACET_NODES];
-        for &f in &self.memory.candidates[i] {
-            let facet = &facets[f];
-            for (c, &n) in nodes.iter_mut().zip(&facet.nodes) {
-                *c = x[n];
-            }
-            let nodes = &nodes[..facet.nodes.len()];
-            let Some(p) = project(facet.kind, nodes, position) else {
+        for &f in candidates {
+            let look = if f == first {
+                seed.take()
+            } else {
+                // Beyond a curved facet `away` is the sum of two sides, as of a right triangle: at least 1/√2 of the true distance. The
+                // summand leaves room for ties.
+                let limit = 1.5 * (nearest + 1e-8 * self.memory.margin);
+                if box_distance2(f) > limit * limit {
+                    continue;
+                }
+                self.look(&facets[f], x, point, position, None)
+            };
+            let Some(look) = look else {
                 continue;
             };
-            if dot(p.normal, point.normal) >= 0.0 {
-                continue;
-            }
-            let size = Self::facet_size(facet, &p);
-            let over = beyond(facet.kind, nodes, &p);
-            let away = facet_distance(position, &p, over);
-            nearest = nearest.min(away);
-            let carried = over.distance <= self.edge_tolerance * size || facet.continues[over.edge];
-            if previous == Some(f) && carried && over.distance <= KEPT * size {
-                kept = Some(p);
+            nearest = nearest.min(look.away);
+            if previous == Some(f) && look.carried && look.beyond <= KEPT * look.size {
+                kept = Some(look.p);
             }
             let better = match &best {
                 None => true,
-                Some((d, b, _, was_carried)) => {
+                Some((b, held)) => {
                     // Distances equal but for rounding: an edge both facets share.
-                    let tie = (away - d).abs() <= 1e-9 * size;
-                    match (carried, was_carried, tie) {
+                    let tie = (look.away - held.away).abs() <= 1e-9 * look.size;
+                    match (look.carried, held.carried, tie) {
                         (true, false, true) => true,
                         (false, true, true) => false,
                         (_, _, true) => previous == Some(f) && previous != Some(*b),
-                        _ => away < *d,
+                        _ => look.away < held.away,
                     }
                 }
             };
             if better {
-                best = Some((away, f, p, carried));
+                best = Some((f, look));
             }
         }
         match (best, kept, previous) {
             // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
-            (Some((_, _, p, true)), Some(k), Some(f)) if dot(p.normal, k.normal) > 1.0 - FLAT => {
+            (Some((_, look)), Some(k), Some(f))
+                if look.carried && dot(look.p.normal, k.normal) > 1.0 - FLAT =>
+            {
                 Ok((f, k))
             }
-            (Some((_, f, p, true)), ..) => Ok((f, p)),
+            (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
             _ => Err(nearest),
         }
     }
 
-    pub(super) fn evaluate(&self, i: usize, scene: &Scene) -> Evaluation {
+    /// `last`: this point at the evaluation before, in this attempt.
+    pub(super) fn evaluate(
+        &self,
+        i: usize,
+        scene: &Scene,
+        last: Option<&Evaluation>,
+        anchor: &mut Option<Anchor>,
+        batch: &mut Batch,
+    ) -> Evaluation {
+        if self.memory.asleep.get(i) == Some(&true) {
+            return Evaluation::open(f64::INFINITY);
+        }
         match &self.primary {
-            Primary::Rigid(..) => self.evaluate_rigid(i, scene),
-            Primary::Facets(facets) => self.evaluate_facet(i, facets, scene),
+            Primary::Rigid(..) => self.evaluate_rigid(i, scene, batch),
+            Primary::Facets(facets) => self.evaluate_facet(i, facets, scene, last, anchor, batch),
         }
     }
 
-    fn evaluate_facet(&self, i: usize, facets: &[Facet], scene: &Scene) -> Evaluation {
+    fn evaluate_facet(
+        &self,
+        i: usize,
+        facets: &[Facet],
+        scene: &Scene,
+        last: Option<&Evaluation>,
+        anchor: &mut Option<Anchor>,
+        batch: &mut Batch,
+    ) -> Evaluation {
         let point = &self.points[i];
         let frozen = self.kinematics.as_dyn().frozen();
+        let mut position = point.position(scene.x);
+        let mut position_before = point.position(scene.before);
         let found = if frozen {
             self.memory.frozen[i].ok_or(f64::INFINITY)
         } else {
-            let previous = self.memory.last.get(i).and_then(|e| e.facet);
+            let previous = last.and_then(|e| e.facet);
             let previous = previous.or(self.memory.committed[i].facet);
-            self.closest(i, scene.x, previous)
+            // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
+            // depend on the way to it.
+            let near = previous.and_then(|f| {
+                let foot = Anchor::at(anchor, f, &facets[f], scene.before, position_before);
+                foot.map(|foot| foot.xi)
+            });
+            self.closest(i, scene.x, scene.boxes, previous, near)
         };
         // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
         // off until the next increment.
         let found = match found {
-            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
-                Err(norm(sub(point.position(scene.x), p.x)))
-            }
+            Ok((_, p)) if self.memory.flips[i].left >= 2 => Err(norm(sub(position, p.x))),
             found => found,
         };
         let (f, foot) = match found {
@@ -210,23 +401,23 @@ impl Interface {
             Err(distance) => return Evaluation::open(distance),
         };
         let facet = &facets[f];
-        let at = |x: &[Vec3]| -> Vec<Vec3> { facet.nodes.iter().map(|&n| x[n]).collect() };
-        let (now, then) = (at(scene.x), at(scene.before));
-        let mut position = point.position(scene.x);
-        let mut position_before = point.position(scene.before);
+        let mut now = [[0.0; 3]; FACET_NODES];
+        let now = gather(facet, scene.x, &mut now);
         let anchor = if frozen {
             // relative to the material place of the frozen foot
+            let mut then = [[0.0; 3]; FACET_NODES];
+            let then = gather(facet, scene.before, &mut then);
             let place = |nodes: &[Vec3]| {
                 nodes
                     .iter()
                     .zip(&foot.n)
                     .fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x))
             };
-            position = add(foot.x, sub(position, place(&now)));
-            position_before = add(foot.x, sub(position_before, place(&then)));
-            foot
+            position = add(foot.x, sub(position, place(now)));
+            position_before = add(foot.x, sub(position_before, place(then)));
+            &foot
         } else {
-            match project(facet.kind, &then, position_before) {
+            match Anchor::at(anchor, f, facet, scene.before, position_before) {
                 Some(anchor) => anchor,
                 None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
             }
@@ -236,45 +427,42 @@ impl Interface {
             weights: &point.weights,
             point: position,
             kind: facet.kind,
-            facet: &now,
+            facet: now,
             foot: &foot,
-            anchor: &anchor,
+            anchor,
             point_before: position_before,
         };
         let kinematics = self.kinematics.as_dyn();
-        let mut stencil = Stencil::default();
-        kinematics.stencil(&pair, &mut stencil);
-        stencil.reach = now.iter().map(|&x| norm(x)).fold(norm(position), f64::max);
-        let nodes = point.nodes.iter().chain(&facet.nodes);
-        let mut e = self.respond(i, &stencil, nodes, scene);
+        kinematics.stencil(&pair, &mut batch.stencil);
+        let reach = now.iter().map(|&x| dot(x, x));
+        batch.stencil.reach = reach.fold(dot(position, position), f64::max).sqrt();
+        let mut e = self.respond(i, &facet.nodes, scene, batch);
         e.facet = Some(f);
-        e.facet_weights = facet
-            .nodes
-            .iter()
-            .copied()
-            .zip(foot.n[..facet.nodes.len()].iter().copied())
-            .collect();
-        self.finish(i, &stencil, scene, &mut e, |weights, out| {
-            kinematics.add_hessian(&pair, &stencil, weights, out);
+        e.facet_weights = foot.n;
+        self.finish(i, scene, &mut e, batch, |stencil, weights, out| {
+            let curved = kinematics.curved();
+            if curved {
+                kinematics.add_hessian(&pair, stencil, weights, out);
+            }
+            curved
         });
         e
     }
 
-    fn evaluate_rigid(&self, i: usize, scene: &Scene) -> Evaluation {
+    fn evaluate_rigid(&self, i: usize, scene: &Scene, batch: &mut Batch) -> Evaluation {
         let (Primary::Rigid(shape, _), Some(poses)) = (&self.primary, scene.poses) else {
             return Evaluation::open(f64::INFINITY);
         };
         let point = &self.points[i];
         let (x, before) = (point.position(scene.x), point.position(scene.before));
         let dim = self.dofs.dim;
-        let mut stencil = Stencil::default();
         let Some(feet) = rigid_stencil(
             shape.as_dyn(),
             (&poses.0, &poses.1),
             point,
             (x, before),
             dim,
-            &mut stencil,
+            &mut batch.stencil,
         ) else {
             return Evaluation::open(f64::INFINITY);
         };
@@ -286,10 +474,10 @@ impl Interface {
         } else {
             0.0
         };
-        stencil.reach = norm(x) + 2.0 * radius;
-        let mut e = self.respond(i, &stencil, point.nodes.iter(), scene);
-        self.finish(i, &stencil, scene, &mut e, |weights, out| {
-            add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out);
+        batch.stencil.reach = norm(x) + 2.0 * radius;
+        let mut e = self.respond(i, &[], scene, batch);
+        self.finish(i, scene, &mut e, batch, |_, weights, out| {
+            add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out)
         });
         e
     }
@@ -303,22 +491,17 @@ impl Interface {
         (before.gap - gap) / dt
     }
 
-    /// Laws at a stencil.
-    fn respond<'a>(
-        &self,
-        i: usize,
-        stencil: &Stencil,
-        nodes: impl Iterator<Item = &'a usize>,
-        scene: &Scene,
-    ) -> Evaluation {
+    /// Laws at the stencil of the batch, of a point and a facet with these nodes.
+    fn respond(&self, i: usize, facet: &[usize], scene: &Scene, batch: &mut Batch) -> Evaluation {
         let dim = self.dofs.dim;
         let point = &self.points[i];
-        let nodes: Vec<usize> = nodes.copied().collect();
-        let dofs: Vec<usize> = nodes
-            .iter()
-            .flat_map(|&node| (0..dim).map(move |c| (node, c)))
-            .map(|(node, c)| self.dofs.of(self.nodes[node], c))
-            .collect();
+        let stencil = &batch.stencil;
+        let first = batch.dofs.len();
+        for &node in point.nodes.iter().chain(facet) {
+            for c in 0..dim {
+                batch.dofs.push(self.dofs.of(self.nodes[node], c));
+            }
+        }
         let unknown = self.unknown();
         let enforcement = self.laws.enforcement.as_dyn();
         // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
@@ -378,11 +561,14 @@ impl Interface {
             sticking: self.memory.committed[i].status != Status::Slip,
             closing: self.closing(i, stencil.gap, scene.dt),
         };
-        let mut rated = [Vec::new(), Vec::new()];
+        for row in &mut batch.rated {
+            row.clear();
+        }
         let at = match scene.rate {
             Some(rate) => {
-                let (seen, rows) = rate_slip(stencil, &nodes, &dofs, scene, rate);
-                rated = rows;
+                let nodes = point.nodes.iter().chain(facet);
+                let dofs = &batch.dofs[first..];
+                let seen = rate_slip(stencil, nodes, dofs, scene, rate, dim, &mut batch.rated);
                 let belt = stencil.frame_before.map(|e| dot(e, scene.belt_end));
                 Circumstances {
                     slip: [seen[0] - belt[0], seen[1] - belt[1]],
@@ -394,8 +580,8 @@ impl Interface {
         };
         let response = self.laws.respond(stencil, &at);
         Evaluation {
-            dofs,
-            rated,
+            n: batch.dofs.len() - first,
+            dofs: first,
             response,
             gap: stencil.gap,
             normal: stencil.normal,
@@ -414,30 +600,28 @@ impl Interface {
         }
     }
 
-    /// Residual and tangent from stencil and response.
+    /// Residual and tangent from stencil and response. `hessian` adds second derivatives with these weights, or says that there are none.
     fn finish(
         &self,
         i: usize,
-        stencil: &Stencil,
         scene: &Scene,
         e: &mut Evaluation,
-        hessian: impl FnOnce([f64; 3], &mut [f64]),
+        batch: &mut Batch,
+        hessian: impl FnOnce(&Stencil, [f64; 3], &mut [f64]) -> bool,
     ) {
         let r = &e.response;
         let unknown = self.unknown() && !scene.initial;
         let traction = if unknown { e.multiplier } else { r.traction };
+        let stencil = &batch.stencil;
         let (n, area) = (stencil.n, self.points[i].area);
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
         }
-        e.residual = (0..n)
-            .map(|k| {
-                -area
-                    * (0..3)
-                        .map(|q| traction[q] * stencil.rows[q][k])
-                        .sum::<f64>()
-            })
-            .collect();
+        let rows = stencil.rows.each_ref().map(|row| &row[..n]);
+        e.force = Some(batch.force.len());
+        batch.force.extend((0..n).map(|k| {
+            -area * (traction[0] * rows[0][k] + traction[1] * rows[1][k] + traction[2] * rows[2][k])
+        }));
         // What rounding of coordinates of this size leaves of the force.
         let slope = r
             .d_gap
@@ -445,104 +629,113 @@ impl Interface {
             .flatten()
             .fold(0.0_f64, |m, d| m.max(d.abs()));
         e.rounding = 4.0 * f64::EPSILON * stencil.reach * slope * area;
-        let rows = &stencil.rows;
-        // d_gap · B (+ the skew), shape (3, n)
-        let seen: [&[f64]; 3] = if e.rated[0].is_empty() {
-            [&rows[0], &rows[1], &rows[2]]
-        } else {
-            [&rows[0], &e.rated[0], &e.rated[1]]
-        };
-        let change = |q: usize, k: usize| -> f64 {
-            let mut c: f64 = (0..3).map(|p| r.d_gap[q][p] * seen[p][k]).sum();
-            if !stencil.skew_row.is_empty() {
-                c += r.d_skew[q] * stencil.skew_row[k];
-            }
-            c
-        };
+        // K_ll = I - ∂T/∂Σ is 1/ω times the weight in contact, and the unit matrix where open: never singular for a finite ω.
+        let k_ll_inverse = (unknown && scene.tangent).then(|| {
+            let k_ll: Mat3 = std::array::from_fn(|i| {
+                std::array::from_fn(|j| (if i == j { 1.0 } else { 0.0 }) - r.d_multiplier[i][j])
+            });
+            inverse(&k_ll).map_or(identity(), |(m, _)| m)
+        });
         if unknown {
-            e.saddle = Some(saddle(r, e.multiplier, area, rows, n, change));
+            // The multiplier rows `Σ - T(gap, Σ) = 0`; in contact and stick they are the paper's `G - Σ/ω = 0`, up to a factor.
+            let rest: [f64; 3] = std::array::from_fn(|q| e.multiplier[q] - r.traction[q]);
+            let shift = k_ll_inverse.map_or([0.0; 3], |k| k.map(|k| dot(k, rest)));
+            e.saddle = Some((rest, shift));
         }
         if !scene.tangent {
             return;
         }
-        e.rows = rows.concat();
-        e.change = (0..3)
-            .flat_map(|q| (0..n).map(move |k| (q, k)))
-            .map(|(q, k)| match &e.saddle {
-                None => -area * change(q, k),
-                Some(s) => {
-                    let inverse = &s.k_ll_inverse[3 * q..3 * q + 3];
-                    let sum: f64 = (0..3).map(|p| inverse[p] * s.k_lu[p * n + k]).sum();
-                    area * sum
-                }
-            })
-            .collect();
-        let mut tangent = vec![0.0; n * n];
-        hessian(traction.map(|t| -area * t), &mut tangent);
-        if !unknown {
-            for k in 0..n {
-                for (q, row) in rows.iter().enumerate() {
-                    let row = -area * row[k];
-                    if row != 0.0 {
-                        for l in 0..n {
-                            tangent[k * n + l] += row * change(q, l);
-                        }
-                    }
+        let first = batch.rows.len();
+        e.rows = Some(first);
+        for row in rows {
+            batch.rows.extend_from_slice(row);
+        }
+        // -d_gap · B (- the skew), shape (3, n); with multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
+        let seen: [&[f64]; 3] = if batch.rated[0].is_empty() {
+            rows
+        } else {
+            [rows[0], &batch.rated[0][..n], &batch.rated[1][..n]]
+        };
+        let (d, d_skew) = match &k_ll_inverse {
+            Some(k) => (condensed_slope(k, &r.d_gap), k.map(|k| dot(k, r.d_skew))),
+            None => (r.d_gap, r.d_skew),
+        };
+        for (d, d_skew) in d.iter().zip(d_skew) {
+            let start = batch.change.len();
+            batch.change.extend(
+                (0..n).map(|k| -(d[0] * seen[0][k] + d[1] * seen[1][k] + d[2] * seen[2][k])),
+            );
+            if d_skew != 0.0 {
+                for (c, skew) in batch.change[start..].iter_mut().zip(&stencil.skew_row) {
+                    *c -= d_skew * skew;
                 }
             }
         }
-        // With multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
-        let condensed = e
-            .saddle
-            .as_ref()
-            .map(|s| condensed_slope(&s.k_ll_inverse, &r.d_gap));
-        let d = condensed.as_ref().unwrap_or(&r.d_gap);
-        // Friction that looks at velocities is stiffer by the gain.
-        let gain = stencil_gain(stencil, &e.rated);
-        let [t11, t22, t12] =
-            positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]).map(|t| gain * t);
-        let normal = (-d[0][0]).max(0.0);
-        let mut surrogate = vec![0.0; n * n];
-        for k in 0..n {
-            let left = [
-                area * normal * rows[0][k],
-                area * (t11 * rows[1][k] + t12 * rows[2][k]),
-                area * (t12 * rows[1][k] + t22 * rows[2][k]),
-            ];
-            for l in 0..n {
-                surrogate[k * n + l] =
-                    left[0] * rows[0][l] + left[1] * rows[1][l] + left[2] * rows[2][l];
+        if traction != [0.0; 3] {
+            let start = batch.hessian.len();
+            batch.hessian.resize(start + n * n, 0.0);
+            let weights = traction.map(|t| -area * t);
+            if hessian(stencil, weights, &mut batch.hessian[start..]) {
+                e.hessian = Some(start);
+            } else {
+                batch.hessian.truncate(start);
             }
         }
-        e.tangent = tangent;
-        e.surrogate = surrogate;
+        if scene.surrogate {
+            let start = batch.surrogate.len();
+            e.surrogate = Some(start);
+            batch.surrogate.resize(start + n * n, 0.0);
+            // Friction that looks at velocities is stiffer by the gain.
+            let gain = stencil_gain(stencil, &batch.rated);
+            let out = &mut batch.surrogate[start..];
+            surrogate(&d, gain, area, rows, out);
+        }
+    }
+}
+
+/// A symmetric positive semi-definite matrix close to `-Bᵀ d B` times the area, for the preconditioner.
+fn surrogate(d: &Mat3, gain: f64, area: f64, rows: [&[f64]; 3], out: &mut [f64]) {
+    let [t11, t22, t12] =
+        positive_part([-d[1][1], -d[2][2], -0.5 * (d[1][2] + d[2][1])]).map(|t| gain * t);
+    let normal = (-d[0][0]).max(0.0);
+    let n = rows[0].len();
+    for (k, out) in out.chunks_exact_mut(n).enumerate() {
+        let left = [
+            area * normal * rows[0][k],
+            area * (t11 * rows[1][k] + t12 * rows[2][k]),
+            area * (t12 * rows[1][k] + t22 * rows[2][k]),
+        ];
+        for (l, out) in out.iter_mut().enumerate() {
+            *out = left[0] * rows[0][l] + left[1] * rows[1][l] + left[2] * rows[2][l];
+        }
     }
 }
 
 /// The slip as friction sees it, `dt v` along the frame, and its gradients: `s + Σ row ((gain - 1) Δu + shift)`.
-fn rate_slip(
+fn rate_slip<'a>(
     stencil: &Stencil,
-    nodes: &[usize],
+    nodes: impl Iterator<Item = &'a usize>,
     dofs: &[usize],
     scene: &Scene,
     rate: Rate,
-) -> ([f64; 2], [Vec<f64>; 2]) {
-    let dim = dofs.len() / nodes.len();
+    dim: usize,
+    rows: &mut [Vec<f64>; 2],
+) -> [f64; 2] {
     let mut slip = stencil.slip;
-    let rows = [0, 1].map(|i| {
-        let row = &stencil.rows[i + 1];
-        row.iter()
-            .zip(dofs)
-            .enumerate()
-            .map(|(k, (&r, &dof))| {
-                let node = nodes[k / dim];
-                let moved = scene.x[node][k % dim] - scene.before[node][k % dim];
-                slip[i] += r * ((rate.gain[dof] - 1.0) * moved + rate.shift[dof]);
-                r * rate.gain[dof]
-            })
-            .collect()
-    });
-    (slip, rows)
+    let mut k = 0;
+    for &node in nodes {
+        let (x, before) = (scene.x[node], scene.before[node]);
+        for (x, before) in x.iter().zip(before).take(dim) {
+            let dof = dofs[k];
+            for i in 0..2 {
+                let r = stencil.rows[i + 1][k];
+                slip[i] += r * ((rate.gain[dof] - 1.0) * (x - before) + rate.shift[dof]);
+                rows[i].push(r * rate.gain[dof]);
+            }
+            k += 1;
+        }
+    }
+    slip
 }
 
 /// The largest ratio of what friction sees of a displacement to the slip it is.
@@ -556,42 +749,10 @@ fn stencil_gain(stencil: &Stencil, rated: &[Vec<f64>; 2]) -> f64 {
 }
 
 /// `K_ll⁻¹ ∂T/∂gap`: the slope of the multipliers after their elimination.
-fn condensed_slope(inverse: &[f64], d_gap: &Mat3) -> Mat3 {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..3).map(|k| inverse[3 * i + k] * d_gap[k][j]).sum())
+fn condensed_slope(inverse: &Mat3, d_gap: &Mat3) -> Mat3 {
+    inverse.map(|row| {
+        std::array::from_fn(|j| row[0] * d_gap[0][j] + row[1] * d_gap[1][j] + row[2] * d_gap[2][j])
     })
-}
-
-/// The multiplier rows `Σ - T(gap, Σ) = 0`; in contact and stick they are the paper's `G - Σ/ω = 0`, up to a
-/// factor.
-fn saddle(
-    r: &Response,
-    multiplier: [f64; 3],
-    area: f64,
-    rows: &[Vec<f64>; 3],
-    n: usize,
-    change: impl Fn(usize, usize) -> f64,
-) -> SaddleRows {
-    let mut k_ul = vec![0.0; n * 3];
-    let mut k_lu = vec![0.0; 3 * n];
-    for k in 0..n {
-        for q in 0..3 {
-            k_ul[k * 3 + q] = -area * rows[q][k];
-            k_lu[q * n + k] = -change(q, k);
-        }
-    }
-    // K_ll = I - ∂T/∂Σ
-    let k_ll: Mat3 = std::array::from_fn(|i| {
-        std::array::from_fn(|j| (if i == j { 1.0 } else { 0.0 }) - r.d_multiplier[i][j])
-    });
-    // It is 1/ω times the weight in contact, and the unit matrix where open: never singular for a finite ω.
-    let inverse = inverse(&k_ll).map_or(identity(), |(m, _)| m);
-    SaddleRows {
-        k_ul,
-        k_lu,
-        k_ll_inverse: inverse.concat(),
-        r_l: (0..3).map(|q| multiplier[q] - r.traction[q]).collect(),
-    }
 }
 
 #[cfg(test)]

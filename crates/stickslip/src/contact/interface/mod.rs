@@ -1,11 +1,16 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
 mod evaluate;
+mod reach;
 mod report;
 mod springs;
 
+#[cfg(test)]
+mod tests;
+
 use rayon::prelude::*;
 
+pub use reach::Reach;
 pub use report::{Quality, Resultant};
 
 use super::enforcement::Multipliers;
@@ -13,14 +18,14 @@ use super::kinematics::KinematicsModel;
 use super::obstacle::{Motion, ObstacleShape, Pose};
 use super::pairing::FacetPoint;
 use super::response::{Laws, Status};
-use super::search::Tree;
+use super::search::{Box3, Tree};
 use super::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
 use crate::system::{
-    Assembler, Augmentation, Culprit, Dofs, Energy, Fields, Force, Role, Saddle, Schedule, Stage,
-    State, StepFailure, Tally, Tangent,
+    Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
+    Stage, State, StepFailure, Tally,
 };
-use evaluate::Evaluation;
+use evaluate::{Anchor, Batch, Evaluation};
 
 /// What the secondary touches.
 #[derive(Debug, Clone)]
@@ -67,7 +72,13 @@ pub struct Interface {
 pub struct Memory {
     committed: Vec<History>,
     multipliers: Vec<Multiplier>,
-    last: Vec<Evaluation>,
+    last: Evaluations,
+    /// Memory for the next evaluation, and coordinates at it and at the last accepted state.
+    trial: Evaluations,
+    x: Vec<Vec3>,
+    before: Vec<Vec3>,
+    boxes: Vec<Box3>,
+    anchors: Vec<Option<Anchor>>,
     flips: Vec<Flips>,
     candidates: Vec<Vec<usize>>,
     searched_at: Vec<Vec3>,
@@ -79,6 +90,8 @@ pub struct Memory {
     /// Largest velocity of slip below the limit over the last increment.
     creep: f64,
     changed: usize,
+    /// The last evaluation, a tentative one, may become the next iterate.
+    pending: bool,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
     untouched: bool,
     /// Explicit dynamics: springs, whatever the enforcement.
@@ -88,6 +101,33 @@ pub struct Memory {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     inertia: Vec<f64>,
     softening: Option<f64>,
+    /// Points that do not take part; empty where all do.
+    asleep: Vec<bool>,
+    /// Points within the part of the reach in which contact is expected to stay.
+    inner: Vec<bool>,
+}
+
+/// An evaluation of all points.
+#[derive(Debug, Clone, Default)]
+struct Evaluations {
+    points: Vec<Evaluation>,
+    batches: Vec<Batch>,
+}
+
+impl Evaluations {
+    /// The numbers of a point.
+    fn batch(&self, i: usize) -> &Batch {
+        &self.batches[i / CHUNK]
+    }
+}
+
+/// What is asked of an evaluation.
+#[derive(Debug, Clone, Copy, Default)]
+struct Wants {
+    tangent: bool,
+    surrogate: bool,
+    /// See [`evaluate::Scene`].
+    initial: bool,
 }
 
 /// Committed history of a contact point.
@@ -135,11 +175,15 @@ const CHUNK: usize = 16;
 impl Interface {
     /// Reference coordinates plus displacement of the nodes of the interface.
     fn coordinates(&self, u: &[f64]) -> Vec<Vec3> {
-        self.nodes
-            .iter()
-            .zip(&self.reference)
-            .map(|(&node, &x)| add(x, self.dofs.vector(u, node)))
-            .collect()
+        let mut out = Vec::new();
+        self.coordinates_into(u, &mut out);
+        out
+    }
+
+    fn coordinates_into(&self, u: &[f64], out: &mut Vec<Vec3>) {
+        out.clear();
+        let nodes = self.nodes.iter().zip(&self.reference);
+        out.extend(nodes.map(|(&node, &x)| add(x, self.dofs.vector(u, node))));
     }
 
     /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
@@ -194,11 +238,21 @@ impl Interface {
         }
         self.prepare(stage)?;
         self.begin();
-        for e in self.evaluate_all(stage, false, true) {
-            for (&dof, r) in e.dofs.iter().zip(&e.residual) {
+        let evaluations = self.evaluate_all(
+            stage,
+            Wants {
+                initial: true,
+                ..Wants::default()
+            },
+        );
+        for (i, e) in evaluations.points.iter().enumerate() {
+            let batch = evaluations.batch(i);
+            let force = batch.force(e).unwrap_or_default();
+            for (&dof, r) in batch.dofs(e).iter().zip(force) {
                 residual[dof] += r;
             }
         }
+        self.memory.trial = evaluations;
         Ok(())
     }
 
@@ -234,13 +288,27 @@ impl Interface {
             return;
         }
         let size = |f: &Facet| distance(x[f.nodes[0]], x[f.nodes[1]]);
-        memory.margin = facets.iter().map(size).fold(0.0, f64::max);
+        // Curved facets leave the boxes of their nodes by a part of their size. Flat ones do not, and where a mesh is graded the longest of them
+        // would bring in far too many of the small ones.
+        let curved = |f: &Facet| f.kind.order() > 1;
+        memory.margin = if facets.iter().any(curved) {
+            facets.iter().map(size).fold(0.0, f64::max)
+        } else {
+            facets.iter().map(size).sum::<f64>() / facets.len().max(1) as f64
+        };
         let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
         memory.candidates.resize(self.points.len(), Vec::new());
-        for (point, candidates) in self.points.iter().zip(&mut memory.candidates) {
-            tree.near(point.position(x), memory.margin, candidates);
-        }
-        memory.searched_at = x.to_vec();
+        let margin = memory.margin;
+        self.points
+            .par_chunks(CHUNK)
+            .zip(memory.candidates.par_chunks_mut(CHUNK))
+            .for_each(|(points, candidates)| {
+                for (point, candidates) in points.iter().zip(candidates) {
+                    tree.near(point.position(x), margin, candidates);
+                }
+            });
+        memory.searched_at.clear();
+        memory.searched_at.extend_from_slice(x);
     }
 
     /// Pairs in the reference configuration, for small sliding.
@@ -250,38 +318,134 @@ impl Interface {
         }
         let x = self.reference.clone();
         self.search(&x);
+        let mut boxes = Vec::new();
+        self.enclose(&x, &mut boxes);
         self.memory.frozen = (0..self.points.len())
-            .map(|i| self.closest(i, &x, None).ok())
+            .map(|i| self.closest(i, &x, &boxes, None, None).ok())
             .collect();
     }
 
-    fn evaluate_all(&self, stage: &Stage, tangent: bool, initial: bool) -> Vec<Evaluation> {
-        let x = self.coordinates(&stage.at.u);
-        let before = self.coordinates(&stage.from.u);
+    /// Boxes around the facets.
+    fn enclose(&self, x: &[Vec3], out: &mut Vec<Box3>) {
+        out.clear();
+        if let Primary::Facets(facets) = &self.primary {
+            let around = |f: &Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
+            out.extend(facets.iter().map(around));
+        }
+    }
+
+    /// Evaluates all points, in the memory of `trial`: whoever asks puts that back.
+    fn evaluate_all(&mut self, stage: &Stage, wants: Wants) -> Evaluations {
+        let memory = &mut self.memory;
+        let mut out = std::mem::take(&mut memory.trial);
+        let mut x = std::mem::take(&mut memory.x);
+        let mut before = std::mem::take(&mut memory.before);
+        let mut boxes = std::mem::take(&mut memory.boxes);
+        let mut anchors = std::mem::take(&mut memory.anchors);
+        self.coordinates_into(&stage.at.u, &mut x);
+        self.coordinates_into(&stage.from.u, &mut before);
+        if !self.kinematics.as_dyn().frozen() {
+            self.enclose(&x, &mut boxes);
+        }
         let poses = self.poses(stage);
-        let belt = self.belt_path(stage);
-        let belt_end = scale(stage.dt, self.belt_velocity(stage.at.t));
-        let indices: Vec<usize> = (0..self.points.len()).collect();
-        indices
-            .par_chunks(CHUNK)
-            .flat_map_iter(|chunk| {
-                let scene = evaluate::Scene {
-                    x: &x,
-                    before: &before,
-                    poses: poses.as_ref(),
-                    belt,
-                    belt_end,
-                    rate: stage.rate,
-                    dt: stage.dt,
-                    tangent,
-                    initial,
-                };
-                chunk
-                    .iter()
-                    .map(|&i| self.evaluate(i, &scene))
-                    .collect::<Vec<_>>()
-            })
-            .collect()
+        let scene = evaluate::Scene {
+            x: &x,
+            before: &before,
+            boxes: &boxes,
+            poses: poses.as_ref(),
+            belt: self.belt_path(stage),
+            belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
+            rate: stage.rate,
+            dt: stage.dt,
+            tangent: wants.tangent,
+            surrogate: wants.surrogate,
+            initial: wants.initial,
+        };
+        let count = self.points.len();
+        anchors.resize(count, None);
+        out.points.resize(count, Evaluation::default());
+        out.batches
+            .resize_with(count.div_ceil(CHUNK), Batch::default);
+        let last = &self.memory.last.points;
+        out.points
+            .par_chunks_mut(CHUNK)
+            .zip(out.batches.par_iter_mut())
+            .zip(anchors.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each(|(chunk, ((points, batch), anchors))| {
+                batch.clear();
+                for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
+                    let i = chunk * CHUNK + k;
+                    *e = self.evaluate(i, &scene, last.get(i), anchor, batch);
+                }
+            });
+        let memory = &mut self.memory;
+        memory.x = x;
+        memory.before = before;
+        memory.boxes = boxes;
+        memory.anchors = anchors;
+        out
+    }
+}
+
+impl Interface {
+    /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
+    /// none.
+    fn add_pairs(&self, evaluations: &[Evaluation], out: &mut Assembler) {
+        if !out.wants_tangent || !out.wants_pairs {
+            return;
+        }
+        for (i, point) in self.points.iter().enumerate() {
+            let &[node] = point.nodes.as_slice() else {
+                continue;
+            };
+            let e = evaluations.get(i);
+            let met = match (&self.primary, e.and_then(|e| Some((e, e.facet?)))) {
+                (Primary::Facets(facets), Some((e, f))) => Some((e, &facets[f])),
+                _ => None,
+            };
+            let facet = met.map_or(Vec::new(), |(e, facet)| {
+                let nodes = facet.nodes.iter().map(|&n| self.nodes[n]);
+                nodes.zip(e.facet_weights).collect()
+            });
+            let normal = e.map_or([0.0; 3], |e| e.normal);
+            out.pairs.push(ContactPair {
+                point: self.nodes[node],
+                facet,
+                normal: if normal == [0.0; 3] {
+                    point.normal
+                } else {
+                    normal
+                },
+            });
+        }
+    }
+
+    /// Makes the last evaluation the iterate from which Newton's method steps.
+    fn record(&mut self) {
+        let unknown = self.unknown();
+        let memory = &mut self.memory;
+        let last = &memory.last.points;
+        memory.untouched = false;
+        memory.changed = 0;
+        for (flips, e) in memory.flips.iter_mut().zip(last) {
+            let now = Some(e.response.status);
+            if flips.last[0].is_some() && flips.last[0] != now {
+                flips.count += 1;
+                memory.changed += 1;
+            }
+            let over = e.facet.is_some();
+            flips.left += usize::from(flips.over && !over);
+            flips.over = over;
+            flips.last.rotate_right(1);
+            flips.last[0] = now;
+        }
+        if unknown {
+            for (m, e) in memory.multipliers.iter_mut().zip(last) {
+                m.base = e.multiplier;
+                m.frame = e.frame_before;
+            }
+        }
     }
 }
 
@@ -298,8 +462,10 @@ impl Force for Interface {
         self.ready();
         self.freeze();
         if !self.kinematics.as_dyn().frozen() {
-            let x = self.coordinates(&stage.at.u);
+            let mut x = std::mem::take(&mut self.memory.x);
+            self.coordinates_into(&stage.at.u, &mut x);
             self.search(&x);
+            self.memory.x = x;
         }
         Ok(())
     }
@@ -317,78 +483,77 @@ impl Force for Interface {
             };
         }
         memory.flips.fill(Flips::default());
-        memory.last.clear();
+        memory.last.points.clear();
+        memory.pending = false;
         memory.untouched = memory.committed.iter().all(|h| h.status == Status::Open);
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         if !self.schedule.active(stage.at.t) {
-            self.memory.last.clear();
+            self.memory.last.points.clear();
+            self.memory.pending = false;
+            self.add_pairs(&[], out);
             return Ok(());
         }
-        let evaluations = self.evaluate_all(stage, out.wants_tangent, false);
+        let evaluations = self.evaluate_all(
+            stage,
+            Wants {
+                tangent: out.wants_tangent,
+                surrogate: out.wants_surrogate,
+                initial: false,
+            },
+        );
+        self.add_pairs(&evaluations.points, out);
         let unknown = self.unknown();
-        for (i, e) in evaluations.iter().enumerate() {
-            if out.wants_tangent && !e.dofs.is_empty() {
-                out.couplings.push(e.dofs.clone());
+        for (i, e) in evaluations.points.iter().enumerate() {
+            let (batch, area) = (evaluations.batch(i), self.points[i].area);
+            let dofs = batch.dofs(e);
+            if !dofs.is_empty() {
+                out.add_coupling(dofs);
             }
-            if e.residual.is_empty() {
+            let Some(force) = batch.force(e) else {
                 continue;
-            }
-            out.add_residual(&e.dofs, &e.residual);
+            };
+            out.add_residual(dofs, force);
             out.rounding += e.rounding * e.rounding;
-            if let Some(saddle) = &e.saddle {
-                let worst = saddle.r_l.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-                out.multiplier_residual = out.multiplier_residual.max(worst * self.points[i].area);
-                if out.wants_tangent {
-                    out.add_saddle(
-                        &e.dofs,
-                        e.tangent(),
-                        Saddle {
-                            k_ul: &saddle.k_ul,
-                            k_lu: &saddle.k_lu,
-                            k_ll_inverse: &saddle.k_ll_inverse,
-                            r_l: &saddle.r_l,
-                        },
-                    );
+            if let Some((rest, _)) = &e.saddle {
+                let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+                out.multiplier_residual = out.multiplier_residual.max(worst * area);
+            }
+            if let Some(tangent) = batch.tangent(e, area) {
+                if let Some((_, shift)) = e.saddle {
+                    out.add_condensed(dofs, tangent, shift);
                 }
-            } else if out.wants_tangent {
-                out.add_tangent(&e.dofs, e.tangent());
+                out.add_tangent(dofs, tangent);
             }
         }
         let memory = &mut self.memory;
-        if out.wants_tangent {
-            memory.untouched = false;
-            memory.changed = 0;
-            for (flips, e) in memory.flips.iter_mut().zip(&evaluations) {
-                let now = Some(e.response.status);
-                if flips.last[0].is_some() && flips.last[0] != now {
-                    flips.count += 1;
-                    memory.changed += 1;
-                }
-                let over = e.facet.is_some();
-                flips.left += usize::from(flips.over && !over);
-                flips.over = over;
-                flips.last.rotate_right(1);
-                flips.last[0] = now;
-            }
-            if unknown {
-                for (m, e) in memory.multipliers.iter_mut().zip(&evaluations) {
-                    m.base = e.multiplier;
-                    m.frame = e.frame_before;
-                }
-            }
-        }
-        // The multiplier rows of the tangent evaluation are needed until the step has been taken.
-        if out.wants_tangent || !unknown {
-            memory.last = evaluations;
-        } else {
-            for (kept, e) in memory.last.iter_mut().zip(evaluations) {
+        memory.pending = out.wants_tangent && out.tentative;
+        // The multiplier rows of the last iterate are needed until the step has been taken.
+        if unknown && (memory.pending || !out.wants_tangent) {
+            for (kept, e) in memory.last.points.iter_mut().zip(&evaluations.points) {
                 kept.response = e.response;
                 kept.gap = e.gap;
             }
+            memory.trial = evaluations;
+        } else {
+            memory.trial = std::mem::replace(&mut memory.last, evaluations);
+        }
+        if out.wants_tangent && !out.tentative {
+            self.record();
         }
         Ok(())
+    }
+
+    fn settle(&mut self) {
+        let unknown = self.unknown();
+        let memory = &mut self.memory;
+        if std::mem::take(&mut memory.pending) {
+            if unknown {
+                std::mem::swap(&mut memory.last, &mut memory.trial);
+            }
+            self.record();
+        }
     }
 
     fn soften(&mut self, factor: Option<f64>) -> bool {
@@ -401,20 +566,18 @@ impl Force for Interface {
             return;
         }
         let memory = &mut self.memory;
-        for (m, e) in memory.multipliers.iter_mut().zip(&memory.last) {
-            let Some(saddle) = &e.saddle else {
+        let last = &memory.last;
+        for (i, (m, e)) in memory.multipliers.iter_mut().zip(&last.points).enumerate() {
+            let batch = last.batch(i);
+            let (Some((_, shift)), Some(tangent)) = (e.saddle, batch.tangent(e, 1.0)) else {
                 continue;
             };
-            let n = e.dofs.len();
+            let dofs = batch.dofs(e);
             // dl = -K_ll⁻¹ (r_l + K_lu du)
-            let row: [f64; 3] = std::array::from_fn(|p| {
-                let k = &saddle.k_lu[p * n..(p + 1) * n];
-                let k_du: f64 = k.iter().zip(&e.dofs).map(|(k, &dof)| k * du[dof]).sum();
-                saddle.r_l[p] + k_du
-            });
             let now: [f64; 3] = std::array::from_fn(|p| {
-                let k = &saddle.k_ll_inverse[p * 3..p * 3 + 3];
-                m.base[p] - step * (k[0] * row[0] + k[1] * row[1] + k[2] * row[2])
+                let row = &tangent.change[p * dofs.len()..(p + 1) * dofs.len()];
+                let along: f64 = row.iter().zip(dofs).map(|(k, &dof)| k * du[dof]).sum();
+                m.base[p] - step * (shift[p] + along)
             });
             m.pressure = now[0];
             m.shear = add_scaled(scale(now[1], m.frame[0]), now[2], m.frame[1]);
@@ -428,12 +591,12 @@ impl Force for Interface {
         // Violations are lengths, compared with the compression of one layer of cells under the largest pressure, or with the way that
         // the pressure moves the mass of a point over the increment.
         let moving = stage.rate.map(|_| stage.dt);
-        let approach = (self.memory.last.iter().enumerate())
+        let approach = (self.memory.last.points.iter().enumerate())
             .map(|(i, e)| e.response.traction[0] / self.own_stiffness(i, moving))
             .fold(0.0, f64::max);
         let memory = &mut self.memory;
         let mut worst: f64 = 0.0;
-        for (m, e) in memory.multipliers.iter_mut().zip(&memory.last) {
+        for (m, e) in memory.multipliers.iter_mut().zip(&memory.last.points) {
             let r = &e.response;
             if e.normal_stiffness.is_finite() {
                 let change = (r.traction[0] - m.centre_pressure).abs();
@@ -460,7 +623,7 @@ impl Force for Interface {
         memory
             .committed
             .iter()
-            .zip(&memory.last)
+            .zip(&memory.last.points)
             .filter(|(h, e)| h.status != e.response.status)
             .count()
     }
@@ -469,7 +632,7 @@ impl Force for Interface {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
         let memory = &mut self.memory;
-        if !active || memory.last.is_empty() {
+        if !active || memory.last.points.is_empty() {
             for h in &mut memory.committed {
                 *h = History {
                     slip: h.slip,
@@ -483,7 +646,7 @@ impl Force for Interface {
         for ((h, e), point) in memory
             .committed
             .iter_mut()
-            .zip(&memory.last)
+            .zip(&memory.last.points)
             .zip(&self.points)
         {
             let r = &e.response;
@@ -542,7 +705,7 @@ impl Force for Interface {
             changed: self.memory.changed,
             ..Tally::default()
         };
-        for e in &self.memory.last {
+        for e in &self.memory.last.points {
             match e.response.status {
                 Status::Open => tally.open += 1,
                 Status::Stick => tally.stick += 1,
@@ -558,36 +721,9 @@ impl Force for Interface {
 }
 
 impl Evaluation {
-    /// What a tangent evaluation leaves for the assembler.
-    fn tangent(&self) -> Tangent<'_> {
-        Tangent {
-            whole: &self.tangent,
-            surrogate: &self.surrogate,
-            rows: &self.rows,
-            change: &self.change,
-        }
-    }
-
     /// Shear traction on the secondary along the given directions.
     fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
         let t = self.response.traction;
         add_scaled(scale(t[1], frame[0]), t[2], frame[1])
     }
-
-    /// A point that carries nothing.
-    fn open(gap: f64) -> Self {
-        Evaluation {
-            gap,
-            ..Evaluation::default()
-        }
-    }
-}
-
-/// The parts of a saddle-point block that an evaluation keeps.
-#[derive(Debug, Clone, Default)]
-struct SaddleRows {
-    k_ul: Vec<f64>,
-    k_lu: Vec<f64>,
-    k_ll_inverse: Vec<f64>,
-    r_l: Vec<f64>,
 }

@@ -1,7 +1,7 @@
 //! What an interface says of itself: energy, resultants, output fields, quality, culprits.
 
 use super::evaluate::Evaluation;
-use super::{Interface, Primary};
+use super::{Interface, Primary, Wants};
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale};
 use crate::system::{Culprit, Fields, Force, Location, Stage};
@@ -58,7 +58,7 @@ impl Interface {
         self.points
             .iter()
             .zip(&self.memory.committed)
-            .zip(&self.memory.last)
+            .zip(&self.memory.last.points)
             .enumerate()
             .map(|(i, ((p, h), e))| {
                 let own = law.energy(h.gap);
@@ -73,6 +73,19 @@ impl Interface {
                 p.area * (own + spring)
             })
             .sum()
+    }
+
+    /// Nodes of the facet that a point lies on and its weights there; nothing where it lies on none.
+    pub(super) fn facet_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let e = self.memory.last.points.get(i);
+        let on = match &self.primary {
+            Primary::Facets(facets) => e.and_then(|e| Some((&facets[e.facet?], e))),
+            Primary::Rigid(..) => None,
+        };
+        on.into_iter().flat_map(|(facet, e)| {
+            let nodes = facet.nodes.iter().copied();
+            nodes.zip(e.facet_weights)
+        })
     }
 
     /// Forces on the secondary at the last committed state `u`.
@@ -108,7 +121,7 @@ impl Interface {
             ..Quality::default()
         };
         let law = self.laws.normal.as_dyn();
-        let evaluations = self.memory.last.iter();
+        let evaluations = self.memory.last.points.iter();
         for ((p, h), e) in self
             .points
             .iter()
@@ -174,8 +187,7 @@ impl Interface {
             for (&node, &w) in p.nodes.iter().zip(&p.weights) {
                 give(node, w, 1.0);
             }
-            let weights = self.memory.last.get(i).map(|e| e.facet_weights.as_slice());
-            for &(node, w) in weights.unwrap_or_default() {
+            for (node, w) in self.facet_weights(i) {
                 give(node, w, -1.0);
             }
         }
@@ -265,14 +277,14 @@ impl Interface {
 
     /// The points that changed status most often in this attempt, then those farthest from what they should be.
     pub(super) fn culprits(&self) -> Vec<Culprit> {
-        let mut order: Vec<usize> = (0..self.memory.last.len()).collect();
+        let mut order: Vec<usize> = (0..self.memory.last.points.len()).collect();
         order.sort_by_key(|&i| (std::cmp::Reverse(self.memory.flips[i].count), i));
         order
             .into_iter()
             .take(10)
             .filter(|&i| self.memory.flips[i].count > 0)
             .map(|i| {
-                let (p, e, f) = (&self.points[i], &self.memory.last[i], &self.memory.flips[i]);
+                let (p, e, f) = (&self.points[i], &self.memory.last.points[i], &self.memory.flips[i]);
                 let x = p.position(&self.reference);
                 let who = match p.nodes.as_slice() {
                     [one] => format!("node {}", self.node_ids[*one]),
@@ -308,12 +320,13 @@ impl Interface {
     pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
         let _ = self.prepare(stage);
         self.begin();
-        let evaluations = self.evaluate_all(stage, false, false);
+        let evaluations = self.evaluate_all(stage, Wants::default());
         let opposite = |e: &Evaluation| e.facet.is_some() || self.rigid();
-        evaluations
-            .iter()
-            .map(|e| if opposite(e) { e.gap } else { f64::INFINITY })
-            .collect()
+        let gaps = evaluations.points.iter();
+        let gaps = gaps.map(|e| if opposite(e) { e.gap } else { f64::INFINITY });
+        let gaps = gaps.collect();
+        self.memory.trial = evaluations;
+        gaps
     }
 
     /// Whether the primary is an obstacle.

@@ -45,7 +45,7 @@ impl Interface {
         let enforcement = self.laws.enforcement.as_dyn();
         let law = self.laws.normal.as_dyn();
         for (i, point) in self.points.iter().enumerate() {
-            let last = self.memory.last.get(i);
+            let last = self.memory.last.points.get(i);
             let own = if self.laws.needs_normal_stiffness() {
                 self.spring(enforcement.normal(), point.stiffness)
             } else {
@@ -68,7 +68,7 @@ impl Interface {
             for (&node, &w) in point.nodes.iter().zip(&point.weights) {
                 rows[node] += stiffness * w.abs();
             }
-            for &(node, w) in last.map_or(&[][..], |e| &e.facet_weights) {
+            for (node, w) in self.facet_weights(i) {
                 rows[node] += stiffness * w.abs();
             }
         }

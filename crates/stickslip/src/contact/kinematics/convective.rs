@@ -61,12 +61,10 @@ impl Kinematics for Convective {
     }
 
     fn add_hessian(&self, pair: &Pair, _stencil: &Stencil, weights: [f64; 3], out: &mut [f64]) {
-        let projection = Projection::new(pair);
-        projection.add_gap_hessian(weights[0], out);
         let (_, jacobian) = orthonormal(pair.anchor);
         let covariant =
             [0, 1].map(|alpha| jacobian[0][alpha] * weights[1] + jacobian[1][alpha] * weights[2]);
-        projection.add_xi_hessian(covariant, out);
+        Projection::new(pair).add_hessian(weights[0], covariant, out);
     }
 }
 

@@ -95,6 +95,11 @@ pub trait Kinematics: Send + Sync {
         false
     }
 
+    /// `false` if gap and slips are linear in the displacements: there are no second derivatives.
+    fn curved(&self) -> bool {
+        true
+    }
+
     /// `true` if facets must be lines or triangles.
     fn triangles(&self) -> bool {
         false

@@ -140,10 +140,10 @@ fn add_node(pair: &Pair, node: usize, v: Vec3, row: &mut [f64]) {
     add_facet(pair, &c, v, 1.0, row);
 }
 
-fn edges(pair: &Pair) -> Vec<Edge> {
-    (1..=pair.kind.dim())
-        .map(|node| Edge::new(pair, node))
-        .collect()
+/// One edge of a line, two of a triangle.
+fn edges(pair: &Pair) -> (Edge, Option<Edge>) {
+    let second = (pair.kind.dim() == 2).then(|| Edge::new(pair, 2));
+    (Edge::new(pair, 1), second)
 }
 
 impl Kinematics for Pop1995 {
@@ -159,19 +159,19 @@ impl Kinematics for Pop1995 {
         out.gap = dot(sub(pair.point, foot.x), foot.normal);
         add_relative(pair, foot.normal, 1.0, &mut out.rows[0]);
         out.slip = [0.0; 2];
-        let edges = edges(pair);
-        for (i, edge) in edges.iter().enumerate() {
+        let (a, b) = edges(pair);
+        for (i, edge) in std::iter::once(&a).chain(&b).enumerate() {
             out.slip[i] = edge.gap(e);
             out.frame[i] = edge.direction;
             out.frame_before[i] = scale(1.0 / norm(pair.anchor.a[i]), pair.anchor.a[i]);
             edge.add_row(pair, e, &mut out.rows[i + 1]);
         }
-        match edges.as_slice() {
-            [a, b] => {
+        match &b {
+            Some(b) => {
                 // ∇cosβ = B_aᵀ(τ - cosβ t)/|a| + B_bᵀ(t - cosβ τ)/|b|
                 out.skew = dot(a.direction, b.direction);
-                out.skew_row = vec![0.0; pair.dofs()];
-                for (edge, other) in [(a, b), (b, a)] {
+                out.skew_row.resize(pair.dofs(), 0.0);
+                for (edge, other) in [(&a, b), (b, &a)] {
                     let v = scale(
                         1.0 / edge.length,
                         add_scaled(other.direction, -out.skew, edge.direction),
@@ -180,7 +180,7 @@ impl Kinematics for Pop1995 {
                     add_node(pair, 0, scale(-1.0, v), &mut out.skew_row);
                 }
             }
-            _ => {
+            None => {
                 out.frame[1] = [0.0, 0.0, 1.0];
                 out.frame_before[1] = out.frame[1];
             }
@@ -189,11 +189,12 @@ impl Kinematics for Pop1995 {
 
     fn add_hessian(&self, pair: &Pair, _: &Stencil, weights: [f64; 3], out: &mut [f64]) {
         let e = sub(pair.point, pair.facet[0]);
-        for (i, edge) in edges(pair).iter().enumerate() {
+        let (a, b) = edges(pair);
+        for (i, edge) in std::iter::once(&a).chain(&b).enumerate() {
             edge.add_hessian(pair, e, weights[i + 1], out);
         }
         // k_n = -Σ (T^α N_αᵀ + N_α T^αᵀ) - g Σ m^αβ N_α N_βᵀ, the same for every kinematics
-        Projection::new(pair).add_gap_hessian(weights[0], out);
+        Projection::new(pair).add_hessian(weights[0], [0.0; 2], out);
     }
 }
 

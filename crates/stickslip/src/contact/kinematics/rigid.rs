@@ -50,7 +50,7 @@ pub fn rigid_stencil(
     Some([foot, anchor])
 }
 
-/// Adds `Σ wᵢ kᵢ` of a rigid stencil, shape `(n, n)`.
+/// Adds `Σ wᵢ kᵢ` of a rigid stencil, shape `(n, n)`; `false` if there is nothing to add, as over a plane.
 #[allow(clippy::too_many_arguments)] // the same data as the stencil's, plus weights and target
 pub fn add_rigid_hessian(
     shape: &dyn Shape,
@@ -61,13 +61,16 @@ pub fn add_rigid_hessian(
     dim: usize,
     weights: [f64; 3],
     out: &mut [f64],
-) {
+) -> bool {
     let frame = tangents(feet[1].normal, dim);
     let v = add_scaled(scale(weights[1], frame[0]), weights[2], frame[1]);
     let dd = shape.slope_derivative(pose.inward(x), v);
     let local: Mat3 = std::array::from_fn(|i| {
         std::array::from_fn(|j| weights[0] * feet[0].curvature[i][j] + dd[i][j])
     });
+    if local == [[0.0; 3]; 3] {
+        return false;
+    }
     // H in space: turn local turnᵀ
     let mut h = [[0.0; 3]; 3];
     for j in 0..3 {
@@ -88,6 +91,7 @@ pub fn add_rigid_hessian(
             }
         }
     }
+    true
 }
 
 fn spread(point: &ContactPoint, v: Vec3, dim: usize, row: &mut [f64]) {

@@ -19,6 +19,10 @@ impl Kinematics for SmallSliding {
         true
     }
 
+    fn curved(&self) -> bool {
+        false
+    }
+
     /// The pair comes with the reference projection as `foot` and `anchor`, while `point` and `point_before` are the position
     /// relative to that foot's material place: `x_s - Σ N_j x_j` now and at the last accepted state, added to the foot.
     fn stencil(&self, pair: &Pair, out: &mut Stencil) {

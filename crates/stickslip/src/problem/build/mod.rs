@@ -114,6 +114,7 @@ impl Problem {
                 krylov_patience: self.solver.linear.patience,
                 linear_tolerance: self.solver.linear.tolerance,
             },
+            method: self.solver.method,
             energy_limit: self.solver.energy_limit,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,

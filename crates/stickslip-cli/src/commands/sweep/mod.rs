@@ -1,0 +1,243 @@
+//! `sweep`: a problem file, many values, one table.
+
+mod columns;
+mod plan;
+mod table;
+mod values;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+use stickslip::Error;
+use stickslip::newton::condensed::Library;
+use stickslip::problem::Document;
+use stickslip::simulation::{Model, Observer, ResultFiles, Simulation, Summary};
+
+use super::{Failure, Outcome, library, located, use_threads};
+use crate::progress::say;
+use columns::Columns;
+use plan::Plan;
+use table::{Row, Table};
+
+/// Most runs of a sweep: more are a mistake in a range, or a matter for several sweeps.
+const MOST_RUNS: usize = 100_000;
+
+/// Run an analysis for many values and write one table: a row a run.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
+includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
+factorisations, seconds, and the last row of the history. All values are checked before the first run. A run that
+fails does not stop the others: its outcome says why, and the exit code is 1.
+
+Examples:
+  stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
+  stickslip sweep case.toml --zip --set step.0.duration=1,2 --set step.0.increments.fixed=10,20 --column ALLSE")]
+pub struct Arguments {
+    /// The problem file.
+    file: PathBuf,
+    /// An axis: a key and its values. Several make all combinations, the last one changing fastest.
+    #[arg(long = "set", value_name = "PATH=V1,V2,...", required = true)]
+    set: Vec<String>,
+    /// One value for all runs, as `run --set`.
+    #[arg(long = "fix", value_name = "PATH=VALUE")]
+    fix: Vec<String>,
+    /// Axes of equal length run side by side, instead of in all combinations.
+    #[arg(long)]
+    zip: bool,
+    /// A quantity of the history that the table shall have; all if not given. Can be repeated.
+    #[arg(long = "column", value_name = "NAME")]
+    column: Vec<String>,
+    /// The table; `<file>.sweep.csv` beside the problem file if not given. It is complete after every run.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Keep the result files of every run, in DIR/0001 and so on.
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
+    /// Keep the factors of bodies in DIR too, and take from there what was factored before; see `run --cache`.
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
+    /// Threads; all processors if not given. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// No progress on standard error.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs all.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let started = Instant::now();
+    use_threads(arguments.threads);
+    let plan = Plan::new(&arguments.set, &arguments.fix, arguments.zip)?;
+    let case = Document::read(&arguments.file)?;
+    plan.check(&case)?;
+
+    let output = arguments.output.clone();
+    let output = output.unwrap_or_else(|| arguments.file.with_extension("sweep.csv"));
+    let axes = plan.axes.iter().map(|axis| axis.path.clone()).collect();
+    let mut table = Table::new(output, axes, &arguments.column);
+    // That the file cannot be written should not be found after the first run.
+    table.try_file()?;
+    let tell = |text: &str| {
+        if !arguments.quiet {
+            say(text);
+        }
+    };
+    tell(&heading(&plan));
+
+    let shared = Shared {
+        library: library(Library::usual_limit(), arguments.cache.as_deref())?,
+    };
+    let mut wanted = arguments.column.as_slice();
+    let mut first = 0.0;
+    let mut failed = 0;
+    for run in 0..plan.count() {
+        let begun = Instant::now();
+        let directory = arguments.results.as_ref();
+        let directory = directory.map(|d| d.join(format!("{:04}", run + 1)));
+        let mut columns = Columns::new(wanted);
+        let document = plan.document(&case, run);
+        let ended = analyse(&document, directory.as_deref(), &mut columns, &shared);
+        if let Some(refusal) = columns.refusal() {
+            return Err(refusal);
+        }
+        if !columns.names.is_empty() {
+            // A later run may lack a column; its place stays empty.
+            wanted = &[];
+        }
+        table.add_quantities(&columns.names);
+
+        let seconds = begun.elapsed().as_secs_f64();
+        if run == 0 {
+            first = seconds;
+        }
+        failed += usize::from(ended.error.is_some());
+        let values = plan.values(run);
+        let outcome = outcome(ended.error.as_ref());
+        tell(&format!(
+            "{:>width$}/{}  {}  {outcome}  {seconds:.3} s",
+            run + 1,
+            plan.count(),
+            values.join("  "),
+            width = plan.count().to_string().len()
+        ));
+        for note in ended.summary.iter().flat_map(|s| &s.notes) {
+            tell(&format!("  {note}"));
+        }
+        let row = Row {
+            values: values.into_iter().map(str::to_string).collect(),
+            outcome,
+            seconds,
+            ..Row::default()
+        };
+        table.push(row.with_summary(ended.summary))?;
+    }
+    tell(&format!(
+        "{} in {:.3} s, the first in {first:.3} s; table in {}",
+        runs(plan.count()),
+        started.elapsed().as_secs_f64(),
+        table.path.display()
+    ));
+    match failed {
+        0 => Ok(ExitCode::SUCCESS),
+        failed => Err(Failure::Runs {
+            failed,
+            all: plan.count(),
+            table: table.path,
+        }),
+    }
+}
+
+/// What runs share.
+#[derive(Debug)]
+struct Shared {
+    /// Factors of bodies that stay the same.
+    library: Arc<Library>,
+}
+
+/// How a run ended: its error if it failed, and what is known of it if there was a simulation.
+struct Ended {
+    error: Option<Error>,
+    summary: Option<Summary>,
+}
+
+/// From the problem file to the end of its run.
+fn analyse(
+    document: &Document,
+    directory: Option<&Path>,
+    columns: &mut Columns,
+    shared: &Shared,
+) -> Ended {
+    let failed = |error| Ended {
+        error: Some(error),
+        summary: None,
+    };
+    let started = Instant::now();
+    let problem = match document.problem() {
+        Ok(problem) => problem,
+        Err(e) => return failed(e.into()),
+    };
+    let model = match problem.build(&document.folder()) {
+        Ok(model) => model,
+        Err(e) => return failed(located(document, e)),
+    };
+    let read = started.elapsed().as_secs_f64();
+    let mut observers: Vec<&mut dyn Observer> = vec![columns];
+    let mut files = match directory.map(ResultFiles::new).transpose() {
+        Ok(files) => files,
+        Err(e) => return failed(e),
+    };
+    if let Some(files) = &mut files {
+        observers.push(files);
+    }
+    simulate(model, read, &mut observers, shared)
+}
+
+/// Runs a model. The one place where a sweep makes a simulation.
+fn simulate(
+    model: Model,
+    read: f64,
+    observers: &mut [&mut dyn Observer],
+    shared: &Shared,
+) -> Ended {
+    match Simulation::with_library(model, Arc::clone(&shared.library)) {
+        Ok(mut simulation) => {
+            simulation.summary.phases.read = read;
+            let error = simulation.run(observers).err();
+            Ended {
+                error,
+                summary: Some(simulation.summary),
+            }
+        }
+        Err(error) => Ended {
+            error: Some(error),
+            summary: None,
+        },
+    }
+}
+
+/// `done`, or why not in one line.
+fn outcome(error: Option<&Error>) -> String {
+    let text = error.map_or("done".into(), Error::to_string);
+    text.lines().next().unwrap_or_default().to_string()
+}
+
+fn runs(count: usize) -> String {
+    match count {
+        1 => "1 run".into(),
+        n => format!("{n} runs"),
+    }
+}
+
+/// The axes, in the order in which the lines below have their values.
+fn heading(plan: &Plan) -> String {
+    let axes = plan.axes.iter();
+    let axes: Vec<String> = axes
+        .map(|axis| format!("{} ({})", axis.path, axis.values.len()))
+        .collect();
+    let by = if plan.zip { ", " } else { " × " };
+    format!("{}: {}", runs(plan.count()), axes.join(by))
+}

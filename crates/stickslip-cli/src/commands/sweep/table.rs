@@ -1,0 +1,224 @@
+//! The table of a sweep: a row a run, as CSV.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::PathBuf;
+
+use stickslip::Error;
+use stickslip::io::write_atomically;
+use stickslip::simulation::Summary;
+
+/// What is known of a run.
+#[derive(Debug, Default)]
+pub struct Row {
+    /// The values of the axes.
+    pub values: Vec<String>,
+    /// `done`, or why not.
+    pub outcome: String,
+    /// Seconds, from reading to the end.
+    pub seconds: f64,
+    /// Increments, iterations, cut-backs and factorisations; none if the model could not be built.
+    pub counts: Option<[usize; 4]>,
+    /// The last row of the history.
+    pub last: BTreeMap<String, f64>,
+}
+
+impl Row {
+    /// Takes over what a summary says.
+    pub fn with_summary(mut self, summary: Option<Summary>) -> Self {
+        if let Some(s) = summary {
+            let factorisations = s.solver.factorisations;
+            self.counts = Some([s.increments, s.iterations, s.cutbacks, factorisations]);
+            self.last = s.last;
+        }
+        self
+    }
+}
+
+/// The rows so far and the file they are written to.
+#[derive(Debug)]
+pub struct Table {
+    /// The file.
+    pub path: PathBuf,
+    axes: Vec<String>,
+    quantities: Vec<String>,
+    grows: bool,
+    rows: Vec<Row>,
+    /// The rows as text. Only a new column changes those that are there.
+    text: String,
+}
+
+/// Columns between the outcome and the seconds.
+const COUNTS: [&str; 4] = ["increments", "iterations", "cutbacks", "factorisations"];
+
+impl Table {
+    /// A table without rows. Without `quantities` it gets all that the histories of its runs have.
+    pub fn new(path: PathBuf, axes: Vec<String>, quantities: &[String]) -> Self {
+        let mut table = Table {
+            path,
+            axes,
+            quantities: Vec::new(),
+            grows: true,
+            rows: Vec::new(),
+            text: String::new(),
+        };
+        table.add_quantities(quantities);
+        table.grows = quantities.is_empty();
+        table
+    }
+
+    /// Adds columns for quantities of a history, unless they were chosen.
+    pub fn add_quantities(&mut self, names: &[String]) {
+        let before = self.quantities.len();
+        for name in names {
+            if self.grows && !self.quantities.contains(name) {
+                self.quantities.push(name.clone());
+            }
+        }
+        if self.quantities.len() > before {
+            let rows = self.rows.iter().enumerate();
+            self.text = rows.map(|(i, row)| self.line(i, row)).collect();
+        }
+    }
+
+    /// Tries whether the file can be written, without changing it.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot.
+    pub fn try_file(&self) -> Result<(), Error> {
+        let path = &self.path;
+        let wrong = |e| Error::io(path, e);
+        let file = File::options().append(true).create(true).open(path);
+        let length = file.and_then(|f| f.metadata()).map_err(wrong)?.len();
+        // It was not there before, or held nothing.
+        if length == 0 {
+            std::fs::remove_file(path).map_err(wrong)?;
+        }
+        Ok(())
+    }
+
+    /// Adds a row and writes the table again, aside and renamed, so that the file is complete after every run and a
+    /// reader never sees half of it.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn push(&mut self, row: Row) -> Result<(), Error> {
+        self.add(row);
+        write_atomically(&self.path, (self.header() + &self.text).as_bytes())
+    }
+
+    fn add(&mut self, row: Row) {
+        self.text += &self.line(self.rows.len(), &row);
+        self.rows.push(row);
+    }
+
+    fn header(&self) -> String {
+        let mut names = vec!["run"];
+        names.extend(self.axes.iter().map(String::as_str));
+        names.push("outcome");
+        names.extend(COUNTS);
+        names.push("seconds");
+        names.extend(self.quantities.iter().map(String::as_str));
+        line(names.into_iter().map(str::to_string))
+    }
+
+    fn line(&self, index: usize, row: &Row) -> String {
+        let mut cells = vec![(index + 1).to_string()];
+        cells.extend(row.values.iter().cloned());
+        cells.push(row.outcome.clone());
+        match row.counts {
+            Some(counts) => cells.extend(counts.map(|n| n.to_string())),
+            None => cells.extend(COUNTS.map(|_| String::new())),
+        }
+        cells.push(format!("{:.6}", row.seconds));
+        let values = self.quantities.iter().map(|name| row.last.get(name));
+        cells.extend(values.map(|value| value.map_or(String::new(), |&x| number(x))));
+        line(cells.into_iter())
+    }
+}
+
+fn line(cells: impl Iterator<Item = String>) -> String {
+    let cells: Vec<String> = cells.map(quoted).collect();
+    cells.join(",") + "\n"
+}
+
+fn quoted(cell: String) -> String {
+    if cell.contains([',', '"', '\n', '\r', '#']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell
+    }
+}
+
+/// In the shortest form that reads back to the same bits, as in `history.csv`.
+fn number(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strings(all: &[&str]) -> Vec<String> {
+        all.iter().map(ToString::to_string).collect()
+    }
+
+    fn text(table: &Table) -> String {
+        table.header() + &table.text
+    }
+
+    fn row(value: &str, outcome: &str, last: &[(&str, f64)]) -> Row {
+        Row {
+            values: vec![value.into()],
+            outcome: outcome.into(),
+            seconds: 0.25,
+            counts: (!last.is_empty()).then_some([2, 7, 0, 1]),
+            last: last.iter().map(|(n, x)| (n.to_string(), *x)).collect(),
+        }
+    }
+
+    #[test]
+    fn missing_numbers_are_empty_and_text_is_quoted() {
+        let mut table = Table::new("t.csv".into(), strings(&["a.'b,c'"]), &[]);
+        assert_eq!(
+            text(&table),
+            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,factorisations,seconds\n"
+        );
+        table.add(row("[1,2]", "no \"set\" b, c", &[]));
+        table.add_quantities(&strings(&["U", "B"]));
+        table
+            .rows
+            .push(row("3", "done", &[("B", -0.1), ("U", 2.0)]));
+        table.add_quantities(&strings(&["B", "V"]));
+        table.add(row("4", "done", &[("V", f64::NAN)]));
+        assert_eq!(
+            text(&table),
+            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,factorisations,seconds,U,B,V\n\
+             1,\"[1,2]\",\"no \"\"set\"\" b, c\",,,,,0.250000,,,\n\
+             2,3,done,2,7,0,1,0.250000,2,-1e-1,\n\
+             3,4,done,2,7,0,1,0.250000,,,NaN\n"
+        );
+    }
+
+    #[test]
+    fn chosen_quantities_stay_as_they_are() {
+        let mut table = Table::new("t.csv".into(), strings(&["a"]), &strings(&["V", "U", "V"]));
+        table.add_quantities(&strings(&["B"]));
+        table.add(row("1", "done", &[("B", 1.0), ("U", 5e-324)]));
+        let all = text(&table);
+        assert!(all.contains(",seconds,V,U\n"), "{all}");
+        assert!(all.ends_with(",0.250000,,5e-324\n"), "{all}");
+    }
+
+    #[test]
+    fn numbers_read_back_to_the_bit() {
+        for x in [0.1 + 0.2, -1.0 / 3.0, 5e-324, 1e300, 17.0, -0.0, f64::MAX] {
+            let back: f64 = number(x).parse().unwrap();
+            assert_eq!(back.to_bits(), x.to_bits());
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! Whole interfaces: what is skipped makes no difference, and the tangent is that of the force.
+
+use super::*;
+use crate::contact::enforcement::{EnforcementModel, Penalty};
+use crate::contact::law::friction::{Coulomb, FrictionModel};
+use crate::contact::surface::connect;
+use crate::registry::Family;
+use crate::shape::ElementKind;
+
+const CELLS: usize = 4;
+
+/// A wavy surface over the unit square, in facets of this kind, and points that lie in it or over it and beyond its edges.
+fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
+    let step = kind.order();
+    let line = step * CELLS + 1;
+    let wavy = |x: f64, y: f64| [x, y + 0.02 * x, 0.1 * (5.0 * x).sin() * (4.0 * y).cos()];
+    let at = |k: usize| k as f64 / (line - 1) as f64;
+    let mut reference: Vec<Vec3> = (0..line * line)
+        .map(|k| wavy(at(k % line), at(k / line)))
+        .collect();
+    let mut facets = Vec::new();
+    for (i, j) in (0..CELLS * CELLS).map(|k| (k % CELLS, k / CELLS)) {
+        let n = |a: usize, b: usize| (step * j + b) * line + step * i + a;
+        let all: &[&[usize]] = match kind {
+            ElementKind::Tri3 => &[&[n(0, 0), n(1, 0), n(1, 1)], &[n(0, 0), n(1, 1), n(0, 1)]],
+            ElementKind::Quad4 => &[&[n(0, 0), n(1, 0), n(1, 1), n(0, 1)]],
+            _ => &[&[
+                n(0, 0),
+                n(2, 0),
+                n(2, 2),
+                n(0, 2),
+                n(1, 0),
+                n(2, 1),
+                n(1, 2),
+                n(0, 1),
+            ]],
+        };
+        facets.extend(all.iter().map(|nodes| Facet {
+            kind,
+            nodes: nodes.to_vec(),
+            continues: Vec::new(),
+            modulus: 1.0,
+            cell: 0,
+        }));
+    }
+    connect(&mut facets);
+    let mut points = Vec::new();
+    for k in 0..40 {
+        let part = |step: f64| 1.2 * (step * k as f64).fract() - 0.1;
+        let mut node = |x: f64, y: f64| {
+            let depth = [0.01, -0.002, 0.3, 0.0][k % 4];
+            reference.push(add_scaled(wavy(x, y), -depth, [0.0, 0.0, 1.0]));
+            reference.len() - 1
+        };
+        let (x, y) = (part(0.618), part(0.414));
+        points.push(ContactPoint {
+            nodes: vec![node(x, y), node(x + 0.05, y)],
+            weights: vec![0.3, 0.7],
+            area: 0.1,
+            stiffness: 1.0,
+            normal: [0.0, 0.0, -1.0],
+            size: 0.1,
+        });
+    }
+    Interface {
+        name: "joint".into(),
+        dofs: Dofs {
+            dim: 3,
+            points: reference.len(),
+        },
+        nodes: (0..reference.len()).collect(),
+        node_ids: (0..reference.len() as u64).collect(),
+        reference,
+        points,
+        primary: Primary::Facets(facets),
+        laws: Laws {
+            friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),
+            enforcement: EnforcementModel::Penalty(Penalty::default()),
+            ..Laws::default()
+        },
+        kinematics,
+        belt: Vec::new(),
+        schedule: Schedule::always(),
+        edge_tolerance: 1e-3,
+        memory: Memory::default(),
+    }
+}
+
+/// Displacements without a pattern.
+fn moved(interface: &Interface, t: f64, size: f64) -> State {
+    State {
+        t,
+        u: (0..interface.dofs.count())
+            .map(|k| size * (12.9898 * (k as f64 + t)).sin())
+            .collect(),
+        ..State::default()
+    }
+}
+
+#[test]
+fn facets_that_are_skipped_would_not_have_been_chosen() {
+    for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
+        let mut interface = sample(kind, KinematicsModel::default());
+        let mut found = 0;
+        for round in 0..4 {
+            let state = moved(&interface, f64::from(round), 0.01);
+            let x = interface.coordinates(&state.u);
+            interface.search(&x);
+            let mut boxes = Vec::new();
+            interface.enclose(&x, &mut boxes);
+            // a box around everything
+            let corners = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+            let all = Box3::around(ElementKind::Line2, corners.into_iter());
+            let without = vec![all; boxes.len()];
+            for i in 0..interface.points.len() {
+                let candidates = &interface.memory.candidates[i];
+                let previous = [
+                    None,
+                    candidates.first().copied(),
+                    candidates.last().copied(),
+                ];
+                for previous in previous {
+                    let place = |found: Result<(usize, FacetPoint), f64>| {
+                        found.map(|(f, p)| (f, p.xi.map(f64::to_bits)))
+                    };
+                    let quick = interface.closest(i, &x, &boxes, previous, None);
+                    let full = interface.closest(i, &x, &without, previous, None);
+                    found += usize::from(full.is_ok());
+                    assert_eq!(place(quick), place(full), "{kind}, point {i}");
+                }
+            }
+        }
+        assert!(found > 100, "{kind}");
+    }
+}
+
+#[test]
+fn the_tangent_is_that_of_the_force() {
+    for model in KinematicsModel::samples() {
+        for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
+            if model.as_dyn().triangles() && kind != ElementKind::Tri3 {
+                continue;
+            }
+            let mut interface = sample(kind, model.clone());
+            let count = interface.dofs.count();
+            let from = moved(&interface, 0.0, 1e-3);
+            let mut at = moved(&interface, 1.0, 1e-3);
+            let mut out = Assembler::new(count);
+            let mut force = |at: &State, tangent: bool, surrogate: bool| {
+                let stage = Stage {
+                    from: &from,
+                    at,
+                    dt: 1.0,
+                    rate: None,
+                };
+                out.wants_surrogate = surrogate;
+                out.reset(tangent);
+                interface.prepare(&stage).expect("candidates");
+                interface.assemble(&stage, &mut out).expect("forces");
+                (out.residual.clone(), out.blocks.clone())
+            };
+            // The first tangent of an attempt is another one.
+            force(&at, true, true);
+            let (_, blocks) = force(&at, true, false);
+            assert!(blocks.len() > 8);
+            for block in &blocks {
+                assert!(block.surrogate.is_empty());
+                assert_eq!(block.hessian.is_empty(), model.as_dyn().frozen());
+            }
+            let largest = blocks.iter().flat_map(|b| b.tangent());
+            let largest = largest.fold(0.0_f64, |m, k| m.max(k.abs()));
+            let direction: Vec<f64> = (0..count).map(|k| (k as f64 * 0.7).cos()).collect();
+            let mut product = vec![0.0; count];
+            for block in &blocks {
+                let along: Vec<f64> = block.dofs.iter().map(|&dof| direction[dof]).collect();
+                let mut force = vec![0.0; along.len()];
+                block.apply(&along, &mut force);
+                for (&dof, f) in block.dofs.iter().zip(force) {
+                    product[dof] += f;
+                }
+            }
+            let h = 1e-8;
+            let start = at.u.clone();
+            let [below, above] = [-h, h].map(|h| {
+                for ((u, s), d) in at.u.iter_mut().zip(&start).zip(&direction) {
+                    *u = s + h * d;
+                }
+                force(&at, false, false).0
+            });
+            for (k, p) in product.iter().enumerate() {
+                let difference = (above[k] - below[k]) / (2.0 * h);
+                let what = format!("{} on {kind}, dof {k}: {p} {difference}", model.kind());
+                assert!((difference - p).abs() < 1e-5 * largest, "{what}");
+            }
+            // The stand-in changes nothing else.
+            let (_, full) = force(&State { u: start, ..at }, true, true);
+            for (a, b) in blocks.iter().zip(&full) {
+                assert!(!b.surrogate.is_empty());
+                assert_eq!((&a.rows, &a.change), (&b.rows, &b.change));
+                assert_eq!(a.hessian, b.hessian);
+            }
+        }
+    }
+}
+
+/// A tentative evaluation that is settled, and one that is given up, leave what a plain course leaves.
+#[test]
+fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
+    for enforcement in EnforcementModel::samples() {
+        let mut plain = sample(ElementKind::Quad4, KinematicsModel::default());
+        plain.laws.enforcement = enforcement;
+        let from = moved(&plain, 0.0, 1e-3);
+        let [first, far, next] = [1.0, 2.0, 3.0].map(|t| State {
+            t: 1.0,
+            ..moved(&plain, t, 1e-3)
+        });
+        let du = moved(&plain, 4.0, 1e-4).u;
+        let course = |interface: &mut Interface, tentative: bool, given_up: bool| {
+            let mut out = Assembler::new(interface.dofs.count());
+            let mut evaluate = |interface: &mut Interface, at, tangent, tentative| {
+                let stage = Stage {
+                    from: &from,
+                    at,
+                    dt: 1.0,
+                    rate: None,
+                };
+                out.tentative = tentative;
+                out.reset(tangent);
+                interface.prepare(&stage).expect("candidates");
+                interface.assemble(&stage, &mut out).expect("forces");
+                (out.residual.clone(), out.condensed.clone())
+            };
+            interface
+                .prepare(&Stage {
+                    from: &from,
+                    at: &first,
+                    dt: 1.0,
+                    rate: None,
+                })
+                .expect("candidates");
+            interface.begin();
+            evaluate(interface, &first, true, false);
+            if given_up {
+                interface.update_internal(&du, 1.0);
+                evaluate(interface, &far, tentative, tentative);
+            }
+            interface.update_internal(&du, 0.5);
+            evaluate(interface, &next, tentative, tentative);
+            if tentative {
+                interface.settle();
+            } else {
+                evaluate(interface, &next, true, false);
+            }
+            let tally = interface.tally();
+            interface.update_internal(&du, 1.0);
+            (
+                evaluate(interface, &first, true, false),
+                tally,
+                interface.memory.flips.clone(),
+            )
+        };
+        for given_up in [false, true] {
+            let [a, b] = [false, true].map(|t| course(&mut plain.clone(), t, given_up));
+            assert_eq!((a.1, &a.2), (b.1, &b.2));
+            let size = a.0.0.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            let pairs = a.0.0.iter().zip(&b.0.0).chain(a.0.1.iter().zip(&b.0.1));
+            for (a, b) in pairs {
+                assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
+            }
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! A factor as bytes, little endian.
+
+use std::io::{self, Read, Write};
+use std::sync::Arc;
+
+use super::super::ordering::NONE;
+use super::super::symbolic::FIXED;
+use super::numeric::PartialFactor;
+use super::symbolic::Fronts;
+
+/// Names the format and its version.
+const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
+
+/// Numbers converted at a time.
+const CHUNK: usize = 8192;
+
+impl PartialFactor {
+    /// Writes the analysis and the factor. No checksum is added.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn encode(&self, out: &mut dyn Write) -> io::Result<()> {
+        let fronts = &*self.fronts;
+        out.write_all(MAGIC)?;
+        let (dof, ratio) = self.smallest_pivot;
+        for number in [
+            fronts.shape.0 as u64,
+            fronts.shape.1 as u64,
+            fronts.points.start as u64,
+            fronts.points.end as u64,
+            fronts.interior.len() as u64,
+            fronts.root.len() as u64,
+            fronts.len() as u64,
+            fronts.rows.len() as u64,
+            dof as u64,
+            ratio.to_bits(),
+        ] {
+            out.write_all(&number.to_le_bytes())?;
+        }
+        let counts = (0..fronts.len()).map(|front| fronts.sizes(front).1 as u32);
+        write_indices(out, fronts.position_of.iter().copied())?;
+        write_indices(out, fronts.first[1..].iter().copied())?;
+        write_indices(out, fronts.parents.iter().copied())?;
+        write_indices(out, counts)?;
+        write_indices(out, fronts.rows.iter().copied())?;
+        let mut bytes = Vec::new();
+        for (piece, panels) in fronts.pieces.iter().zip(&self.panels) {
+            let mut panels = &panels[..];
+            for front in piece.fronts.clone() {
+                let (columns, rows) = fronts.sizes(front);
+                let (panel, rest) = panels.split_at(columns * (columns + rows));
+                panels = rest;
+                for (j, column) in panel.chunks_exact(columns + rows).enumerate() {
+                    bytes.clear();
+                    bytes.extend(column[j..].iter().flat_map(|v| v.to_le_bytes()));
+                    out.write_all(&bytes)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads what [`encode`](PartialFactor::encode) wrote. Memory grows with what is read, whatever the counts say.
+    ///
+    /// # Errors
+    /// Those of `input`; [`io::ErrorKind::InvalidData`] for anything that is not a factor. Changed numbers of a
+    /// factor go unnoticed as long as they are finite, its diagonal positive.
+    pub fn decode(input: &mut dyn Read) -> io::Result<PartialFactor> {
+        let mut magic = [0; 8];
+        input.read_exact(&mut magic)?;
+        if &magic != MAGIC {
+            return Err(invalid("not a factor"));
+        }
+        let mut header = [0u64; 10];
+        for number in &mut header {
+            let mut bytes = [0; 8];
+            input.read_exact(&mut bytes)?;
+            *number = u64::from_le_bytes(bytes);
+        }
+        let [.., dof, ratio] = header;
+        let counts: Vec<usize> = header[..8]
+            .iter()
+            .map(|&n| usize::try_from(n).map_err(|_| invalid("counts")))
+            .collect::<io::Result<_>>()?;
+        let [points, block, start, end, interior, root, fronts, rows] = counts[..] else {
+            return Err(invalid("counts"));
+        };
+        let dofs = points.checked_mul(block).filter(|&n| n < FIXED as usize);
+        let sane = dofs.is_some()
+            && (2..=3).contains(&block)
+            && start <= end
+            && end <= points
+            && interior <= (end - start) * block
+            && root <= (end - start) * block - interior
+            && fronts <= interior;
+        if !sane {
+            return Err(invalid("counts"));
+        }
+        let position_of = read_indices(input, (end - start) * block)?;
+        let mut first = vec![0];
+        first.extend(read_indices(input, fronts)?);
+        let parents = read_indices(input, fronts)?;
+        let row_counts = read_indices(input, fronts)?;
+        let rows = read_indices(input, rows)?;
+
+        let fronts = Fronts {
+            shape: (points, block),
+            points: start..end,
+            interior: vec![NONE; interior],
+            root: vec![NONE; root],
+            position_of,
+            first,
+            parents,
+            row_starts: vec![0],
+            rows,
+            targets: Vec::new(),
+            child_starts: Vec::new(),
+            children: Vec::new(),
+            pieces: Vec::new(),
+        };
+        let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
+        let ratio = f64::from_bits(ratio);
+        let dof = usize::try_from(dof)
+            .ok()
+            .filter(|&dof| dof <= points * block);
+        let (Some(dof), false) = (dof, ratio.is_nan()) else {
+            return Err(invalid("pivots"));
+        };
+        let mut panels = Vec::with_capacity(fronts.pieces.len());
+        for piece in &fronts.pieces {
+            panels.push(read_panels(input, &fronts, piece.fronts.clone())?);
+        }
+        Ok(PartialFactor {
+            fronts: Arc::new(fronts),
+            panels,
+            smallest_pivot: (dof, ratio),
+        })
+    }
+}
+
+fn invalid(what: &str) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::InvalidData,
+        format!("a factor with wrong {what}"),
+    )
+}
+
+/// Completes the structure; `None` if it is none.
+fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
+    let interior = fronts.interior.len();
+    let n = interior + fronts.root.len();
+    let origin = fronts.points.start * fronts.shape.1;
+    for (local, &position) in fronts.position_of.iter().enumerate() {
+        if position == FIXED {
+            continue;
+        }
+        let position = position as usize;
+        let slot = match position.checked_sub(interior) {
+            None => &mut fronts.interior[position],
+            Some(at) => fronts.root.get_mut(at)?,
+        };
+        if std::mem::replace(slot, (origin + local) as u32) != NONE {
+            return None;
+        }
+    }
+    let complete = !fronts.interior.contains(&NONE) && fronts.root.is_sorted_by(|a, b| a < b);
+    let ordered = fronts.first.is_sorted_by(|a, b| a < b);
+    if !(complete && !fronts.root.contains(&NONE) && ordered) {
+        return None;
+    }
+    if fronts.first.last() != Some(&(interior as u32)) {
+        return None;
+    }
+    let mut start = 0usize;
+    for (front, &count) in row_counts.iter().enumerate() {
+        let end = start.checked_add(count as usize)?;
+        let rows = fronts.rows.get(start..end)?;
+        let behind = rows
+            .first()
+            .is_none_or(|&row| row >= fronts.first[front + 1]);
+        let inside = rows.last().is_none_or(|&row| (row as usize) < n);
+        if !(behind && inside && rows.is_sorted_by(|a, b| a < b)) {
+            return None;
+        }
+        fronts.row_starts.push(end);
+        start = end;
+    }
+    (start == fronts.rows.len()).then_some(())?;
+    // Subtrees have to be contiguous, parents behind them.
+    let count = fronts.parents.len();
+    let mut sizes = vec![1usize; count];
+    let mut begins: Vec<usize> = (0..count).collect();
+    for front in 0..count {
+        if begins[front] + sizes[front] != front + 1 {
+            return None;
+        }
+        let parent = fronts.parents[front];
+        if parent != NONE {
+            let parent = parent as usize;
+            if parent <= front || parent >= count {
+                return None;
+            }
+            sizes[parent] += sizes[front];
+            begins[parent] = begins[parent].min(begins[front]);
+        }
+    }
+    fronts.link()?;
+    Some(fronts)
+}
+
+fn write_indices(out: &mut dyn Write, indices: impl Iterator<Item = u32>) -> io::Result<()> {
+    let mut bytes = Vec::with_capacity(4 * CHUNK);
+    for index in indices {
+        bytes.extend(index.to_le_bytes());
+        if bytes.len() == 4 * CHUNK {
+            out.write_all(&bytes)?;
+            bytes.clear();
+        }
+    }
+    out.write_all(&bytes)
+}
+
+fn read_indices(input: &mut dyn Read, count: usize) -> io::Result<Vec<u32>> {
+    let mut indices = Vec::new();
+    let mut bytes = [0; 4 * CHUNK];
+    while indices.len() < count {
+        let bytes = &mut bytes[..4 * CHUNK.min(count - indices.len())];
+        input.read_exact(bytes)?;
+        let words = bytes.chunks_exact(4);
+        indices.extend(words.map(|w| u32::from_le_bytes([w[0], w[1], w[2], w[3]])));
+    }
+    Ok(indices)
+}
+
+/// The panels of some fronts, zero above the diagonal.
+fn read_panels(
+    input: &mut dyn Read,
+    fronts: &Fronts,
+    range: std::ops::Range<usize>,
+) -> io::Result<Vec<f64>> {
+    let mut panels: Vec<f64> = Vec::new();
+    let mut bytes = vec![0; 8 * CHUNK];
+    for front in range {
+        let (columns, rows) = fronts.sizes(front);
+        for j in 0..columns {
+            let diagonal = panels.len() + j;
+            panels.resize(diagonal, 0.0);
+            let mut left = columns + rows - j;
+            while left > 0 {
+                let bytes = &mut bytes[..8 * CHUNK.min(left)];
+                input.read_exact(bytes)?;
+                left -= bytes.len() / 8;
+                panels.extend(
+                    bytes.chunks_exact(8).map(|w| {
+                        f64::from_le_bytes([w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7]])
+                    }),
+                );
+            }
+            let sound = panels[diagonal] > 0.0 && panels[diagonal..].iter().all(|v| v.is_finite());
+            if !sound {
+                return Err(invalid("numbers"));
+            }
+        }
+    }
+    Ok(panels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{cube, factor};
+    use super::*;
+    use crate::linear::testing::{grid, noise};
+
+    #[test]
+    fn a_decoded_factor_is_the_same() {
+        let (a, fixed, kept) = cube(11);
+        let (factor, schur) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
+        let mut bytes = Vec::new();
+        factor.encode(&mut bytes).unwrap();
+        let decoded = PartialFactor::decode(&mut &bytes[..]).unwrap();
+        assert!(decoded.fronts == factor.fronts);
+        assert_eq!(decoded.smallest_pivot, factor.smallest_pivot);
+        let mut bytes_again = Vec::new();
+        decoded.encode(&mut bytes_again).unwrap();
+        assert!(bytes == bytes_again);
+        let (again, schur_again) = PartialFactor::new(decoded.fronts(), &a).unwrap();
+        assert!(schur_again == schur);
+        for columns in [1, 4] {
+            let sweep = |factor: &PartialFactor| {
+                let mut x = noise(&mut 1, factor.fronts().interior().len() * columns);
+                let mut w = noise(&mut 2, factor.fronts().root().len() * columns);
+                factor.forward(&mut x, &mut w, columns);
+                factor.backward(&mut x, &w, columns);
+                (x, w)
+            };
+            assert!(sweep(&decoded) == sweep(&factor) && sweep(&again) == sweep(&factor));
+        }
+    }
+
+    #[test]
+    fn damaged_bytes_do_no_harm() {
+        for (counts, block) in [([4, 3, 1], 2), ([5, 4, 4], 3)] {
+            let a = grid(counts, block);
+            let fixed: Vec<bool> = (0..a.rows()).map(|dof| dof < 8 || dof == 15).collect();
+            let kept: Vec<bool> = (0..a.points()).map(|p| p % 7 == 6).collect();
+            let (factor, _) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
+            let mut bytes = Vec::new();
+            factor.encode(&mut bytes).unwrap();
+            // All of the structure, and some of the numbers.
+            let structure = bytes.len() - 8 * factor.fronts().nonzeros();
+            let places = (0..structure).chain((structure..bytes.len()).step_by(97));
+            for at in places {
+                assert!(
+                    PartialFactor::decode(&mut &bytes[..at]).is_err(),
+                    "cut at {at}"
+                );
+                for change in [0x01, 0x80, 0xff] {
+                    let mut wrong = bytes.clone();
+                    wrong[at] ^= change;
+                    // Whatever is accepted can be used.
+                    if let Ok(factor) = PartialFactor::decode(&mut &wrong[..]) {
+                        let fronts = Arc::clone(factor.fronts());
+                        let mut x = vec![1.0; fronts.interior().len()];
+                        let mut w = vec![1.0; fronts.root().len()];
+                        factor.forward(&mut x, &mut w, 1);
+                        factor.backward(&mut x, &w, 1);
+                        if fronts.shape == (a.points(), block) {
+                            let _ = PartialFactor::new(&fronts, &a);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

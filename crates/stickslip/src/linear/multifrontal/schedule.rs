@@ -1,0 +1,152 @@
+//! Which fronts one task works on.
+
+use std::ops::Range;
+
+use super::super::ordering::NONE;
+use super::symbolic::Fronts;
+
+/// A subtree is split while it holds more than this part of all work.
+const PARTS: f64 = 16.0;
+
+/// Work that is not worth a task of its own \[additions and multiplications\].
+const SMALL: f64 = 1e7;
+
+/// Splitting ends at this depth, so that the recursion over pieces stays shallow.
+const DEEPEST: usize = 64;
+
+/// Fronts that one task goes through in order: a whole subtree, or one front above the subtrees.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Piece {
+    /// The fronts; the last one is above all others.
+    pub fronts: Range<usize>,
+    /// The pieces whose contributions the (only) front takes.
+    pub children: Vec<u32>,
+    /// Whether it contributes to the root.
+    pub last: bool,
+}
+
+impl Piece {
+    /// The front above the others.
+    pub fn top(&self) -> usize {
+        self.fronts.end - 1
+    }
+
+    /// Splits the tree by its work alone, so that nothing depends on the number of threads.
+    pub fn partition(fronts: &Fronts) -> Vec<Piece> {
+        let n = fronts.len();
+        let mut work: Vec<f64> = (0..n).map(|front| fronts.flops_of(front)).collect();
+        let mut begin: Vec<usize> = (0..n).collect();
+        for front in 0..n {
+            let parent = fronts.parents[front] as usize;
+            if parent < n {
+                work[parent] += work[front];
+                begin[parent] = begin[parent].min(begin[front]);
+            }
+        }
+        let total: f64 = (0..n)
+            .filter(|&front| fronts.parents[front] == NONE)
+            .map(|front| work[front])
+            .sum();
+        let most = (total / PARTS).max(SMALL);
+        // Parents come after their children: go down from the last.
+        let mut split = vec![false; n];
+        let mut depth = vec![0; n];
+        let mut pieces = Vec::new();
+        let mut piece_of = vec![0u32; n];
+        for front in (0..n).rev() {
+            let parent = fronts.parents[front];
+            let above = parent == NONE || split[parent as usize];
+            depth[front] = if parent == NONE {
+                0
+            } else {
+                depth[parent as usize] + 1
+            };
+            split[front] = above && work[front] > most && depth[front] < DEEPEST;
+            if above {
+                let begin = if split[front] { front } else { begin[front] };
+                pieces.push(Piece {
+                    fronts: begin..front + 1,
+                    children: Vec::new(),
+                    last: parent == NONE,
+                });
+            }
+        }
+        pieces.reverse();
+        for (at, piece) in pieces.iter_mut().enumerate() {
+            let top = piece.top();
+            piece_of[top] = at as u32;
+            if split[top] {
+                let children = fronts.children(top).iter();
+                piece.children = children.map(|&front| piece_of[front as usize]).collect();
+            }
+        }
+        pieces
+    }
+
+    /// The largest sizes of two stacks that hold the contributions of the fronts below the top: those of even and of
+    /// odd depth. A front finds its children on top of the one stack and adds its own to the other.
+    pub fn stacks(&self, fronts: &Fronts, size: impl Fn(usize) -> usize) -> [usize; 2] {
+        let (mut now, mut most) = ([0; 2], [0; 2]);
+        let odd = self.depths(fronts);
+        for front in self.fronts.clone() {
+            let own = odd.of(front);
+            for &child in fronts
+                .children(front)
+                .iter()
+                .filter(|_| self.children.is_empty())
+            {
+                now[1 - own] -= size(child as usize);
+            }
+            if front != self.top() {
+                now[own] += size(front);
+                most[own] = most[own].max(now[own]);
+            }
+        }
+        most
+    }
+
+    /// The parity of the depth of each front below the top.
+    pub fn depths(&self, fronts: &Fronts) -> Depths {
+        let start = self.fronts.start;
+        let mut odd = vec![0u8; self.fronts.len()];
+        for front in self.fronts.clone().rev().skip(1) {
+            odd[front - start] = 1 - odd[fronts.parents[front] as usize - start];
+        }
+        Depths { start, odd }
+    }
+
+    /// The most numbers held by contributions at any time if one task does all.
+    pub fn peak(fronts: &Fronts) -> u64 {
+        let square = |front: usize| (fronts.sizes(front).1 as u64).pow(2);
+        let mut peaks = vec![0u64; fronts.pieces.len()];
+        let mut most = 0;
+        for (at, piece) in fronts.pieces.iter().enumerate() {
+            let own = square(piece.top());
+            let stacks = piece.stacks(fronts, |front| square(front) as usize);
+            let (mut held, mut peak) = (0, 0);
+            for &child in &piece.children {
+                peak = peak.max(held + peaks[child as usize]);
+                held += square(fronts.pieces[child as usize].top());
+            }
+            peaks[at] = peak.max(held + own + (stacks[0] + stacks[1]) as u64);
+            if piece.last {
+                most = most.max(peaks[at]);
+            }
+        }
+        most
+    }
+}
+
+/// Parities of depths in a piece.
+pub(super) struct Depths {
+    start: usize,
+    odd: Vec<u8>,
+}
+
+impl Depths {
+    /// 0 for the top and every second level below it, 1 for the others.
+    #[inline]
+    pub fn of(&self, front: usize) -> usize {
+        usize::from(self.odd[front - self.start])
+    }
+}

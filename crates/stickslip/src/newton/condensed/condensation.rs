@@ -1,0 +1,352 @@
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::identity::{Identity, Part};
+use super::library::{Library, Source};
+use super::substructure::{Seconds, Substructure};
+use crate::linear::{BlockCsr, Fronts, LinearError};
+use crate::math::Vec3;
+
+/// What is to be condensed: known before any arithmetic.
+#[derive(Debug)]
+pub struct Plan {
+    parts: Vec<Planned>,
+    /// What it took.
+    pub effort: Effort,
+}
+
+/// One part of the model.
+#[derive(Debug)]
+struct Planned {
+    identity: Identity,
+    fronts: Arc<Fronts>,
+    /// The substructure, if it was made before.
+    known: Option<(Arc<Substructure>, Source)>,
+}
+
+/// What was made, and what was there.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Effort {
+    /// Symbolic analyses.
+    pub analysed: usize,
+    /// Substructures factored.
+    pub made: usize,
+    /// Substructures made before in this process.
+    pub shared: usize,
+    /// Substructures read from files.
+    pub read: usize,
+    /// Seconds of looking for what was made before, reading included.
+    pub seconds_find: f64,
+    /// Seconds of ordering and symbolic factorisation.
+    pub seconds_order: f64,
+    /// Seconds of factoring; parts are factored side by side.
+    pub seconds: Seconds,
+    /// What the user should know about files.
+    pub notes: Vec<String>,
+}
+
+/// Where points are: `None` for the hidden points of rigid bodies.
+pub type Places<'a> = &'a (dyn Fn(usize) -> Option<Vec3> + Sync);
+
+/// What a plan costs.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Cost {
+    /// Additions and multiplications of the partial factorisations.
+    pub factor: f64,
+    /// Those of the inverses.
+    pub condense: f64,
+    /// Entries of the sparse factors.
+    pub nonzeros: f64,
+    /// Entries of the inverses.
+    pub dense: f64,
+    /// Candidate dofs.
+    pub candidates: usize,
+    /// Peak memory `[bytes]`.
+    pub bytes: u64,
+}
+
+impl Plan {
+    /// Looks for the substructures of every part of the model, given by its points, and analyses those that were not made before. Parts must not be
+    /// coupled. `fixed` marks dofs that are no unknowns, `kept` the points that may come into contact; `typical` is a stiffness for springs where
+    /// there is no other `[N/m]`.
+    ///
+    /// # Errors
+    /// Those of [`Fronts::analyze`].
+    pub fn new(
+        matrix: &BlockCsr,
+        parts: &[Range<usize>],
+        (fixed, kept): (&[bool], &[bool]),
+        (places, typical): (Places, f64),
+        library: &Library,
+    ) -> Result<Plan, LinearError> {
+        let started = Instant::now();
+        let find = |points: &Range<usize>| {
+            let part = Part {
+                matrix,
+                points: (points.start, points.end),
+                fixed,
+                kept,
+            };
+            let identity = part.substructure(places, typical);
+            let (known, note) = library.find(identity, &part);
+            let fronts = match &known {
+                Some((part, _)) => Some(Arc::clone(part.partial.fronts())),
+                None => library.analysis(part.analysis()),
+            };
+            (part, identity, known, note, fronts)
+        };
+        let found: Vec<_> = parts.par_iter().map(find).collect();
+        let mut effort = Effort {
+            seconds_find: started.elapsed().as_secs_f64(),
+            ..Effort::default()
+        };
+        let started = Instant::now();
+        let analysed: Result<Vec<Arc<Fronts>>, LinearError> = found
+            .par_iter()
+            .map(|(part, _, _, _, fronts)| match fronts {
+                Some(fronts) => Ok(Arc::clone(fronts)),
+                None => {
+                    let made = Fronts::analyze(matrix, part.points(), fixed, kept)?;
+                    let made = Arc::new(made);
+                    library.keep_analysis(part.analysis(), &made);
+                    Ok(made)
+                }
+            })
+            .collect();
+        let mut parts = Vec::with_capacity(found.len());
+        for ((_, identity, known, note, before), fronts) in found.into_iter().zip(analysed?) {
+            effort.analysed += usize::from(before.is_none());
+            match &known {
+                Some((_, Source::Memory)) => effort.shared += 1,
+                Some((_, Source::Disk)) => effort.read += 1,
+                _ => effort.made += 1,
+            }
+            effort.notes.extend(note);
+            parts.push(Planned {
+                identity,
+                fronts,
+                known,
+            });
+        }
+        effort.seconds_order = started.elapsed().as_secs_f64();
+        Ok(Plan { parts, effort })
+    }
+
+    /// What it would cost to carry it out.
+    pub fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        for Planned { fronts, known, .. } in &self.parts {
+            let n = fronts.root().len() as f64;
+            if known.is_none() {
+                cost.factor += fronts.flops();
+                cost.condense += n * n * n;
+            }
+            cost.nonzeros += fronts.nonzeros() as f64;
+            cost.dense += n * n;
+            cost.candidates += fronts.root().len();
+            cost.bytes += fronts.peak_bytes();
+        }
+        // the inverse, its copy in single precision and the work space
+        cost.bytes += (28.0 * cost.dense) as u64;
+        cost
+    }
+}
+
+/// A substructure, whether it is new, and what the user should know about its file.
+type Got = (Arc<Substructure>, bool, Option<String>);
+
+/// All bodies without their interiors.
+#[derive(Debug)]
+pub struct Condensation {
+    /// The bodies.
+    pub parts: Vec<Arc<Substructure>>,
+    /// Where the candidates of each part start in [`dofs`](Condensation::dofs), and their number.
+    pub starts: Vec<usize>,
+    /// The candidate dofs, part by part.
+    pub dofs: Vec<usize>,
+    /// Dofs that are no candidates.
+    pub fixed: Vec<bool>,
+    /// Dofs that are neither candidates nor interior: prescribed ones.
+    pub held: Vec<bool>,
+    place: Vec<u32>,
+}
+
+/// Forces swept forward: what is left of them at the candidates, and what the interiors keep, part by part.
+pub type Swept = (Vec<f64>, Vec<Vec<f64>>);
+
+/// No candidate.
+const NONE: u32 = u32::MAX;
+
+impl Condensation {
+    /// Carries out a plan: factors what was not made before, and gives it to the library.
+    ///
+    /// # Errors
+    /// Those of [`Substructure::new`].
+    pub fn new(
+        plan: Plan,
+        matrix: &BlockCsr,
+        held: &[bool],
+        (places, typical): (Places, f64),
+        library: &Library,
+    ) -> Result<(Condensation, Effort), LinearError> {
+        let Plan { parts, mut effort } = plan;
+        let made: Result<Vec<Got>, LinearError> = parts
+            .into_par_iter()
+            .map(|part| match part.known {
+                Some((known, _)) => Ok((known, false, None)),
+                None => {
+                    let made =
+                        Substructure::new(part.identity, &part.fronts, matrix, places, typical)?;
+                    let made = Arc::new(made);
+                    let note = library.keep(&made);
+                    Ok((made, true, note))
+                }
+            })
+            .collect();
+        let mut parts = Vec::new();
+        for (part, new, note) in made? {
+            if new {
+                effort.seconds.factor += part.seconds.factor;
+                effort.seconds.condense += part.seconds.condense;
+            }
+            effort.notes.extend(note);
+            parts.push(part);
+        }
+        let (mut starts, mut dofs) = (vec![0], Vec::new());
+        for part in &parts {
+            dofs.extend(part.root().iter().map(|&d| d as usize));
+            starts.push(dofs.len());
+        }
+        let mut place = vec![NONE; held.len()];
+        let mut fixed = vec![true; held.len()];
+        for (i, &dof) in dofs.iter().enumerate() {
+            place[dof] = i as u32;
+            fixed[dof] = false;
+        }
+        let condensation = Condensation {
+            parts,
+            starts,
+            dofs,
+            fixed,
+            held: held.to_vec(),
+            place,
+        };
+        Ok((condensation, effort))
+    }
+
+    /// Number of candidate dofs.
+    pub fn size(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// The position of a dof among the candidates.
+    pub fn place(&self, dof: usize) -> Option<usize> {
+        match self.place[dof] {
+            NONE => None,
+            at => Some(at as usize),
+        }
+    }
+
+    /// The entries of a vector over all dofs at the candidates.
+    pub fn gather(&self, all: &[f64]) -> Vec<f64> {
+        self.dofs.iter().map(|&dof| all[dof]).collect()
+    }
+
+    /// Writes entries at the candidates into a vector over all dofs.
+    pub fn scatter(&self, values: &[f64], all: &mut [f64]) {
+        for (&dof, &value) in self.dofs.iter().zip(values) {
+            all[dof] = value;
+        }
+    }
+
+    /// `W s`.
+    pub fn yielding(&self, s: &[f64]) -> Vec<f64> {
+        let parts: Vec<Vec<f64>> = self
+            .parts
+            .par_iter()
+            .zip(self.starts.par_windows(2))
+            .map(|(part, range)| {
+                let mut u = vec![0.0; range[1] - range[0]];
+                part.compliance.mul(&s[range[0]..range[1]], &mut u);
+                u
+            })
+            .collect();
+        parts.concat()
+    }
+
+    /// Takes the forces of the artificial springs, `σ R Rᵀ u`, away from `s`.
+    pub fn release(&self, u: &[f64], s: &mut [f64]) {
+        for (part, range) in self.parts.iter().zip(self.starts.windows(2)) {
+            let Some(floating) = &part.floating else {
+                continue;
+            };
+            let u = &u[range[0]..range[1]];
+            for mode in &floating.modes {
+                let force = floating.sigma * super::substructure::dot(mode, u);
+                for (s, m) in s[range[0]..range[1]].iter_mut().zip(mode) {
+                    *s -= force * m;
+                }
+            }
+        }
+    }
+
+    /// Sweeps forces over all dofs forward. Returns what is left of them at the candidates, and in the interiors what
+    /// [`recover`](Condensation::recover) needs of them.
+    pub fn sweep(&self, forces: &[f64]) -> Swept {
+        let swept: Vec<(Vec<f64>, Vec<f64>)> = self
+            .parts
+            .par_iter()
+            .map(|part| {
+                let fronts = part.partial.fronts();
+                let take = |dofs: &[u32]| -> Vec<f64> {
+                    dofs.iter().map(|&d| forces[d as usize]).collect()
+                };
+                let (mut interior, mut root) = (take(fronts.interior()), take(fronts.root()));
+                part.partial.forward(&mut interior, &mut root, 1);
+                (root, interior)
+            })
+            .collect();
+        let (roots, interiors): (Vec<_>, Vec<_>) = swept.into_iter().unzip();
+        (roots.concat(), interiors)
+    }
+
+    /// Finds the interiors of several states in one sweep. For each state `swept` has forces as [`sweep`](Condensation::sweep) leaves them, part
+    /// by part, and `at` the displacements of the candidates; both are written into the states' vectors over all dofs.
+    pub fn recover(&self, mut swept: Vec<Vec<Vec<f64>>>, at: &[Vec<f64>], all: &mut [Vec<f64>]) {
+        let columns = at.len();
+        let found: Vec<Vec<f64>> = (0..self.parts.len())
+            .map(|k| {
+                let mut interior = Vec::new();
+                for state in &mut swept {
+                    interior.append(&mut state[k]);
+                }
+                interior
+            })
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .enumerate()
+            .map(|(k, mut interior)| {
+                let range = self.starts[k]..self.starts[k + 1];
+                let root: Vec<f64> = at.iter().flat_map(|u| u[range.clone()].to_vec()).collect();
+                self.parts[k]
+                    .partial
+                    .backward(&mut interior, &root, columns);
+                interior
+            })
+            .collect();
+        for (part, interior) in self.parts.iter().zip(&found) {
+            let dofs = part.partial.fronts().interior();
+            for (all, values) in all.iter_mut().zip(interior.chunks(dofs.len().max(1))) {
+                for (&dof, &value) in dofs.iter().zip(values) {
+                    all[dof as usize] = value;
+                }
+            }
+        }
+        for (all, values) in all.iter_mut().zip(at) {
+            self.scatter(values, all);
+        }
+    }
+}

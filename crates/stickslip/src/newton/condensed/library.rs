@@ -1,0 +1,223 @@
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::file;
+use super::identity::{Identity, Part};
+use super::substructure::Substructure;
+use crate::error::Error;
+use crate::linear::Fronts;
+
+/// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
+///
+/// What a run takes from it has the bits of what it would make itself, on machines of the same kind.
+#[derive(Debug)]
+pub struct Library {
+    limit: u64,
+    directory: Option<PathBuf>,
+    shelves: Mutex<Shelves>,
+}
+
+#[derive(Debug, Default)]
+struct Shelves {
+    substructures: Shelf<Substructure>,
+    analyses: Shelf<Fronts>,
+}
+
+/// Where a substructure comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Factored.
+    Made,
+    /// Made before in this process.
+    Memory,
+    /// Read from the directory.
+    Disk,
+}
+
+/// What a library has of a substructure, and what the user should know about its file.
+pub(super) type Found = (Option<(Arc<Substructure>, Source)>, Option<String>);
+
+/// Part of the memory limit that analyses may take.
+const ANALYSES: u64 = 8;
+
+/// Bytes of a gibibyte.
+const GIB: u64 = 1 << 30;
+
+impl Library {
+    /// A library in memory. What was used least recently is dropped when there is more than `limit` `[bytes]`.
+    pub fn new(limit: u64) -> Self {
+        Library {
+            limit,
+            directory: None,
+            shelves: Mutex::default(),
+        }
+    }
+
+    /// A library that also keeps every substructure in a directory, which is made if it does not exist. Several processes may use it. Nothing
+    /// is ever deleted there but what is damaged.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if there is no such directory and it cannot be made.
+    pub fn in_directory(limit: u64, directory: &Path) -> Result<Self, Error> {
+        std::fs::create_dir_all(directory).map_err(|e| Error::io(directory, e))?;
+        Ok(Library {
+            directory: Some(directory.to_path_buf()),
+            ..Library::new(limit)
+        })
+    }
+
+    /// A quarter of the machine's memory `[bytes]`, 4 GiB if the system does not tell how much there is.
+    pub fn usual_limit() -> u64 {
+        memory().map_or(4 * GIB, |all| all / 4)
+    }
+
+    /// A limit for one run alone `[bytes]`: what it does not use itself is rarely asked for again.
+    pub fn small_limit() -> u64 {
+        Library::usual_limit().min(GIB)
+    }
+
+    fn shelves(&self) -> MutexGuard<'_, Shelves> {
+        // A thread that panicked left whole entries.
+        self.shelves.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn path(&self, identity: Identity) -> Option<PathBuf> {
+        let directory = self.directory.as_ref()?;
+        Some(directory.join(format!("{identity}.sub")))
+    }
+
+    /// The substructure of a part, if it was made before.
+    pub(super) fn find(&self, identity: Identity, part: &Part) -> Found {
+        if let Some(found) = self.shelves().substructures.find(identity) {
+            return (Some((found, Source::Memory)), None);
+        }
+        let Some(path) = self.path(identity) else {
+            return (None, None);
+        };
+        match file::read(&path, identity, part) {
+            Ok(None) => (None, None),
+            Ok(Some(read)) => {
+                let read = Arc::new(read);
+                self.shelve(&read);
+                (Some((read, Source::Disk)), None)
+            }
+            Err(why) => {
+                let note = format!("cache file {}: {why}; made again", path.display());
+                (None, Some(note))
+            }
+        }
+    }
+
+    /// Keeps a substructure. Returns what the user should know if it could not be written.
+    pub(super) fn keep(&self, substructure: &Arc<Substructure>) -> Option<String> {
+        self.shelve(substructure);
+        let path = self.path(substructure.identity)?;
+        if substructure.root().len() <= file::TINY && substructure.partial.bytes() == 0 {
+            return None;
+        }
+        let written = file::write(&path, substructure);
+        let why = written.err()?;
+        Some(format!("cache file {}: not written: {why}", path.display()))
+    }
+
+    fn shelve(&self, substructure: &Arc<Substructure>) {
+        let mut shelves = self.shelves();
+        let bytes = substructure.bytes();
+        let entry = (substructure.identity, Arc::clone(substructure), bytes);
+        shelves.substructures.keep(entry, self.limit);
+    }
+
+    /// The analysis of a part, if it was made before.
+    pub(super) fn analysis(&self, identity: Identity) -> Option<Arc<Fronts>> {
+        self.shelves().analyses.find(identity)
+    }
+
+    /// Keeps an analysis.
+    pub(super) fn keep_analysis(&self, identity: Identity, fronts: &Arc<Fronts>) {
+        let entry = (identity, Arc::clone(fronts), fronts.bytes());
+        self.shelves().analyses.keep(entry, self.limit / ANALYSES);
+    }
+}
+
+/// Things with their identity and size, the least recently used one first.
+#[derive(Debug)]
+struct Shelf<T> {
+    entries: Vec<(Identity, Arc<T>, u64)>,
+}
+
+impl<T> Default for Shelf<T> {
+    fn default() -> Self {
+        Shelf {
+            entries: Vec::new(),
+        }
+    }
+}
+
+impl<T> Shelf<T> {
+    fn find(&mut self, identity: Identity) -> Option<Arc<T>> {
+        let at = self.entries.iter().position(|e| e.0 == identity)?;
+        let entry = self.entries.remove(at);
+        let found = Arc::clone(&entry.1);
+        self.entries.push(entry);
+        Some(found)
+    }
+
+    fn keep(&mut self, entry: (Identity, Arc<T>, u64), limit: u64) {
+        self.entries.retain(|e| e.0 != entry.0);
+        self.entries.push(entry);
+        let mut all: u64 = self.entries.iter().map(|e| e.2).sum();
+        while all > limit && !self.entries.is_empty() {
+            all -= self.entries.remove(0).2;
+        }
+    }
+}
+
+/// Memory of the machine `[bytes]`.
+fn memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|l| l.strip_prefix("MemTotal:"))?;
+    let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(kib * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::BlockCsr;
+
+    fn identity(fixed: usize) -> Identity {
+        let matrix = BlockCsr::from_couplings(4, 2, &mut |_| ());
+        let marks: Vec<bool> = (0..8).map(|k| k == fixed).collect();
+        let part = Part {
+            matrix: &matrix,
+            points: (0, 4),
+            fixed: &marks,
+            kept: &[true; 4],
+        };
+        part.analysis()
+    }
+
+    #[test]
+    fn what_was_used_least_recently_goes_first() {
+        let [a, b, c, d] = [0, 1, 2, 3].map(identity);
+        let mut shelf = Shelf::default();
+        for one in [a, b, c] {
+            shelf.keep((one, Arc::new(()), 10), 35);
+        }
+        assert!(shelf.find(a).is_some());
+        shelf.keep((d, Arc::new(()), 10), 35);
+        assert!(shelf.find(b).is_none());
+        assert!([a, c, d].iter().all(|&one| shelf.find(one).is_some()));
+        // Kept again it counts once; what is too large alone is not kept at all.
+        shelf.keep((d, Arc::new(()), 15), 35);
+        assert_eq!(shelf.entries.len(), 3);
+        shelf.keep((b, Arc::new(()), 36), 35);
+        assert!(shelf.entries.is_empty());
+    }
+
+    #[test]
+    fn limits_are_sane() {
+        assert!(Library::usual_limit() >= 1 << 26);
+        assert!(Library::small_limit() <= GIB);
+    }
+}

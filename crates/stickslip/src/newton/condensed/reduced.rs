@@ -1,0 +1,150 @@
+use super::condensation::Condensation;
+use super::gaps::{Gaps, TINY};
+use crate::newton::bulk::Bulk;
+use crate::newton::settings::{Settings, Statistics};
+use crate::system::{Assembler, Cause, StepFailure};
+
+/// The bulk as it is felt at the contact candidates.
+///
+/// The displacements of the candidates are `base + W s`; nothing is known of the interior, and nothing has to be.
+#[derive(Debug)]
+pub struct Reduced<'a> {
+    condensation: &'a Condensation,
+    gaps: &'a mut Gaps,
+    diagonal: &'a [f64],
+    /// At the candidates: external forces, with what comes through the interior.
+    load: Vec<f64>,
+    /// Displacements from which the forces count.
+    base: Vec<f64>,
+    /// `s` at the guess, now, before the last solution, and the solution.
+    guess: Vec<f64>,
+    now: Vec<f64>,
+    before: Vec<f64>,
+    step: Vec<f64>,
+    /// Size of forces that balance each other elsewhere.
+    scale: f64,
+}
+
+impl<'a> Reduced<'a> {
+    /// A bulk under a load at the candidates, at `base + W guess` to start with. `diagonal` is that of the matrix, by dof; `scale` the size of
+    /// forces that balance each other elsewhere.
+    pub fn new(
+        (condensation, gaps): (&'a Condensation, &'a mut Gaps),
+        diagonal: &'a [f64],
+        load: Vec<f64>,
+        base: Vec<f64>,
+        guess: Vec<f64>,
+        scale: f64,
+    ) -> Self {
+        Reduced {
+            condensation,
+            gaps,
+            diagonal,
+            load,
+            base,
+            now: guess.clone(),
+            before: guess.clone(),
+            step: vec![0.0; guess.len()],
+            guess,
+            scale,
+        }
+    }
+
+    /// `s` after the last step.
+    pub fn carried(self) -> Vec<f64> {
+        self.now
+    }
+}
+
+impl Bulk for Reduced<'_> {
+    fn dofs(&self) -> &[usize] {
+        &self.condensation.dofs
+    }
+
+    fn fixed(&self) -> &[bool] {
+        &self.condensation.fixed
+    }
+
+    fn begin(&mut self) {
+        self.now.clone_from(&self.guess);
+    }
+
+    fn forces(&mut self, u: &[f64], out: &mut [f64]) -> f64 {
+        let moved: Vec<f64> = self
+            .condensation
+            .dofs
+            .iter()
+            .zip(&self.base)
+            .map(|(&dof, base)| u[dof] - base)
+            .collect();
+        let mut forces = self.now.clone();
+        self.condensation.release(&moved, &mut forces);
+        for (f, l) in forces.iter_mut().zip(&self.load) {
+            *f -= l;
+        }
+        self.condensation.scatter(&forces, out);
+        self.scale
+    }
+
+    fn diagonal(&self, dof: usize) -> f64 {
+        self.diagonal[dof]
+    }
+
+    fn wants_surrogates(&self) -> bool {
+        false
+    }
+
+    fn covers(&self, contact: &Assembler) -> Result<(), StepFailure> {
+        for block in &contact.blocks {
+            for &dof in &block.dofs {
+                if self.condensation.fixed[dof] && !self.condensation.held[dof] {
+                    return Err(StepFailure {
+                        dof: Some(dof),
+                        ..StepFailure::new(
+                            Cause::Reach,
+                            "contact reaches points that were not expected to be touched",
+                        )
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn solve(
+        &mut self,
+        contact: &Assembler,
+        b: &[f64],
+        tolerance: f64,
+        du: &mut [f64],
+        effort: (&Settings, &mut Statistics),
+    ) -> Result<usize, StepFailure> {
+        let started = std::time::Instant::now();
+        let (settings, statistics) = effort;
+        let b = self.condensation.gather(b);
+        // More digits than these cost more than another iteration, unless next to nothing is solved.
+        let tiny = 3 * contact.blocks.len() <= TINY;
+        let tolerance = tolerance.max(if tiny { 1e-13 } else { FINEST });
+        let (s, u, krylov) = self.gaps.solve(
+            self.condensation,
+            &contact.blocks,
+            &b,
+            tolerance,
+            (settings, &mut *statistics),
+        )?;
+        self.before.clone_from(&self.now);
+        self.step = s;
+        self.condensation.scatter(&u, du);
+        statistics.seconds_solve += started.elapsed().as_secs_f64();
+        Ok(krylov)
+    }
+
+    fn advance(&mut self, step: f64) {
+        for ((now, before), d) in self.now.iter_mut().zip(&self.before).zip(&self.step) {
+            *now = before + step * d;
+        }
+    }
+}
+
+/// The finest relative residual of a linear solution.
+const FINEST: f64 = 1e-5;

@@ -1,0 +1,266 @@
+use std::sync::Arc;
+use std::time::Instant;
+
+use faer::Mat;
+
+use super::identity::Identity;
+use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor};
+use crate::math::Vec3;
+
+/// Times of a factorisation `[s]`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Seconds {
+    /// Partial factorisation of the sparse matrix.
+    pub factor: f64,
+    /// Inverse of what remains.
+    pub condense: f64,
+}
+
+/// A body without its interior: the dofs where it may touch others, and how they yield.
+///
+/// Of the stiffness `K` of the body remains `S = K_CC - K_CI K_II⁻¹ K_IC` at the kept dofs `C`, and of that the inverse. Where the supports
+/// leave the body free to move, artificial springs `σ R Rᵀ` along its rigid motions `R` make the inverse exist; whoever uses it takes them away
+/// again.
+#[derive(Debug)]
+pub struct Substructure {
+    /// What it was made from.
+    pub identity: Identity,
+    /// Factor of the interior.
+    pub partial: PartialFactor,
+    /// `(S + σ R Rᵀ)⁻¹`.
+    pub compliance: Compliance,
+    /// Rigid motions with artificial springs.
+    pub floating: Option<Floating>,
+    /// Times of the factorisation.
+    pub seconds: Seconds,
+}
+
+/// Rigid motions of a body that next to nothing holds.
+#[derive(Debug)]
+pub struct Floating {
+    /// Orthonormal motions `R` at the kept dofs, one after the other.
+    pub modes: Vec<Vec<f64>>,
+    /// Stiffness of the artificial springs `[N/m]`.
+    pub sigma: f64,
+    /// `Z = (S + σ R Rᵀ)⁻¹ R`.
+    pub yielding: Vec<Vec<f64>>,
+}
+
+impl Floating {
+    /// Motions held by artificial springs that are part of the compliance.
+    pub(super) fn new(modes: Vec<Vec<f64>>, sigma: f64, compliance: &Compliance) -> Self {
+        let yielding = modes.iter().map(|mode| {
+            let mut z = vec![0.0; mode.len()];
+            compliance.mul(mode, &mut z);
+            z
+        });
+        Floating {
+            yielding: yielding.collect(),
+            modes,
+            sigma,
+        }
+    }
+}
+
+/// Stiffness against a rigid motion, relative to the mean of the diagonal, below which artificial springs are added. They are exactly taken away
+/// again: more of them than needed do no harm.
+const SOFT: f64 = 1e-6;
+
+impl Substructure {
+    /// Factors a body. `place` gives the position of a point, `None` for the hidden points of rigid bodies; `typical` is a stiffness for
+    /// springs where there is no other `[N/m]`.
+    ///
+    /// # Errors
+    /// Those of the factorisation: the interior is singular if the kept points do not hold it.
+    pub fn new(
+        identity: Identity,
+        fronts: &Arc<Fronts>,
+        matrix: &BlockCsr,
+        place: &dyn Fn(usize) -> Option<Vec3>,
+        typical: f64,
+    ) -> Result<Substructure, LinearError> {
+        let started = Instant::now();
+        let (partial, mut stiffness) = PartialFactor::new(fronts, matrix)?;
+        let factor = started.elapsed().as_secs_f64();
+        let started = Instant::now();
+        let floating = free_motions(
+            fronts.root(),
+            matrix.block_size(),
+            &stiffness,
+            place,
+            typical,
+        );
+        if let Some((modes, sigma)) = &floating {
+            for mode in modes {
+                for j in 0..mode.len() {
+                    let s = sigma * mode[j];
+                    if s != 0.0 {
+                        let n = mode.len();
+                        let column = &mut stiffness[j * n..(j + 1) * n];
+                        for (k, m) in column.iter_mut().zip(mode).skip(j) {
+                            *k += s * m;
+                        }
+                    }
+                }
+            }
+        }
+        let compliance = Compliance::of(fronts.root().len(), stiffness).map_err(|e| match e {
+            LinearError::NotPositive { dof } => LinearError::NotPositive {
+                dof: fronts.root().get(dof).map_or(0, |&d| d as usize),
+            },
+            other => other,
+        })?;
+        let floating = floating.map(|(modes, sigma)| Floating::new(modes, sigma, &compliance));
+        Ok(Substructure {
+            identity,
+            partial,
+            compliance,
+            floating,
+            seconds: Seconds {
+                factor,
+                condense: started.elapsed().as_secs_f64(),
+            },
+        })
+    }
+
+    /// About the memory held `[bytes]`, with the compliance in single precision that Newton's method makes.
+    pub fn bytes(&self) -> u64 {
+        let n = self.root().len() as u64;
+        let modes = self.floating.as_ref().map_or(0, |f| f.modes.len() as u64);
+        self.partial.bytes() + self.partial.fronts().bytes() + 12 * n * n + 16 * modes * n
+    }
+
+    /// The kept dofs, ascending.
+    pub fn root(&self) -> &[u32] {
+        self.partial.fronts().root()
+    }
+}
+
+/// Orthonormal rigid motions that meet next to no stiffness, and what springs to hold them with.
+fn free_motions(
+    root: &[u32],
+    dim: usize,
+    stiffness: &[f64],
+    place: &dyn Fn(usize) -> Option<Vec3>,
+    typical: f64,
+) -> Option<(Vec<Vec<f64>>, f64)> {
+    let n = root.len();
+    if n == 0 {
+        return None;
+    }
+    let trace: f64 = (0..n).map(|i| stiffness[i * (n + 1)]).sum::<f64>() / n as f64;
+    let hidden = root.iter().all(|&dof| place(dof as usize / dim).is_none());
+    let sigma = if hidden { trace.max(typical) } else { trace };
+    let motions: Vec<Vec<f64>> = if hidden {
+        // The dofs of a rigid body are its motions.
+        (0..n)
+            .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
+            .collect()
+    } else {
+        rigid_motions(root, dim, place)
+    };
+    let basis = orthonormal(motions);
+    let soft: Vec<Vec<f64>> = softest(&basis, stiffness, SOFT * sigma);
+    (!soft.is_empty()).then_some((soft, sigma))
+}
+
+/// Translations and rotations at the dofs; those about the centre of the points have their size.
+fn rigid_motions(root: &[u32], dim: usize, place: &dyn Fn(usize) -> Option<Vec3>) -> Vec<Vec<f64>> {
+    let at: Vec<(Vec3, usize)> = root
+        .iter()
+        .map(|&dof| {
+            let x = place(dof as usize / dim).unwrap_or_default();
+            (x, dof as usize % dim)
+        })
+        .collect();
+    let count = at.len() as f64;
+    let centre: Vec3 = std::array::from_fn(|c| at.iter().map(|(x, _)| x[c]).sum::<f64>() / count);
+    let turns: &[usize] = if dim == 2 { &[2] } else { &[0, 1, 2] };
+    let mut motions: Vec<Vec<f64>> = (0..dim)
+        .map(|c| {
+            at.iter()
+                .map(|&(_, k)| if k == c { 1.0 } else { 0.0 })
+                .collect()
+        })
+        .collect();
+    for &axis in turns {
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let turned = at.iter().map(|(x, k)| match *k {
+            k if k == a => -(x[b] - centre[b]),
+            k if k == b => x[a] - centre[a],
+            _ => 0.0,
+        });
+        motions.push(turned.collect());
+    }
+    motions
+}
+
+/// An orthonormal basis of what vectors span.
+fn orthonormal(vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for mut v in vectors {
+        let before = norm(&v);
+        for _ in 0..2 {
+            for q in &basis {
+                let s = dot(q, &v);
+                v.iter_mut().zip(q).for_each(|(v, q)| *v -= s * q);
+            }
+        }
+        let after = norm(&v);
+        if after > 1e-8 * before {
+            v.iter_mut().for_each(|v| *v /= after);
+            basis.push(v);
+        }
+    }
+    basis
+}
+
+/// Combinations of the basis that meet less than `limit` of the stiffness.
+fn softest(basis: &[Vec<f64>], stiffness: &[f64], limit: f64) -> Vec<Vec<f64>> {
+    let m = basis.len();
+    let n = basis.first().map_or(0, Vec::len);
+    let products: Vec<Vec<f64>> = basis
+        .iter()
+        .map(|v| symmetric_product(stiffness, v))
+        .collect();
+    let small = Mat::from_fn(m, m, |i, j| dot(&basis[i], &products[j]));
+    let Ok(eigen) = small.self_adjoint_eigen(faer::Side::Lower) else {
+        return Vec::new();
+    };
+    (0..m)
+        .filter(|&k| eigen.S()[k] <= limit)
+        .map(|k| {
+            let mut v = vec![0.0; n];
+            for (i, q) in basis.iter().enumerate() {
+                let s = eigen.U()[(i, k)];
+                v.iter_mut().zip(q).for_each(|(v, q)| *v += s * q);
+            }
+            v
+        })
+        .collect()
+}
+
+/// `S v` from the lower triangle.
+fn symmetric_product(s: &[f64], v: &[f64]) -> Vec<f64> {
+    let n = v.len();
+    let mut out = vec![0.0; n];
+    for j in 0..n {
+        let column = &s[j * n..(j + 1) * n];
+        out[j] += column[j] * v[j];
+        let mut sum = 0.0;
+        for i in j + 1..n {
+            out[i] += column[i] * v[j];
+            sum += column[i] * v[i];
+        }
+        out[j] += sum;
+    }
+    out
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub(super) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}

@@ -1,0 +1,465 @@
+//! Multigrid in place of a factor.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::linearised::{Operator, apply, describe, not_finite};
+use super::settings::Statistics;
+use crate::linear::{
+    BlockCsr, GapVariables, GmresSettings, LinearError, MeshHints, Multigrid, MultigridSettings,
+    gmres,
+};
+use crate::math::Vec3;
+use crate::system::{Cause, ContactBlock, ContactPair, StepFailure};
+
+/// What multigrid has to know of the points of a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Places {
+    /// Coordinates of all points that have dofs `[m]`.
+    pub coordinates: Vec<Vec3>,
+    /// The body of each.
+    pub bodies: Vec<u32>,
+    /// Points of the mesh; those that follow have the dofs of rigid bodies.
+    pub meshed: usize,
+}
+
+/// Iterations after which a hierarchy is made anew if it is not fresh.
+const PATIENCE: usize = 40;
+
+/// Iterations after which a fresh hierarchy is given up.
+const MOST: usize = 200;
+
+/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it.
+const DRIFT: f64 = 0.03;
+
+/// The same where the iteration has become slow.
+const SMALL_DRIFT: f64 = 1e-3;
+
+/// By which factor stiffnesses that are no gap stiffnesses may change before the hierarchy is made anew.
+const CHANGE: f64 = 4.0;
+
+/// Resistance to a rigid motion, relative to the diagonals, below which a body counts as floating.
+const FLOATING: f64 = 1e-8;
+
+/// A hierarchy that outlives the state it was made at.
+///
+/// The stiffness of contact at points that have gap variables is put on it in every iteration. Other contact, of points between nodes for
+/// one, is part of the matrix it is made of.
+#[derive(Debug)]
+pub(super) struct Grids {
+    places: Arc<Places>,
+    made: Option<Made>,
+    /// Set when multigrid does not work here.
+    given_up: bool,
+    note: Option<String>,
+}
+
+#[derive(Debug)]
+struct Made {
+    fixed: Vec<bool>,
+    gaps: GapVariables,
+    levels: Multigrid,
+    /// Contact that is part of the matrix: its points and the trace of its stiffness.
+    loose: Vec<(Vec<usize>, f64)>,
+    /// Nothing has changed but what [`Multigrid::update`] takes.
+    fresh: bool,
+    /// The last solution took too many iterations.
+    slow: bool,
+}
+
+/// Symmetric stiffnesses over the dofs of a few points.
+type Groups = Vec<(Vec<usize>, Vec<f64>)>;
+
+impl Grids {
+    pub fn new(places: Arc<Places>) -> Self {
+        Grids {
+            places,
+            made: None,
+            given_up: false,
+            note: None,
+        }
+    }
+
+    /// The same for another matrix.
+    pub fn without_levels(&self) -> Self {
+        Grids {
+            given_up: self.given_up,
+            ..Grids::new(Arc::clone(&self.places))
+        }
+    }
+
+    /// Whether multigrid has not been given up.
+    pub fn works(&self) -> bool {
+        !self.given_up
+    }
+
+    /// Why it has been given up, once.
+    pub fn note(&mut self) -> Option<String> {
+        self.note.take()
+    }
+
+    fn give_up(&mut self, why: &str) {
+        self.given_up = true;
+        self.made = None;
+        self.note = Some(format!(
+            "multigrid gives way to a sparse factorisation: {why}"
+        ));
+    }
+
+    /// Solves `(bulk + blocks) x = b` on the free dofs. Returns `x` and the iterations; `None` where a factor has to take over.
+    pub fn solve(
+        &mut self,
+        operator: Operator,
+        b: &[f64],
+        tolerance: f64,
+        statistics: &mut Statistics,
+    ) -> Result<Option<(Vec<f64>, usize)>, StepFailure> {
+        let dim = operator.matrix.block_size();
+        if operator.fixed[self.places.meshed * dim..]
+            .iter()
+            .any(|fixed| !fixed)
+        {
+            self.give_up("rigid bodies move");
+            return Ok(None);
+        }
+        let started = Instant::now();
+        self.follow(operator, statistics).map_err(describe)?;
+        statistics.seconds_factor += started.elapsed().as_secs_f64();
+        let mut x = vec![0.0; b.len()];
+        let mut spent = 0;
+        for most in [2 * PATIENCE, MOST] {
+            let Some(made) = &mut self.made else {
+                return Ok(None);
+            };
+            let started = Instant::now();
+            let report = gmres(
+                &mut |v, out| apply(operator, v, out),
+                &mut |v| {
+                    made.gaps.transpose(v);
+                    made.levels.cycle(v);
+                    made.gaps.apply(v);
+                },
+                b,
+                &mut x,
+                GmresSettings {
+                    tolerance,
+                    max_iterations: if made.fresh { MOST } else { most },
+                    restart: 60,
+                },
+            );
+            spent += report.iterations;
+            statistics.krylov += report.iterations;
+            statistics.seconds_solve += started.elapsed().as_secs_f64();
+            if !report.relative_residual.is_finite() {
+                return Err(not_finite());
+            }
+            made.slow = report.iterations > PATIENCE;
+            if report.converged {
+                return Ok(Some((x, spent)));
+            }
+            if made.fresh {
+                break;
+            }
+            let started = Instant::now();
+            self.set_up(operator, statistics).map_err(describe)?;
+            statistics.seconds_factor += started.elapsed().as_secs_f64();
+        }
+        if self
+            .made
+            .as_ref()
+            .is_some_and(|made| made.levels.singular())
+        {
+            return Err(StepFailure::new(
+                Cause::Singular,
+                "the stiffness is singular: something is free to move",
+            ));
+        }
+        self.give_up(&format!(
+            "the tolerance was not reached in {spent} iterations"
+        ));
+        Ok(None)
+    }
+
+    /// Makes the hierarchy follow the operator, as far as is needed.
+    fn follow(
+        &mut self,
+        operator: Operator,
+        statistics: &mut Statistics,
+    ) -> Result<(), LinearError> {
+        let made = match &mut self.made {
+            Some(made) if made.fixed == operator.fixed => made,
+            _ => return self.set_up(operator, statistics),
+        };
+        let drift = drift(operator, &made.gaps);
+        if drift > if made.slow { SMALL_DRIFT } else { DRIFT } {
+            let gaps = variables(operator);
+            if !gaps.points().eq(made.gaps.points()) {
+                return self.set_up(operator, statistics);
+            }
+            made.gaps = gaps;
+            made.fresh = false;
+            made.slow = false;
+            let (added, loose) = split(operator, &made.gaps);
+            if changed(&made.loose, &loose) {
+                return self.set_up(operator, statistics);
+            }
+            made.levels
+                .refresh(&transformed(operator.matrix, &made.gaps, &loose))?;
+            made.loose = traces(&loose);
+            made.levels.update(&added);
+            statistics.refreshes += 1;
+            return Ok(());
+        }
+        let (added, loose) = split(operator, &made.gaps);
+        if changed(&made.loose, &loose) || made.slow && !made.fresh {
+            return self.set_up(operator, statistics);
+        }
+        made.levels.update(&added);
+        Ok(())
+    }
+
+    fn set_up(
+        &mut self,
+        operator: Operator,
+        statistics: &mut Statistics,
+    ) -> Result<(), LinearError> {
+        // the memory is needed
+        self.made = None;
+        let gaps = variables(operator);
+        let mut normals = Vec::new();
+        let mut known = vec![false; operator.matrix.points()];
+        for pair in operator.pairs {
+            if gaps.is_gap(pair.point) && !std::mem::replace(&mut known[pair.point], true) {
+                normals.push((pair.point, pair.normal));
+            }
+        }
+        let (added, loose) = split(operator, &gaps);
+        let hints = MeshHints {
+            coordinates: &self.places.coordinates,
+            bodies: &self.places.bodies,
+            gaps: &normals,
+        };
+        let mut settings = MultigridSettings::default();
+        if floats(operator, &self.places) {
+            // halves the iterations, at half as much again for each
+            settings.smoother_steps = 3;
+            settings.smoother_ratio = 20.0;
+        }
+        let matrix = transformed(operator.matrix, &gaps, &loose);
+        let mut levels = Multigrid::new(&matrix, operator.fixed, hints, settings)?;
+        levels.update(&added);
+        statistics.setups += 1;
+        statistics.levels = levels.levels().len();
+        statistics.operator_complexity = levels.operator_complexity();
+        statistics.hierarchy_bytes = levels.bytes();
+        self.made = Some(Made {
+            fixed: operator.fixed.to_vec(),
+            gaps,
+            levels,
+            loose: traces(&loose),
+            fresh: true,
+            slow: false,
+        });
+        Ok(())
+    }
+}
+
+/// Gap variables for as many points as there may be: those that act come first where two would be in each other's way.
+fn variables(operator: Operator) -> GapVariables {
+    let dim = operator.matrix.block_size();
+    let acting = acting(operator);
+    let rank = |pair: &ContactPair| match (acting[pair.point], pair.facet.is_empty()) {
+        (true, false) => 0,
+        (_, false) => 1,
+        _ => 2,
+    };
+    let free = |pair: &&ContactPair| {
+        let dofs = pair.point * dim..(pair.point + 1) * dim;
+        operator.fixed[dofs].iter().any(|fixed| !fixed)
+    };
+    let mut pairs: Vec<&ContactPair> = operator.pairs.iter().filter(free).collect();
+    pairs.sort_by_key(|pair| (rank(pair), pair.point));
+    let pairs: Vec<(usize, Vec<(usize, f64)>)> = pairs
+        .into_iter()
+        .map(|pair| (pair.point, pair.facet.clone()))
+        .collect();
+    GapVariables::new(dim, operator.fixed, &pairs)
+}
+
+/// Points whose first dof is that of a block.
+fn acting(operator: Operator) -> Vec<bool> {
+    let dim = operator.matrix.block_size();
+    let mut acting = vec![false; operator.matrix.points()];
+    for block in operator.blocks {
+        acting[block.dofs[0] / dim] = true;
+    }
+    acting
+}
+
+/// The pairs of each acting point that meets a facet, and how far they are from its gap variables, as the part of the facet.
+fn drifts<'a>(
+    operator: Operator<'a>,
+    gaps: &GapVariables,
+) -> BTreeMap<usize, Vec<(f64, &'a ContactPair)>> {
+    let acting = acting(operator);
+    let mut out: BTreeMap<usize, Vec<(f64, &ContactPair)>> = BTreeMap::new();
+    for pair in operator.pairs {
+        if !pair.facet.is_empty() && acting[pair.point] && gaps.is_gap(pair.point) {
+            let list = out.entry(pair.point).or_default();
+            list.push((distance(pair, gaps), pair));
+        }
+    }
+    out
+}
+
+/// Half the sum of the differences of weights.
+fn distance(pair: &ContactPair, gaps: &GapVariables) -> f64 {
+    let mut sum = 0.0;
+    for &(point, now) in &pair.facet {
+        let before = gaps.facet(pair.point).find(|(p, _)| *p == point);
+        sum += (now - before.map_or(0.0, |(_, w)| w)).abs();
+    }
+    for (point, before) in gaps.facet(pair.point) {
+        if pair.facet.iter().all(|(p, _)| *p != point) {
+            sum += before.abs();
+        }
+    }
+    0.5 * sum
+}
+
+/// How far points have moved since the gap variables were made. Where a point meets several facets, the one that it has a gap to counts.
+fn drift(operator: Operator, gaps: &GapVariables) -> f64 {
+    let of_point = |list: &Vec<(f64, &ContactPair)>| {
+        list.iter().map(|(d, _)| *d).fold(f64::INFINITY, f64::min)
+    };
+    let all = drifts(operator, gaps);
+    all.values().map(of_point).fold(0.0, f64::max)
+}
+
+/// The symmetric stand-ins of the blocks: those that are stiffnesses of a gap, added up by point, and all others.
+fn split(operator: Operator, gaps: &GapVariables) -> (Vec<(usize, [f64; 9])>, Groups) {
+    let dim = operator.matrix.block_size();
+    let mut added: Vec<(usize, [f64; 9])> = Vec::new();
+    let mut loose = Vec::new();
+    let drifts = drifts(operator, gaps);
+    for block in operator.blocks {
+        if block.surrogate.iter().all(|s| *s == 0.0) {
+            continue;
+        }
+        let point = block.dofs[0] / dim;
+        if !is_gap_stiffness(block, operator, gaps, &drifts) {
+            loose.push(group(block, dim));
+            continue;
+        }
+        let mut stiffness = [0.0; 9];
+        for r in 0..dim {
+            for c in 0..dim {
+                stiffness[r * dim + c] = block.surrogate[r * block.dofs.len() + c];
+            }
+        }
+        added.push((point, stiffness));
+    }
+    // The sort is stable: sums do not depend on chance.
+    added.sort_by_key(|(point, _)| *point);
+    added.dedup_by(|later, first| {
+        let same = later.0 == first.0;
+        if same {
+            first.1.iter_mut().zip(later.1).for_each(|(f, l)| *f += l);
+        }
+        same
+    });
+    (added, loose)
+}
+
+/// Whether a block acts on the gap of its first point: on nothing free but the point and the facet it has a gap to.
+fn is_gap_stiffness(
+    block: &ContactBlock,
+    operator: Operator,
+    gaps: &GapVariables,
+    drifts: &BTreeMap<usize, Vec<(f64, &ContactPair)>>,
+) -> bool {
+    let dim = operator.matrix.block_size();
+    let point = block.dofs[0] / dim;
+    let own = |(c, dof): (usize, &usize)| *dof == point * dim + c;
+    if !block.dofs.iter().take(dim).enumerate().all(own) || !gaps.is_gap(point) {
+        return false;
+    }
+    let mut others = block.dofs[dim..]
+        .iter()
+        .filter(|dof| !operator.fixed[**dof]);
+    let near = drifts.get(&point).map_or(&[][..], |list| list.as_slice());
+    let mut near = near.iter().filter(|(drift, _)| *drift <= DRIFT);
+    match near.next() {
+        Some((_, pair)) => others.all(|dof| pair.facet.iter().any(|(p, _)| *p == dof / dim)),
+        None => others.next().is_none(),
+    }
+}
+
+/// The stand-in of a block over all dofs of its points.
+fn group(block: &ContactBlock, dim: usize) -> (Vec<usize>, Vec<f64>) {
+    let mut points: Vec<usize> = block.dofs.iter().map(|dof| dof / dim).collect();
+    points.sort_unstable();
+    points.dedup();
+    let width = points.len() * dim;
+    let places: Vec<usize> = block
+        .dofs
+        .iter()
+        .map(|dof| points.partition_point(|p| *p < dof / dim) * dim + dof % dim)
+        .collect();
+    let mut dense = vec![0.0; width * width];
+    for (row, &r) in block.surrogate.chunks_exact(block.dofs.len()).zip(&places) {
+        for (value, &c) in row.iter().zip(&places) {
+            dense[r * width + c] += value;
+        }
+    }
+    (points, dense)
+}
+
+fn traces(loose: &Groups) -> Vec<(Vec<usize>, f64)> {
+    let trace = |(points, dense): &(Vec<usize>, Vec<f64>)| {
+        let width = dense.len().isqrt();
+        (points.clone(), dense.iter().step_by(width + 1).sum())
+    };
+    loose.iter().map(trace).collect()
+}
+
+/// Whether stiffnesses are not nearly those of before.
+fn changed(before: &[(Vec<usize>, f64)], now: &Groups) -> bool {
+    let now = traces(now);
+    before.len() != now.len()
+        || before.iter().zip(&now).any(|(before, now)| {
+            before.0 != now.0 || now.1 > CHANGE * before.1 || before.1 > CHANGE * now.1
+        })
+}
+
+/// The matrix in gap variables.
+fn transformed(matrix: &BlockCsr, gaps: &GapVariables, loose: &Groups) -> BlockCsr {
+    if loose.is_empty() {
+        gaps.transform(matrix)
+    } else {
+        gaps.transform(&matrix.with_groups(loose))
+    }
+}
+
+/// Whether a body may be shifted at next to no cost.
+fn floats(operator: Operator, places: &Places) -> bool {
+    let dim = operator.matrix.block_size();
+    let count = places.bodies.iter().max().map_or(0, |m| *m as usize + 1);
+    let diagonal = operator.matrix.diagonal();
+    let mut out = vec![0.0; diagonal.len()];
+    (0..dim).any(|c| {
+        let moves = |dof: usize| dof % dim == c && !operator.fixed[dof];
+        let shift: Vec<f64> = (0..diagonal.len())
+            .map(|dof| if moves(dof) { 1.0 } else { 0.0 })
+            .collect();
+        operator.matrix.mul(&shift, &mut out);
+        let (mut cost, mut scale) = (vec![0.0; count], vec![0.0; count]);
+        for dof in (c..diagonal.len()).step_by(dim).filter(|&dof| moves(dof)) {
+            let body = places.bodies[dof / dim] as usize;
+            cost[body] += out[dof];
+            scale[body] += diagonal[dof];
+        }
+        cost.iter().zip(&scale).any(|(c, s)| c.abs() < FLOATING * s)
+    })
+}

@@ -1,0 +1,157 @@
+//! Accepted increments on their way into the results.
+
+use std::time::Instant;
+
+use super::accepted::Accepted;
+use super::history;
+use super::run::{Advance, Event, Observer, Simulation};
+use crate::contact::interface::Memory;
+use crate::error::Error;
+use crate::newton::Progress;
+use crate::newton::condensed::Amplitudes;
+use crate::system::State;
+use crate::time::Trial;
+
+/// An accepted increment that nobody has been told of.
+pub(super) struct Pending {
+    pub trial: Trial,
+    pub accepted: Accepted,
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    pub attempt: usize,
+    /// Whether fields, and a row of the history, are due.
+    pub fields: bool,
+    pub row: bool,
+    /// Newton iterations nobody has been told of.
+    pub seen: Vec<Progress>,
+    /// What the interfaces knew after it; empty if it is reported at once.
+    pub memories: Vec<Memory>,
+    /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
+    pub found: Option<(Amplitudes, Vec<f64>)>,
+}
+
+impl Pending {
+    /// It at a glance.
+    pub fn advance(&self) -> Advance {
+        Advance {
+            increment: self.increment,
+            attempt: self.attempt,
+            iterations: self.accepted.iterations,
+            time: self.trial.to,
+            residual: self.accepted.residual,
+            tally: self.accepted.tally,
+        }
+    }
+}
+
+/// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
+const TOGETHER: usize = 16;
+
+impl Simulation {
+    /// Goes on from an accepted increment: at once, or with others in one sweep.
+    pub(super) fn go_on(
+        &mut self,
+        mut pending: Pending,
+        last: bool,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        if self.condensed.is_none() {
+            let from = std::mem::take(&mut self.state);
+            self.commit(&from, pending.trial, &pending.accepted);
+            let length = pending.trial.to - pending.trial.from;
+            self.state = from;
+            self.previous = Some((length, self.state.u.clone()));
+            return self.report(pending, observers);
+        }
+        self.move_ahead(&mut pending);
+        self.pending.push(pending);
+        if last || self.pending.len() >= TOGETHER {
+            self.flush(observers)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the interiors of all pending increments and reports them.
+    pub(super) fn flush(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        if self.pending.is_empty() {
+            return Ok(());
+        }
+        let mut pending = std::mem::take(&mut self.pending);
+        self.recover(&mut pending);
+        // The interfaces tell what they knew after each of them.
+        let interfaces = self.model.interfaces.iter_mut();
+        let now: Vec<Memory> = interfaces.map(|i| std::mem::take(&mut i.memory)).collect();
+        let mut outcome = Ok(());
+        for mut one in pending {
+            let memories = std::mem::take(&mut one.memories);
+            for (interface, memory) in self.model.interfaces.iter_mut().zip(memories) {
+                interface.memory = memory;
+            }
+            outcome = self.complete(&mut one);
+            if outcome.is_ok() {
+                outcome = self.report(one, observers);
+            }
+            if outcome.is_err() {
+                break;
+            }
+        }
+        for (interface, memory) in self.model.interfaces.iter_mut().zip(now) {
+            interface.memory = memory;
+        }
+        outcome
+    }
+
+    /// Enters an increment into the ledger and tells the observers.
+    fn report(
+        &mut self,
+        pending: Pending,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        self.tell(&pending.seen, observers);
+        let counts = (pending.increment, pending.attempt);
+        let effort = self.book(pending.accepted);
+        let started = Instant::now();
+        if pending.row {
+            let row = history::row(self, pending.trial, effort, counts);
+            let named = row.names.iter().cloned().zip(row.values.iter().copied());
+            self.summary.last = named.collect();
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Increment(&row))?;
+            }
+        }
+        if pending.fields {
+            let State { u, t, .. } = &self.state;
+            for interface in &mut self.model.interfaces {
+                interface.measure(u, *t);
+            }
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Output)?;
+            }
+        }
+        self.summary.phases.write += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Tells observers what has been noted.
+    pub(super) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        for note in std::mem::take(&mut self.notes) {
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Note(&note))?;
+            }
+            // Which method was chosen and why has a place of its own in the summary.
+            let reason = &self.summary.method_reason;
+            if reason.is_empty() || !note.ends_with(reason.as_str()) {
+                self.summary.notes.push(note);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the last increment did is no guide for the next.
+    pub(super) fn forget_direction(&mut self) {
+        self.previous = None;
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget_direction();
+        }
+    }
+}
