@@ -371,7 +371,7 @@ fn columns_can_be_chosen_and_unknown_ones_are_refused() {
     assert_eq!(output.status.code(), Some(1));
     let err = err(&output);
     assert!(err.contains("there is no column `base.CNF2`"), "{err}");
-    assert!(err.contains("near it: base.CFN2, "), "{err}");
+    assert!(err.contains("near: base.CFN2, "), "{err}");
     assert!(!err.contains("1/3"), "{err}");
     // the table of the sweep before is untouched
     assert_eq!(

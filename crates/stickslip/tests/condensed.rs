@@ -1,6 +1,10 @@
 //! Bodies without their interiors give the results of the whole matrix: on every example that is not explicit, and bit by bit on any
 //! number of threads.
 
+#[macro_use]
+#[path = "support/examples.rs"]
+mod list;
+
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
@@ -86,12 +90,12 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 
 /// How near displacements and reactions are relative to the largest of the run, and whether only up to the first change of status.
 ///
-/// Where friction makes a single stiff cell stick and slip in turn, and the times of that are located, a difference in the last digit grows with
-/// every change: rigid motion of a cell is 1e-8 of the numbers in its matrix, so that both ways have no more than eight digits of it.
+/// The exceptions are cases whose results the last digit of the input changes as much: with the sparse matrix alone, Young's modulus larger by two
+/// roundings moves `braking-block` (which stays where it is) by 1.1e-6 and `forced-slider` by 1.2e-5, and another factor in GMRES moves `shear-lag` by
+/// 1.5e-9 and `belt-mass`, whose changes of status are located in time, by 3 % in the end.
 fn demanded(name: &str) -> (f64, bool) {
     match name {
         "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-4, true),
-        // Stick that is regularised, or held by multipliers over a thousand iterations, keeps what each of them leaves.
         "braking-block" => (1e-6, false),
         "shear-lag" => (1e-8, false),
         _ => (1e-9, false),
@@ -163,51 +167,7 @@ fn check(name: &str) {
     }
 }
 
-macro_rules! examples {
-    ($($test:ident = $folder:literal),+ $(,)?) => {
-        $(#[test] fn $test() { check($folder); })+
-
-        #[test]
-        fn every_example_is_listed() {
-            let listed = [$($folder),+];
-            for entry in std::fs::read_dir(examples()).expect("the folder of examples") {
-                let path = entry.expect("an entry").path();
-                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                assert!(!path.is_dir() || listed.contains(&name.as_str()), "{name}");
-            }
-        }
-    };
-}
-
-examples! {
-    cattaneo_mindlin = "cattaneo-mindlin",
-    hertz_line = "hertz-line",
-    hertz_sphere = "hertz-sphere",
-    mindlin_sphere = "mindlin-sphere",
-    fretting_sphere = "fretting-sphere",
-    belt_block = "belt-block",
-    belt_mass = "belt-mass",
-    block_limits = "block-limits",
-    bouncing_bar = "bouncing-bar",
-    braking_block = "braking-block",
-    compliance_bar = "compliance-bar",
-    compliance_impact = "compliance-impact",
-    flat_punch = "flat-punch",
-    forced_slider = "forced-slider",
-    free_slider = "free-slider",
-    greco = "greco",
-    greco_compliance = "greco-compliance",
-    impact_bar = "impact-bar",
-    lug = "lug",
-    patch_friction = "patch-friction",
-    patch_matching = "patch-matching",
-    patch_taylor = "patch-taylor",
-    press_and_slide = "press-and-slide",
-    shear_column = "shear-column",
-    shear_lag = "shear-lag",
-    steel_bar = "steel-bar",
-    two_bars = "two-bars",
-}
+every_example!(check);
 
 /// The bits of all displacements with this many threads.
 fn bits(case: &Path, overrides: &[String], threads: usize) -> Vec<u64> {

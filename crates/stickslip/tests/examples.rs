@@ -3,6 +3,10 @@
 //! A folder of `examples/` holds a `case.toml` and one `expected*.toml` or more; each of those names the case and the overrides it is
 //! about, so that large cases are tested in a reduced size.
 
+#[macro_use]
+#[path = "support/examples.rs"]
+mod list;
+
 use std::path::{Path, PathBuf};
 
 use stickslip::problem::Document;
@@ -59,56 +63,4 @@ fn check(name: &str) {
     }
 }
 
-macro_rules! examples {
-    ($($test:ident = $folder:literal),+ $(,)?) => {
-        $(#[test] fn $test() { check($folder); })+
-
-        /// No example goes untested.
-        #[test]
-        fn every_example_is_listed() {
-            let mut found: Vec<String> = std::fs::read_dir(folder(""))
-                .expect("the folder of examples")
-                .map(|entry| entry.expect("an entry"))
-                .filter(|entry| entry.path().is_dir())
-                .map(|entry| entry.file_name().to_string_lossy().into_owned())
-                .collect();
-            found.sort();
-            let mut listed = vec![$($folder.to_string()),+];
-            listed.sort();
-            assert_eq!(found, listed);
-            for name in found {
-                assert!(folder(&name).join("README.md").exists(), "{name} has no README");
-            }
-        }
-    };
-}
-
-examples! {
-    cattaneo_mindlin = "cattaneo-mindlin",
-    hertz_line = "hertz-line",
-    hertz_sphere = "hertz-sphere",
-    mindlin_sphere = "mindlin-sphere",
-    fretting_sphere = "fretting-sphere",
-    belt_block = "belt-block",
-    belt_mass = "belt-mass",
-    block_limits = "block-limits",
-    bouncing_bar = "bouncing-bar",
-    braking_block = "braking-block",
-    compliance_bar = "compliance-bar",
-    compliance_impact = "compliance-impact",
-    flat_punch = "flat-punch",
-    forced_slider = "forced-slider",
-    free_slider = "free-slider",
-    greco = "greco",
-    greco_compliance = "greco-compliance",
-    impact_bar = "impact-bar",
-    lug = "lug",
-    patch_friction = "patch-friction",
-    patch_matching = "patch-matching",
-    patch_taylor = "patch-taylor",
-    press_and_slide = "press-and-slide",
-    shear_column = "shear-column",
-    shear_lag = "shear-lag",
-    steel_bar = "steel-bar",
-    two_bars = "two-bars",
-}
+every_example!(check);

@@ -2,6 +2,7 @@
 
 use stickslip::Error;
 use stickslip::error::RunError;
+use stickslip::simulation::compare::near;
 use stickslip::simulation::{Event, Observer, Simulation};
 
 use crate::commands::Failure;
@@ -30,11 +31,11 @@ impl<'a> Columns<'a> {
     pub fn refusal(&self) -> Option<Failure> {
         let name = self.unknown.as_ref()?;
         Some(Failure::Arguments(
-            format!("there is no column `{name}`"),
             format!(
-                "near it: {}; without --column the table has all",
-                near(name, &self.names).join(", ")
+                "there is no column `{name}`{}",
+                near(name, self.names.iter().map(String::as_str))
             ),
+            "without --column the table has all".into(),
         ))
     }
 }
@@ -58,69 +59,6 @@ impl Observer for Columns<'_> {
                 culprits: Vec::new(),
                 help: None,
             })),
-        }
-    }
-}
-
-/// Number of names that are suggested.
-const NEAR: usize = 6;
-
-/// The names that take the fewest changes of letters to become `word`, nearest first.
-fn near<'a>(word: &str, names: &'a [String]) -> Vec<&'a str> {
-    let word = word.to_lowercase();
-    let mut all: Vec<(usize, &str)> = names
-        .iter()
-        .map(|name| (changes(&word, &name.to_lowercase()), name.as_str()))
-        .collect();
-    // Stable: names that are equally near stay in the order of the history.
-    all.sort_by_key(|&(n, _)| n);
-    all.into_iter().take(NEAR).map(|(_, name)| name).collect()
-}
-
-/// Insertions, deletions and replacements between two words.
-fn changes(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for j in 0..b.len() {
-            let replaced = diagonal + usize::from(letter != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_names_come_first() {
-        let names = [
-            "TIME",
-            "ALLSE",
-            "ALLCE",
-            "base.CFN1",
-            "base.CFN2",
-            "top.RF1",
-            "X",
-            "Y",
-        ];
-        let names: Vec<String> = names.iter().map(ToString::to_string).collect();
-        assert_eq!(near("base.CNF2", &names)[0], "base.CFN2");
-        assert_eq!(near("allse", &names)[..2], ["ALLSE", "ALLCE"]);
-        assert_eq!(near("", &names).len(), NEAR);
-        assert!(near("a", &[]).is_empty());
-    }
-
-    #[test]
-    fn changes_are_counted() {
-        for (a, b, n) in [("", "abc", 3), ("abc", "abc", 0), ("kitten", "sitting", 3)] {
-            assert_eq!(changes(a, b), n);
-            assert_eq!(changes(b, a), n);
         }
     }
 }

@@ -120,7 +120,7 @@ impl Gaps {
                 })
             })
             .collect();
-        let system = Reduced {
+        let system = Iteration {
             condensation,
             active,
             blocks: &placed,
@@ -218,7 +218,7 @@ impl Gaps {
             }
         }
         self.preconditioner = None;
-        // Neighbours of what is touched now may be touched next: a few more than needed save doing this again.
+        // Where most of the candidates are touched a cut would save less than it costs.
         let whole = wanted as f64 > FEW * condensation.size() as f64;
         let list: Vec<usize> = (0..touched.len())
             .filter(|&i| whole || touched[i])
@@ -290,14 +290,14 @@ struct Mode<'a> {
 }
 
 /// The system of one iteration. Vectors hold forces at the active dofs, then one for each artificial spring.
-struct Reduced<'a> {
+struct Iteration<'a> {
     condensation: &'a Condensation,
     active: &'a Active,
     blocks: &'a [Block<'a>],
     modes: &'a [Mode<'a>],
 }
 
-impl Reduced<'_> {
+impl Iteration<'_> {
     /// How the active dofs yield to forces at them, springs' forces left out.
     fn yielding(&self, y: &[f64], single: bool) -> Vec<f64> {
         use rayon::prelude::*;

@@ -90,11 +90,6 @@ impl Shapes {
         out
     }
 
-    /// Number of shapes.
-    pub fn count(&self) -> usize {
-        self.loads.len() + self.motions.len()
-    }
-
     fn all<'a>(&'a self, amplitudes: &'a Amplitudes) -> impl Iterator<Item = (f64, &'a Shape)> {
         let loads = amplitudes.loads.iter().copied().zip(&self.loads);
         let motions = amplitudes.motions.iter().copied().zip(&self.motions);

@@ -61,6 +61,7 @@ use std::path::Path;
 use crate::error::{Error, IoError};
 
 pub use expected::{Check, Curve, Expected, Reduce};
+pub use near::near;
 pub use report::{Comparison, Outcome, Report, Target, Verdict};
 
 /// Compares the results in the folder `dir` with the checks of the file `expected`.

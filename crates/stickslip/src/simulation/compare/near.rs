@@ -1,7 +1,7 @@
 //! Names that come near one that does not exist.
 
 /// `; near: a, b` with the few names most like `word`, or what there is if it is little, or nothing.
-pub(super) fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> String {
+pub fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     let mut ranked: Vec<(usize, &str)> = names
         .iter()
