@@ -6,16 +6,19 @@
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
 //! | search | `search.rs` | which facets a point may meet |
 //! | pairing | `pairing.rs` | the projection of a point on a facet |
+//! | mortar | `mortar/` | integrals over what two surfaces have in common: gaps weighted over faces |
 //! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
 //! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
 //! | response | `response.rs` | traction and its derivatives in the frame of the stencil |
 //! | interface | `interface/` | the only place that scatters into residual and tangent |
 
 pub mod crossing;
+pub mod discretisation;
 pub mod enforcement;
 pub mod interface;
 pub mod kinematics;
 pub mod law;
+pub mod mortar;
 pub mod obstacle;
 pub mod pairing;
 pub mod response;

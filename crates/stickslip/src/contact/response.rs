@@ -20,6 +20,8 @@ pub struct Laws {
     pub slip: SlipModel,
     /// How contact and stick are enforced.
     pub enforcement: EnforcementModel,
+    /// The surfaces are glued: neither gap nor slip changes, and the laws have no meaning.
+    pub tied: bool,
 }
 
 /// What one evaluation of the laws needs beside the stencil.
@@ -95,10 +97,41 @@ pub struct Response {
     pub damping: f64,
 }
 
+/// Gap and slip tied to zero, in tension too.
+fn tie(stencil: &Stencil, at: &Circumstances) -> Response {
+    let mut response = Response {
+        status: Status::Stick,
+        limit: f64::INFINITY,
+        ..Response::default()
+    };
+    let moved = [stencil.gap - at.rest, at.slip[0], at.slip[1]];
+    let carried = [0.0, at.carried[0], at.carried[1]];
+    for q in 0..3 {
+        let stiffness = match q {
+            0 => at.normal_stiffness,
+            _ => at.tangential_stiffness,
+        };
+        let (stiffness, base) = if at.unknown {
+            let keep = 1.0 - at.weight / stiffness;
+            response.d_multiplier[q][q] = keep;
+            let base = keep * at.multiplier[q] + (1.0 - keep) * at.centre[q];
+            (at.weight, base)
+        } else {
+            (stiffness, carried[q])
+        };
+        response.traction[q] = base - stiffness * moved[q];
+        response.d_gap[q][q] = -stiffness;
+    }
+    response
+}
+
 impl Laws {
     /// The laws in a few words, for reports.
     pub fn describe(&self) -> String {
         use crate::registry::Family;
+        if self.tied {
+            return format!("tied, {}", self.enforcement.kind());
+        }
         format!(
             "normal {}, friction {}, slip {}, {}",
             self.normal.kind(),
@@ -117,12 +150,12 @@ impl Laws {
 
     /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
     pub fn needs_normal_stiffness(&self) -> bool {
-        self.normal.as_dyn().pressure(0.0).is_none()
+        self.tied || self.normal.as_dyn().pressure(0.0).is_none()
     }
 
     /// Whether shear traction needs a stiffness of sticking.
     pub fn needs_tangential_stiffness(&self) -> bool {
-        self.friction.as_dyn().frictional() && self.slip.as_dyn().sticks()
+        self.tied || (self.friction.as_dyn().frictional() && self.slip.as_dyn().sticks())
     }
 
     /// Evaluates the laws at a stencil.
@@ -134,6 +167,9 @@ impl Laws {
     /// send points from slip in one direction to slip in the other.
     pub fn respond(&self, stencil: &Stencil, at: &Circumstances) -> Response {
         let unknown = at.unknown;
+        if self.tied {
+            return tie(stencil, at);
+        }
         let mut response = self.press(stencil.gap - at.rest, at, unknown);
         let pressure = response.traction[0];
         let friction: &dyn FrictionLaw = self.friction.as_dyn();

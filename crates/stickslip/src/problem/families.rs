@@ -2,6 +2,7 @@ use serde_json::Value;
 
 use super::{prose, schema};
 use crate::body::loads::LoadKind;
+use crate::contact::discretisation::DiscretisationModel;
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::damping::DampingModel;
@@ -64,6 +65,7 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<FrictionModel>("[interface.NAME] friction.KIND"),
         listing::<SlipModel>("[interface.NAME] slip.KIND"),
         listing::<EnforcementModel>("[interface.NAME] enforcement.KIND"),
+        listing::<DiscretisationModel>("[interface.NAME] discretisation.KIND"),
         listing::<KinematicsModel>("[interface.NAME] kinematics.KIND"),
         listing::<LoadKind>("[load.NAME.KIND]"),
         listing::<SchemeModel>("[step.dynamic] scheme.KIND"),

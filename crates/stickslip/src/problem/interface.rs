@@ -1,6 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::damping::DampingModel;
@@ -32,6 +33,13 @@ pub struct Interface {
     /// How contact and stick are enforced.
     #[serde(default)]
     pub enforcement: EnforcementModel,
+    /// Where contact is evaluated. Default: `mortar`; `node-to-facet` where the kinematics is `pop-1995` or facets are `triangles`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub discretisation: Option<DiscretisationModel>,
+    /// The two surfaces are glued together where they lie opposite at the start, nearer than half the height of a cell, at the distance
+    /// that they have there: neither gap nor slip changes, in tension too, and laws have no meaning. For meshes that do not match. Default: false.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub tied: bool,
     /// How gap and slip are measured.
     #[serde(default)]
     pub kinematics: KinematicsModel,
@@ -47,6 +55,19 @@ pub struct Interface {
     /// triangles. Without meaning in 2D and on obstacles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facets: Option<FacetShape>,
+}
+
+impl Interface {
+    /// Where contact is evaluated.
+    pub fn discretisation(&self) -> DiscretisationModel {
+        let by_points =
+            self.kinematics.as_dyn().triangles() || self.facets == Some(FacetShape::Triangles);
+        match &self.discretisation {
+            Some(model) => model.clone(),
+            None if by_points => DiscretisationModel::NodeToFacet(NodeToFacet {}),
+            None => DiscretisationModel::default(),
+        }
+    }
 }
 
 /// How quadrilateral facets of a primary surface are taken.

@@ -1,8 +1,11 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
+use std::collections::HashMap;
+
 use super::{Interface, Primary};
 use crate::contact::enforcement::Multipliers;
-use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil};
+use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil, tangents};
+use crate::contact::mortar::FaceIntegral;
 use crate::contact::obstacle::Pose;
 use crate::contact::pairing::{
     FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
@@ -10,7 +13,9 @@ use crate::contact::pairing::{
 use crate::contact::response::{Circumstances, Response, Status};
 use crate::contact::search::Box3;
 use crate::contact::surface::{ContactPoint, Facet};
-use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, scale, sub};
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, normalize, scale, sub,
+};
 use crate::system::{Rate, Tangent};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
@@ -23,6 +28,9 @@ const KEPT: f64 = 1e-3;
 /// some 1e-6 of the facet.
 const FLAT: f64 = 1e-5;
 
+/// Part of the area of a point of a mortar that has to have something opposite for it to take part.
+const LEAST_AREA: f64 = 1e-6;
+
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 const TOUCHING: f64 = 1e-6;
 
@@ -32,6 +40,8 @@ pub(super) struct Scene<'a> {
     pub before: &'a [Vec3],
     /// Boxes around the facets; empty where they are not looked for.
     pub boxes: &'a [Box3],
+    /// Integrals over the faces of a mortar; empty without one.
+    pub integrals: &'a [FaceIntegral],
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,
     /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
@@ -69,8 +79,13 @@ pub(super) struct Evaluation {
     /// Relative slip since the last accepted state, in space, belt included.
     pub moved: Vec3,
     pub facet: Option<usize>,
-    /// Weights of its nodes, for output on the primary side.
-    pub facet_weights: [f64; FACET_NODES],
+    /// Whether something lies opposite.
+    pub over: bool,
+    /// Area that the point stands for.
+    pub area: f64,
+    /// Number of nodes that take part, and where their weights start.
+    nodes: usize,
+    sides: usize,
     pub normal_stiffness: f64,
     pub tangential_stiffness: f64,
     /// Shear traction at the last accepted state, in the frame.
@@ -93,6 +108,8 @@ impl Evaluation {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batch {
     dofs: Vec<usize>,
+    /// Nodes and their weights in gap and slip: positive on the secondary, negative on the primary.
+    sides: Vec<(usize, f64)>,
     force: Vec<f64>,
     /// Gradients of gap and slip and how the tractions along them change, multipliers eliminated; `(3, n)` a point.
     rows: Vec<f64>,
@@ -102,11 +119,15 @@ pub(super) struct Batch {
     stencil: Stencil,
     /// Gradients of the slip as friction sees it; empty where they are those of the slip.
     rated: [Vec<f64>; 2],
+    /// Where the nodes of a mortar's point are among its own, and the gradient of its gap by node.
+    places: HashMap<usize, usize>,
+    gradients: Vec<Vec3>,
 }
 
 impl Batch {
     pub fn clear(&mut self) {
         self.dofs.clear();
+        self.sides.clear();
         self.force.clear();
         self.rows.clear();
         self.change.clear();
@@ -119,13 +140,18 @@ impl Batch {
         &self.dofs[e.dofs..e.dofs + e.n]
     }
 
+    /// Nodes that take part and their weights: positive on the secondary, negative on the primary.
+    pub fn sides(&self, e: &Evaluation) -> &[(usize, f64)] {
+        &self.sides[e.sides..e.sides + e.nodes]
+    }
+
     /// Force on them; `None` where a point carries nothing.
     pub fn force(&self, e: &Evaluation) -> Option<&[f64]> {
         e.force.map(|start| &self.force[start..start + e.n])
     }
 
     /// What a tangent evaluation leaves for the assembler.
-    pub fn tangent(&self, e: &Evaluation, area: f64) -> Option<Tangent<'_>> {
+    pub fn tangent(&self, e: &Evaluation) -> Option<Tangent<'_>> {
         let start = e.rows?;
         let matrix = |all: &'_ [f64], start: Option<usize>| -> std::ops::Range<usize> {
             start.map_or(all.len()..all.len(), |s| s..s + e.n * e.n)
@@ -133,7 +159,7 @@ impl Batch {
         Some(Tangent {
             rows: &self.rows[start..start + 3 * e.n],
             change: &self.change[start..start + 3 * e.n],
-            area,
+            area: e.area,
             hessian: &self.hessian[matrix(&self.hessian, e.hessian)],
             surrogate: &self.surrogate[matrix(&self.surrogate, e.surrogate)],
         })
@@ -355,11 +381,13 @@ impl Interface {
         anchor: &mut Option<Anchor>,
         batch: &mut Batch,
     ) -> Evaluation {
-        if self.memory.asleep.get(i) == Some(&true) {
+        let unglued = self.memory.glued.get(i).is_some_and(|gap| gap.is_nan());
+        if unglued || self.memory.asleep.get(i) == Some(&true) {
             return Evaluation::open(f64::INFINITY);
         }
         match &self.primary {
             Primary::Rigid(..) => self.evaluate_rigid(i, scene, batch),
+            Primary::Facets(_) if self.mortar.is_some() => self.evaluate_mortar(i, scene, batch),
             Primary::Facets(facets) => self.evaluate_facet(i, facets, scene, last, anchor, batch),
         }
     }
@@ -436,10 +464,18 @@ impl Interface {
         kinematics.stencil(&pair, &mut batch.stencil);
         let reach = now.iter().map(|&x| dot(x, x));
         batch.stencil.reach = reach.fold(dot(position, position), f64::max).sqrt();
-        let mut e = self.respond(i, &facet.nodes, scene, batch);
+        let sides = batch.sides.len();
+        let own = point
+            .nodes
+            .iter()
+            .copied()
+            .zip(point.weights.iter().copied());
+        batch.sides.extend(own);
+        let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
+        batch.sides.extend(theirs);
+        let mut e = self.respond(i, point.area, sides, scene, batch);
         e.facet = Some(f);
-        e.facet_weights = foot.n;
-        self.finish(i, scene, &mut e, batch, |stencil, weights, out| {
+        self.finish(scene, &mut e, batch, |stencil, weights, out| {
             let curved = kinematics.curved();
             if curved {
                 kinematics.add_hessian(&pair, stencil, weights, out);
@@ -475,10 +511,127 @@ impl Interface {
             0.0
         };
         batch.stencil.reach = norm(x) + 2.0 * radius;
-        let mut e = self.respond(i, &[], scene, batch);
-        self.finish(i, scene, &mut e, batch, |_, weights, out| {
+        let sides = batch.sides.len();
+        let own = point
+            .nodes
+            .iter()
+            .copied()
+            .zip(point.weights.iter().copied());
+        batch.sides.extend(own);
+        let mut e = self.respond(i, point.area, sides, scene, batch);
+        self.finish(scene, &mut e, batch, |_, weights, out| {
             add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out)
         });
+        e
+    }
+
+    /// A point of a mortar: sums over the faces around it.
+    fn evaluate_mortar(&self, i: usize, scene: &Scene, batch: &mut Batch) -> Evaluation {
+        let (Some(mortar), true) = (&self.mortar, !scene.integrals.is_empty()) else {
+            return Evaluation::open(f64::INFINITY);
+        };
+        let point = &self.points[i];
+        let dim = self.dofs.dim;
+        let (mut area, mut gap, mut normal) = (0.0, 0.0, [0.0; 3]);
+        let sides = batch.sides.len();
+        batch.places.clear();
+        batch.gradients.clear();
+        // The node itself first.
+        for &node in &point.nodes {
+            batch.places.insert(node, batch.gradients.len());
+            batch.gradients.push([0.0; 3]);
+            batch.sides.push((node, 0.0));
+        }
+        let around = &mortar.around[i];
+        let whole: f64 = around
+            .iter()
+            .map(|&(f, a)| scene.integrals[f].area[a])
+            .sum();
+        // What is left of weights that cancel is rounding.
+        let least = 1e-13 * whole;
+        for &(f, a) in around {
+            let face = &scene.integrals[f];
+            area += face.area[a];
+            gap += face.gap[a];
+            let own = &mortar.faces[f].nodes;
+            let secondary = face.secondary.chunks_exact(own.len()).nth(a).unwrap_or(&[]);
+            let primary = match face.nodes.len() {
+                0 => &[],
+                n => &face.primary[a * n..(a + 1) * n],
+            };
+            let entries = (own.iter().zip(secondary).map(|(n, e)| (n, e, 1.0)))
+                .chain(face.nodes.iter().zip(primary).map(|(n, e)| (n, e, -1.0)));
+            for (&node, entry, sign) in entries {
+                if entry.weight.abs() <= least && norm(entry.gradient) <= least {
+                    continue;
+                }
+                let k = *batch.places.entry(node).or_insert_with(|| {
+                    batch.gradients.push([0.0; 3]);
+                    batch.sides.push((node, 0.0));
+                    batch.gradients.len() - 1
+                });
+                batch.sides[sides + k].1 += sign * entry.weight;
+                batch.gradients[k] = add_scaled(batch.gradients[k], sign, entry.gradient);
+                if sign > 0.0 {
+                    normal = add(normal, entry.gradient);
+                }
+            }
+        }
+        if area <= LEAST_AREA * point.area {
+            batch.sides.truncate(sides);
+            return Evaluation::open(f64::INFINITY);
+        }
+        // Facets seen at an angle make the mean gradient longer than a unit vector: the gap is measured along the mean normal, and a pressure
+        // acts on the area along it.
+        let per_area = 1.0 / area;
+        let length = norm(normal) * per_area;
+        if length.is_nan() || length <= 0.0 {
+            batch.sides.truncate(sides);
+            return Evaluation::open(f64::INFINITY);
+        }
+        gap *= per_area / length;
+        let n = batch.gradients.len() * dim;
+        batch.stencil.reset(n);
+        let mut reach: f64 = 0.0;
+        for ((_, weight), gradient) in batch.sides[sides..].iter_mut().zip(&mut batch.gradients) {
+            *weight *= per_area;
+            *gradient = scale(per_area / length, *gradient);
+        }
+        let frozen = self.kinematics.as_dyn().frozen();
+        let normal = normalize(normal).unwrap_or(normal);
+        let frame = tangents(normal, dim);
+        let stencil = &mut batch.stencil;
+        for (k, (&(node, w), gradient)) in batch.sides[sides..]
+            .iter()
+            .zip(&batch.gradients)
+            .enumerate()
+        {
+            let x = scene.x[node];
+            let moved = sub(x, scene.before[node]);
+            reach = reach.max(dot(x, x));
+            if frozen {
+                gap += dot(*gradient, sub(x, self.reference[node]));
+            }
+            for c in 0..dim {
+                stencil.rows[0][k * dim + c] = gradient[c];
+                for (t, e) in frame.iter().enumerate().take(dim - 1) {
+                    stencil.rows[t + 1][k * dim + c] = w * e[c];
+                }
+            }
+            for (t, e) in frame.iter().enumerate() {
+                stencil.slip[t] = if k == 0 { 0.0 } else { stencil.slip[t] } + w * dot(*e, moved);
+            }
+        }
+        if dim == 2 {
+            stencil.slip[1] = 0.0;
+        }
+        stencil.gap = gap;
+        stencil.normal = normal;
+        stencil.frame = frame;
+        stencil.frame_before = frame;
+        stencil.reach = reach.sqrt();
+        let mut e = self.respond(i, self.share * area, sides, scene, batch);
+        self.finish(scene, &mut e, batch, |_, _, _| false);
         e
     }
 
@@ -491,13 +644,23 @@ impl Interface {
         (before.gap - gap) / dt
     }
 
-    /// Laws at the stencil of the batch, of a point and a facet with these nodes.
-    fn respond(&self, i: usize, facet: &[usize], scene: &Scene, batch: &mut Batch) -> Evaluation {
+    /// Laws at the stencil of the batch, of a point that stands for `area` and whose nodes are those from `sides` on.
+    fn respond(
+        &self,
+        i: usize,
+        area: f64,
+        sides: usize,
+        scene: &Scene,
+        batch: &mut Batch,
+    ) -> Evaluation {
         let dim = self.dofs.dim;
         let point = &self.points[i];
+        if let Some(glued) = self.memory.glued.get(i) {
+            batch.stencil.gap -= glued;
+        }
         let stencil = &batch.stencil;
         let first = batch.dofs.len();
-        for &node in point.nodes.iter().chain(facet) {
+        for &(node, _) in &batch.sides[sides..] {
             for c in 0..dim {
                 batch.dofs.push(self.dofs.of(self.nodes[node], c));
             }
@@ -566,7 +729,7 @@ impl Interface {
         }
         let at = match scene.rate {
             Some(rate) => {
-                let nodes = point.nodes.iter().chain(facet);
+                let nodes = batch.sides[sides..].iter().map(|(node, _)| node);
                 let dofs = &batch.dofs[first..];
                 let seen = rate_slip(stencil, nodes, dofs, scene, rate, dim, &mut batch.rated);
                 let belt = stencil.frame_before.map(|e| dot(e, scene.belt_end));
@@ -596,6 +759,10 @@ impl Interface {
             tangential_stiffness,
             multiplier: at.multiplier,
             carried: at.carried,
+            over: true,
+            area,
+            nodes: batch.sides.len() - sides,
+            sides,
             ..Evaluation::default()
         }
     }
@@ -603,7 +770,6 @@ impl Interface {
     /// Residual and tangent from stencil and response. `hessian` adds second derivatives with these weights, or says that there are none.
     fn finish(
         &self,
-        i: usize,
         scene: &Scene,
         e: &mut Evaluation,
         batch: &mut Batch,
@@ -613,7 +779,7 @@ impl Interface {
         let unknown = self.unknown() && !scene.initial;
         let traction = if unknown { e.multiplier } else { r.traction };
         let stencil = &batch.stencil;
-        let (n, area) = (stencil.n, self.points[i].area);
+        let (n, area) = (stencil.n, e.area);
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
             return;
         }

@@ -1,6 +1,7 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
 mod evaluate;
+mod faces;
 mod reach;
 mod report;
 mod springs;
@@ -15,6 +16,7 @@ pub use report::{Quality, Resultant};
 
 use super::enforcement::Multipliers;
 use super::kinematics::KinematicsModel;
+use super::mortar::{FaceIntegral, Mortar};
 use super::obstacle::{Motion, ObstacleShape, Pose};
 use super::pairing::FacetPoint;
 use super::response::{Laws, Status};
@@ -45,14 +47,20 @@ pub struct Interface {
     pub dofs: Dofs,
     /// Mesh points of both sides.
     pub nodes: Vec<usize>,
+    /// How many of them, the first, are those of the primary.
+    pub primary_nodes: usize,
     /// Their user's numbers.
     pub node_ids: Vec<u64>,
     /// Their reference coordinates.
     pub reference: Vec<Vec3>,
     /// Points of the secondary.
     pub points: Vec<ContactPoint>,
+    /// The secondary as faces, where gaps are weighted over them; `None` where they are those of the points themselves.
+    pub mortar: Option<Mortar>,
     /// What they touch.
     pub primary: Primary,
+    /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
+    pub share: f64,
     /// Normal law, friction, slip rule, enforcement.
     pub laws: Laws,
     /// How gap and slip are measured.
@@ -84,6 +92,13 @@ pub struct Memory {
     searched_at: Vec<Vec3>,
     margin: f64,
     frozen: Vec<Option<(usize, FacetPoint)>>,
+    /// Facets that a face of a mortar may meet, and the coordinates for which they were found.
+    opposite: Vec<Vec<usize>>,
+    opposite_at: Vec<Vec3>,
+    /// Integrals over the faces of a mortar.
+    integrals: Vec<FaceIntegral>,
+    /// Tied surfaces: distances that stay, NaN where nothing near lies opposite.
+    glued: Vec<f64>,
     dissipated: f64,
     belt_work: f64,
     damped: f64,
@@ -142,6 +157,8 @@ struct History {
     normal: Vec3,
     status: Status,
     facet: Option<usize>,
+    /// Area that the point stands for.
+    area: f64,
     /// The part of the pressure that damping added.
     damping: f64,
 }
@@ -313,7 +330,10 @@ impl Interface {
 
     /// Pairs in the reference configuration, for small sliding.
     fn freeze(&mut self) {
-        if !self.kinematics.as_dyn().frozen() || !self.memory.frozen.is_empty() {
+        if self.mortar.is_some()
+            || !self.kinematics.as_dyn().frozen()
+            || !self.memory.frozen.is_empty()
+        {
             return;
         }
         let x = self.reference.clone();
@@ -344,14 +364,18 @@ impl Interface {
         let mut anchors = std::mem::take(&mut memory.anchors);
         self.coordinates_into(&stage.at.u, &mut x);
         self.coordinates_into(&stage.from.u, &mut before);
-        if !self.kinematics.as_dyn().frozen() {
+        if self.mortar.is_some() {
+            self.integrate(&x);
+        } else if !self.kinematics.as_dyn().frozen() {
             self.enclose(&x, &mut boxes);
         }
+        let integrals = std::mem::take(&mut self.memory.integrals);
         let poses = self.poses(stage);
         let scene = evaluate::Scene {
             x: &x,
             before: &before,
             boxes: &boxes,
+            integrals: &integrals,
             poses: poses.as_ref(),
             belt: self.belt_path(stage),
             belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
@@ -383,6 +407,7 @@ impl Interface {
         memory.x = x;
         memory.before = before;
         memory.boxes = boxes;
+        memory.integrals = integrals;
         memory.anchors = anchors;
         out
     }
@@ -391,7 +416,7 @@ impl Interface {
 impl Interface {
     /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
     /// none.
-    fn add_pairs(&self, evaluations: &[Evaluation], out: &mut Assembler) {
+    fn add_pairs(&self, evaluations: &Evaluations, out: &mut Assembler) {
         if !out.wants_tangent || !out.wants_pairs {
             return;
         }
@@ -399,14 +424,11 @@ impl Interface {
             let &[node] = point.nodes.as_slice() else {
                 continue;
             };
-            let e = evaluations.get(i);
-            let met = match (&self.primary, e.and_then(|e| Some((e, e.facet?)))) {
-                (Primary::Facets(facets), Some((e, f))) => Some((e, &facets[f])),
-                _ => None,
-            };
-            let facet = met.map_or(Vec::new(), |(e, facet)| {
-                let nodes = facet.nodes.iter().map(|&n| self.nodes[n]);
-                nodes.zip(e.facet_weights).collect()
+            let e = evaluations.points.get(i);
+            let facet = e.filter(|e| e.over).map_or(Vec::new(), |e| {
+                let sides = evaluations.batch(i).sides(e).iter();
+                let met = sides.filter(|(n, _)| *n < self.primary_nodes);
+                met.map(|&(n, w)| (self.nodes[n], -w)).collect()
             });
             let normal = e.map_or([0.0; 3], |e| e.normal);
             out.pairs.push(ContactPair {
@@ -434,7 +456,7 @@ impl Interface {
                 flips.count += 1;
                 memory.changed += 1;
             }
-            let over = e.facet.is_some();
+            let over = e.over;
             flips.left += usize::from(flips.over && !over);
             flips.over = over;
             flips.last.rotate_right(1);
@@ -460,8 +482,9 @@ impl Force for Interface {
 
     fn prepare(&mut self, stage: &Stage) -> Result<(), StepFailure> {
         self.ready();
+        self.glue(stage);
         self.freeze();
-        if !self.kinematics.as_dyn().frozen() {
+        if self.mortar.is_none() && !self.kinematics.as_dyn().frozen() {
             let mut x = std::mem::take(&mut self.memory.x);
             self.coordinates_into(&stage.at.u, &mut x);
             self.search(&x);
@@ -492,7 +515,7 @@ impl Force for Interface {
         if !self.schedule.active(stage.at.t) {
             self.memory.last.points.clear();
             self.memory.pending = false;
-            self.add_pairs(&[], out);
+            self.add_pairs(&Evaluations::default(), out);
             return Ok(());
         }
         let evaluations = self.evaluate_all(
@@ -503,10 +526,10 @@ impl Force for Interface {
                 initial: false,
             },
         );
-        self.add_pairs(&evaluations.points, out);
+        self.add_pairs(&evaluations, out);
         let unknown = self.unknown();
         for (i, e) in evaluations.points.iter().enumerate() {
-            let (batch, area) = (evaluations.batch(i), self.points[i].area);
+            let (batch, area) = (evaluations.batch(i), e.area);
             let dofs = batch.dofs(e);
             if !dofs.is_empty() {
                 out.add_coupling(dofs);
@@ -520,7 +543,7 @@ impl Force for Interface {
                 let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 out.multiplier_residual = out.multiplier_residual.max(worst * area);
             }
-            if let Some(tangent) = batch.tangent(e, area) {
+            if let Some(tangent) = batch.tangent(e) {
                 if let Some((_, shift)) = e.saddle {
                     out.add_condensed(dofs, tangent, shift);
                 }
@@ -569,7 +592,7 @@ impl Force for Interface {
         let last = &memory.last;
         for (i, (m, e)) in memory.multipliers.iter_mut().zip(&last.points).enumerate() {
             let batch = last.batch(i);
-            let (Some((_, shift)), Some(tangent)) = (e.saddle, batch.tangent(e, 1.0)) else {
+            let (Some((_, shift)), Some(tangent)) = (e.saddle, batch.tangent(e)) else {
                 continue;
             };
             let dofs = batch.dofs(e);
@@ -592,7 +615,15 @@ impl Force for Interface {
         // the pressure moves the mass of a point over the increment.
         let moving = stage.rate.map(|_| stage.dt);
         let approach = (self.memory.last.points.iter().enumerate())
-            .map(|(i, e)| e.response.traction[0] / self.own_stiffness(i, moving))
+            .map(|(i, e)| {
+                let [p, t1, t2] = e.response.traction;
+                let largest = if self.laws.tied {
+                    p.abs().max(t1.hypot(t2))
+                } else {
+                    p
+                };
+                largest / self.own_stiffness(i, moving)
+            })
             .fold(0.0, f64::max);
         let memory = &mut self.memory;
         let mut worst: f64 = 0.0;
@@ -643,20 +674,15 @@ impl Force for Interface {
         }
         memory.creep = 0.0;
         let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
-        for ((h, e), point) in memory
-            .committed
-            .iter_mut()
-            .zip(&memory.last.points)
-            .zip(&self.points)
-        {
+        for (h, e) in memory.committed.iter_mut().zip(&memory.last.points) {
             let r = &e.response;
             let shear = e.along(&e.frame);
             // By the trapezoidal rule, like the work of the loads: exact where the traction grows in proportion.
             let carried = e.carried;
             let mean = [0, 1].map(|i| 0.5 * (carried[i] + r.traction[i + 1]));
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
-            memory.dissipated += (-work * point.area).max(0.0);
-            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * point.area;
+            memory.dissipated += (-work * e.area).max(0.0);
+            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * e.area;
             if creeps && r.status == Status::Stick {
                 memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
             }
@@ -667,7 +693,7 @@ impl Force for Interface {
                     h.gap - e.gap
                 };
                 let work = 0.5 * (h.damping + r.damping) * closed;
-                memory.damped += (work * point.area).max(0.0);
+                memory.damped += (work * e.area).max(0.0);
             }
             let slid = if r.status == Status::Open {
                 [0.0; 3]
@@ -682,6 +708,7 @@ impl Force for Interface {
                 normal: e.normal,
                 status: r.status,
                 facet: e.facet,
+                area: e.area,
                 damping: r.damping,
             };
         }

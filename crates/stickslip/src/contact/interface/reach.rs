@@ -38,7 +38,9 @@ impl Interface {
             let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
             size = facets.iter().map(|f| length(&f.nodes)).fold(0.0, f64::max);
             let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
-            let margin = reach.along + size;
+            let faces = self.mortar.iter().flat_map(|m| &m.faces);
+            let own = faces.map(|f| length(&f.nodes)).fold(0.0, f64::max);
+            let margin = reach.along + size + own;
             lists = (self.points.iter().zip(&distances))
                 .map(|(point, &d)| {
                     let mut near = Vec::new();
@@ -64,6 +66,12 @@ impl Interface {
             }
             for &n in &point.nodes {
                 kept[self.nodes[n]] = true;
+            }
+            if let Some(mortar) = &self.mortar {
+                let around = mortar.around[i].iter();
+                for &n in around.flat_map(|&(f, _)| &mortar.faces[f].nodes) {
+                    kept[self.nodes[n]] = true;
+                }
             }
             if let (Primary::Facets(facets), Some(near)) = (&self.primary, lists.get(i)) {
                 let was = memory.committed[i].facet;

@@ -55,12 +55,12 @@ impl Interface {
     /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield.
     pub(super) fn stored_energy(&self) -> f64 {
         let law = self.laws.normal.as_dyn();
-        self.points
+        self.memory
+            .committed
             .iter()
-            .zip(&self.memory.committed)
             .zip(&self.memory.last.points)
             .enumerate()
-            .map(|(i, ((p, h), e))| {
+            .map(|(i, (h, e))| {
                 let own = law.energy(h.gap);
                 let spring = if e.normal_stiffness.is_finite() && self.laws.needs_normal_stiffness()
                 {
@@ -70,22 +70,25 @@ impl Interface {
                 } else {
                     0.0
                 };
-                p.area * (own + spring)
+                h.area * (own + spring)
             })
             .sum()
     }
 
-    /// Nodes of the facet that a point lies on and its weights there; nothing where it lies on none.
-    pub(super) fn facet_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
-        let e = self.memory.last.points.get(i);
-        let on = match &self.primary {
-            Primary::Facets(facets) => e.and_then(|e| Some((&facets[e.facet?], e))),
-            Primary::Rigid(..) => None,
-        };
-        on.into_iter().flat_map(|(facet, e)| {
-            let nodes = facet.nodes.iter().copied();
-            nodes.zip(e.facet_weights)
-        })
+    /// Nodes that a point takes part with and their weights, positive on the secondary and negative on the primary (but for the corners of
+    /// quadratic faces), at the last evaluation; those of the point itself where nothing lies opposite.
+    pub(super) fn sides(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let last = &self.memory.last;
+        let met = last.points.get(i).filter(|e| e.over);
+        let met = met.map_or(&[][..], |e| last.batch(i).sides(e));
+        let point = &self.points[i];
+        let own = point
+            .nodes
+            .iter()
+            .copied()
+            .zip(point.weights.iter().copied());
+        let alone = met.is_empty();
+        (met.iter().copied()).chain(own.filter(move |_| alone))
     }
 
     /// Forces on the secondary at the last committed state `u`.
@@ -98,14 +101,14 @@ impl Interface {
                 continue;
             }
             let place = p.position(&x);
-            let normal = scale(h.pressure * p.area, h.normal);
-            let shear = scale(p.area, h.shear);
+            let normal = scale(h.pressure * h.area, h.normal);
+            let shear = scale(h.area, h.shear);
             r.normal = add(r.normal, normal);
             r.shear = add(r.shear, shear);
             r.moment = add(r.moment, cross(place, add(normal, shear)));
-            r.centre = add_scaled(r.centre, h.pressure * p.area, place);
-            total += h.pressure * p.area;
-            r.area += p.area;
+            r.centre = add_scaled(r.centre, h.pressure * h.area, place);
+            total += h.pressure * h.area;
+            r.area += h.area;
             r.peak = r.peak.max(h.pressure);
         }
         if total > 0.0 {
@@ -170,9 +173,11 @@ impl Interface {
                 dot(h.slip, frame[0]),
                 dot(h.slip, frame[1]),
             ];
-            let force = scale(p.area, add_scaled(h.shear, h.pressure, h.normal));
-            let mut give = |node: usize, weight: f64, sign: f64| {
-                let share = p.area * weight.max(0.0);
+            let force = scale(h.area, add_scaled(h.shear, h.pressure, h.normal));
+            let area = if h.area > 0.0 { h.area } else { p.area };
+            for (node, weight) in self.sides(i) {
+                let sign = if node < self.primary_nodes { -1.0 } else { 1.0 };
+                let share = area * (sign * weight).max(0.0);
                 if values[3].is_finite() && share > 0.0 {
                     for (sum, v) in sums[node].iter_mut().zip(values) {
                         *sum += share * v;
@@ -182,13 +187,7 @@ impl Interface {
                         statuses[node] = (share, status);
                     }
                 }
-                forces[node] = add_scaled(forces[node], sign * weight, force);
-            };
-            for (&node, &w) in p.nodes.iter().zip(&p.weights) {
-                give(node, w, 1.0);
-            }
-            for (node, w) in self.facet_weights(i) {
-                give(node, w, -1.0);
+                forces[node] = add_scaled(forces[node], weight, force);
             }
         }
         let names = ["CPRESS", "CSHEAR1", "CSHEAR2", "COPEN", "CSLIP1", "CSLIP2"];
@@ -255,9 +254,9 @@ impl Interface {
                     dot(h.slip, frame[0]),
                     dot(h.slip, frame[1]),
                     f64::from(h.status as u8),
-                    h.pressure * p.area,
-                    shear[0] * p.area,
-                    shear[1] * p.area,
+                    h.pressure * h.area,
+                    shear[0] * h.area,
+                    shear[1] * h.area,
                     now[0] - x[0],
                     now[1] - x[1],
                     now[2] - x[2],
@@ -321,7 +320,7 @@ impl Interface {
         let _ = self.prepare(stage);
         self.begin();
         let evaluations = self.evaluate_all(stage, Wants::default());
-        let opposite = |e: &Evaluation| e.facet.is_some() || self.rigid();
+        let opposite = |e: &Evaluation| e.over;
         let gaps = evaluations.points.iter();
         let gaps = gaps.map(|e| if opposite(e) { e.gap } else { f64::INFINITY });
         let gaps = gaps.collect();

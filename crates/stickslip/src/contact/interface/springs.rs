@@ -61,14 +61,12 @@ impl Interface {
                 true => -law.pressure(-TOUCHED * point.size).map_or(0.0, |p| p.slope),
                 false => 0.0,
             };
+            // Of a mortar less than the whole of a point may have something opposite.
             let stiffness = sides * point.area * own.max(now).max(ahead);
             if stiffness == 0.0 {
                 continue;
             }
-            for (&node, &w) in point.nodes.iter().zip(&point.weights) {
-                rows[node] += stiffness * w.abs();
-            }
-            for (node, w) in self.facet_weights(i) {
+            for (node, w) in self.sides(i) {
                 rows[node] += stiffness * w.abs();
             }
         }

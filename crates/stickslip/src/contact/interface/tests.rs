@@ -71,8 +71,11 @@ fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
         nodes: (0..reference.len()).collect(),
         node_ids: (0..reference.len() as u64).collect(),
         reference,
+        primary_nodes: 0,
         points,
+        mortar: None,
         primary: Primary::Facets(facets),
+        share: 1.0,
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),
             enforcement: EnforcementModel::Penalty(Penalty::default()),

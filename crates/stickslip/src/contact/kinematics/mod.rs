@@ -15,7 +15,7 @@ mod tests;
 
 pub use convective::Convective;
 pub use pop::Pop1995;
-pub use rigid::{add_rigid_hessian, rigid_stencil};
+pub use rigid::{add_rigid_hessian, rigid_stencil, tangents};
 pub use small_sliding::SmallSliding;
 
 use super::pairing::FacetPoint;

@@ -4,7 +4,7 @@ use crate::contact::surface::ContactPoint;
 use crate::math::{Mat3, Vec3, add_scaled, cross, dot, mat_vec, normalize, scale, sub};
 
 /// Two unit vectors that make a right-handed frame with the unit vector `n`; in 2D the second points out of the plane.
-fn tangents(n: Vec3, dim: usize) -> [Vec3; 2] {
+pub fn tangents(n: Vec3, dim: usize) -> [Vec3; 2] {
     if dim == 2 {
         return [[n[1], -n[0], 0.0], [0.0, 0.0, 1.0]];
     }

@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::super::{FacetShape, Interface as Table, Problem};
+use super::faces::FaceGroups;
 use super::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
 use crate::contact::interface::{Interface, Memory, Primary};
+use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, triangulate};
@@ -17,7 +19,7 @@ use crate::math::{Vec3, add_scaled, cross, norm, normalize};
 use crate::mesh::{FacetRef, Mesh};
 use crate::shape::ElementKind;
 use crate::simulation::Body;
-use crate::system::Dofs;
+use crate::system::{Dofs, Schedule};
 
 /// How far a point may overhang the outer edge of the primary, relative to the facet.
 const EDGE_TOLERANCE: f64 = 1e-3;
@@ -37,66 +39,131 @@ pub(super) fn build(
     };
     let mut out = Vec::new();
     for (name, table) in &problem.interface {
+        let make = Make {
+            problem,
+            sets,
+            surfaces: &surfaces,
+            table,
+            schedule: timeline.interface(problem, name),
+        };
+        let both = table.discretisation().as_dyn().two_sided()
+            && !problem.obstacle.contains_key(&table.primary);
         let key = format!("interface.{name}");
-        let secondary = sets.facets(&table.secondary, &format!("{key}.secondary"))?;
-        surfaces.simple(&format!("{key}.secondary"), &secondary)?;
+        let secondary = (table.secondary.as_str(), format!("{key}.secondary"));
+        let primary = (table.primary.as_str(), format!("{key}.primary"));
+        if both {
+            out.push(make.interface(name.clone(), &secondary, &primary, 0.5)?);
+            let mut reverse =
+                make.interface(format!("{name}-reverse"), &primary, &secondary, 0.5)?;
+            for row in &mut reverse.belt {
+                for v in &mut row[1..] {
+                    *v = -*v;
+                }
+            }
+            out.push(reverse);
+        } else {
+            out.push(make.interface(name.clone(), &secondary, &primary, 1.0)?);
+        }
+    }
+    Ok(out)
+}
+
+/// What an interface is made from.
+struct Make<'a> {
+    problem: &'a Problem,
+    sets: &'a Sets<'a>,
+    surfaces: &'a Surfaces<'a>,
+    table: &'a Table,
+    schedule: Schedule,
+}
+
+impl Make<'_> {
+    /// An interface between two surfaces, given with the keys that name them, which carries `share` of the pressure.
+    fn interface(
+        &self,
+        name: String,
+        secondary: &(&str, String),
+        primary: &(&str, String),
+        share: f64,
+    ) -> Result<Interface, Error> {
+        let (surfaces, table) = (self.surfaces, self.table);
+        let facets = self.sets.facets(secondary.0, &secondary.1)?;
+        surfaces.simple(&secondary.1, &facets)?;
         let mut numbering = Numbering::default();
-        let kinematics = table.kinematics.as_dyn();
-        let primary = match problem.obstacle.get(&table.primary) {
+        let opposite = match self.problem.obstacle.get(primary.0) {
             Some(obstacle) => Primary::Rigid(
                 obstacle.shape.clone(),
                 obstacle.motion.clone().unwrap_or_default(),
             ),
             None => {
-                let facets = sets.facets(&table.primary, &format!("{key}.primary"))?;
-                surfaces.disjoint(&key, &secondary, &facets)?;
-                surfaces.simple(&format!("{key}.primary"), &facets)?;
-                let mut facets = surfaces.facets(&facets, &mut numbering);
-                if kinematics.triangles() || table.facets == Some(FacetShape::Triangles) {
-                    facets = triangulate(facets);
+                let theirs = self.sets.facets(primary.0, &primary.1)?;
+                surfaces.disjoint(&primary.1, &facets, &theirs)?;
+                surfaces.simple(&primary.1, &theirs)?;
+                let mut theirs = surfaces.facets(&theirs, &mut numbering);
+                if table.kinematics.as_dyn().triangles()
+                    || table.facets == Some(FacetShape::Triangles)
+                {
+                    theirs = triangulate(theirs);
                 }
-                connect(&mut facets);
-                Primary::Facets(facets)
+                connect(&mut theirs);
+                Primary::Facets(theirs)
             }
         };
-        let modulus = match &primary {
+        let modulus = match &opposite {
             Primary::Facets(facets) => facets.iter().map(|f| f.modulus).fold(0.0, f64::max),
             Primary::Rigid(..) => f64::INFINITY,
         };
-        let points = surfaces.points(&secondary, modulus, &mut numbering);
+        let primary_nodes = numbering.nodes.len();
+        let discretisation = table.discretisation();
+        let weighted = match &opposite {
+            Primary::Facets(_) => discretisation.as_dyn().weighted(),
+            Primary::Rigid(..) => None,
+        };
+        let (points, mortar) = match weighted {
+            Some(angle) => {
+                let (points, mortar) =
+                    surfaces.mortar(&facets, modulus, angle.to_radians(), &mut numbering);
+                (points, Some(mortar))
+            }
+            None => (surfaces.points(&facets, modulus, &mut numbering), None),
+        };
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(
-                format!("{key}.secondary"),
+                secondary.1.clone(),
                 "the surface is empty",
             )]));
         }
+        let mesh = surfaces.mesh;
         let nodes = numbering.nodes;
-        out.push(Interface {
-            name: name.clone(),
+        Ok(Interface {
+            name,
             dofs: Dofs {
-                dim: space.dim(),
+                dim: surfaces.space.dim(),
                 points: mesh.points.len(),
             },
             node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
             reference: nodes.iter().map(|&n| mesh.points[n]).collect(),
             nodes,
+            primary_nodes,
             points,
-            primary,
+            mortar,
+            primary: opposite,
+            share,
             laws: Laws {
                 normal: table.normal.clone(),
                 damping: table.damping.clone(),
                 friction: table.friction.clone(),
                 slip: table.slip.clone(),
                 enforcement: table.enforcement.clone(),
+                tied: table.tied,
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),
-            schedule: timeline.interface(problem, name),
+            schedule: self.schedule.clone(),
             edge_tolerance: EDGE_TOLERANCE,
             memory: Memory::default(),
-        });
+        })
     }
-    Ok(out)
 }
 
 fn belt(table: &Table) -> Vec<[f64; 4]> {
@@ -281,6 +348,65 @@ impl Surfaces<'_> {
         out
     }
 
+    /// One contact point a node and smooth part of the surface, and the faces that they are weighted over.
+    fn mortar(
+        &self,
+        facets: &[FacetRef],
+        primary: f64,
+        angle: f64,
+        numbering: &mut Numbering,
+    ) -> (Vec<ContactPoint>, Mortar) {
+        let beneath: Vec<Beneath> = facets.iter().map(|&f| self.beneath(f)).collect();
+        let shapes: Vec<(ElementKind, Vec<usize>)> =
+            facets.iter().map(|&f| self.mesh.facet_points(f)).collect();
+        let normals: Vec<Vec3> = (beneath.iter())
+            .map(|b| normalize(b.normal).unwrap_or_default())
+            .collect();
+        let groups = FaceGroups::new(&shapes, &normals, angle);
+        let mut points: Vec<ContactPoint> = Vec::new();
+        let mut known: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        let mut faces = Vec::new();
+        for (k, (kind, nodes)) in shapes.iter().enumerate() {
+            let x = self.coordinates(nodes);
+            let areas = positive_areas(*kind, &x, |at| self.space.extent(at));
+            let b = &beneath[k];
+            let stiffness = b.modulus.min(primary) / b.height;
+            let mut face = Face {
+                kind: *kind,
+                nodes: nodes.iter().map(|&n| numbering.of(n)).collect(),
+                points: Vec::new(),
+                normals: groups.normals(k).to_vec(),
+                extents: x.iter().map(|&x| self.space.extent(x)).collect(),
+            };
+            for (a, &node) in nodes.iter().enumerate() {
+                let normal = face.normals[a];
+                let at = *known.entry((node, groups.group(k))).or_insert_with(|| {
+                    points.push(ContactPoint {
+                        nodes: vec![face.nodes[a]],
+                        weights: vec![1.0],
+                        area: 0.0,
+                        stiffness: 0.0,
+                        normal,
+                        size: 0.0,
+                    });
+                    points.len() - 1
+                });
+                face.points.push(at);
+                let point = &mut points[at];
+                point.area += areas[a];
+                point.stiffness += areas[a] * stiffness;
+                point.size += areas[a] * b.height;
+            }
+            faces.push(face);
+        }
+        for point in &mut points {
+            point.stiffness /= point.area;
+            point.size /= point.area;
+        }
+        let mortar = Mortar::new(faces, points.len());
+        (points, mortar)
+    }
+
     /// No facet of a surface runs through another.
     fn simple(&self, key: &str, facets: &[FacetRef]) -> Result<(), Error> {
         let mut numbering = Numbering::default();
@@ -318,6 +444,7 @@ impl Surfaces<'_> {
         ]))
     }
 
+    /// The two sides have no point in common.
     fn disjoint(
         &self,
         key: &str,
@@ -339,7 +466,7 @@ impl Surfaces<'_> {
         };
         Err(problem_error(vec![
             Diagnostic::new(
-                format!("{key}.primary"),
+                key,
                 format!("primary and secondary share points ({nodes})"),
             )
             .help("the two surfaces must belong to different bodies or be apart; duplicate the nodes of a conforming interface"),

@@ -1,6 +1,7 @@
 //! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
 
 mod contact;
+mod faces;
 mod initial;
 mod meshes;
 mod rigid;

@@ -4,6 +4,10 @@ use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
 use super::Findings;
 use crate::body::Formulation;
 use crate::contact::enforcement::Multipliers;
+use crate::contact::law::damping::DampingModel;
+use crate::contact::law::friction::FrictionModel;
+use crate::contact::law::normal::NormalModel;
+use crate::contact::law::slip::SlipModel;
 use crate::math::normalize;
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError};
@@ -212,6 +216,42 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         enforcement.kind(),
         enforcement.as_dyn().faults(),
     );
+    if let Some(model) = &interface.discretisation {
+        add("discretisation", model.kind(), model.as_dyn().faults());
+    }
+    let by_points = interface.kinematics.as_dyn().triangles()
+        || interface.facets == Some(FacetShape::Triangles);
+    if by_points && interface.discretisation().as_dyn().weighted().is_some() {
+        findings.add(
+            &["interface", name, "discretisation"],
+            "kinematics `pop-1995` and `facets = \"triangles\"` are for contact elements of a point and a facet",
+            "remove the key, or write discretisation.node-to-facet = {}",
+        );
+    }
+    if interface.tied {
+        let plain = Interface {
+            secondary: interface.secondary.clone(),
+            primary: interface.primary.clone(),
+            enforcement: enforcement.clone(),
+            discretisation: interface.discretisation.clone(),
+            kinematics: interface.kinematics.clone(),
+            facets: interface.facets,
+            tied: true,
+            normal: NormalModel::default(),
+            damping: DampingModel::default(),
+            friction: FrictionModel::default(),
+            slip: SlipModel::default(),
+            primary_velocity: None,
+            primary_velocity_table: None,
+        };
+        if plain != *interface {
+            findings.add(
+                &["interface", name, "tied"],
+                "laws and velocities have no meaning where surfaces are tied",
+                "remove normal, damping, friction, slip and primary-velocity, or `tied`",
+            );
+        }
+    }
     let triangles = interface.kinematics.as_dyn().triangles();
     if triangles && interface.facets == Some(FacetShape::Bilinear) {
         findings.add(

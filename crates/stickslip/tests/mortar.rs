@@ -1,0 +1,287 @@
+//! Surface-to-surface contact between meshes that do not match: uniform states come out uniform, whatever the cells.
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+use stickslip::problem::Document;
+use stickslip::simulation::Simulation;
+
+/// A cell kind by its number in Gmsh's format, and its nodes as corners of a hexahedron; middle nodes follow by edge.
+struct Kind {
+    name: &'static str,
+    code: usize,
+    cells: &'static [&'static [usize]],
+    edges: &'static [[usize; 2]],
+}
+
+const HEXAHEDRON: &[&[usize]] = &[&[0, 1, 2, 3, 4, 5, 6, 7]];
+const TETRAHEDRA: &[&[usize]] = &[
+    &[0, 1, 2, 6],
+    &[0, 2, 3, 6],
+    &[0, 3, 7, 6],
+    &[0, 7, 4, 6],
+    &[0, 4, 5, 6],
+    &[0, 5, 1, 6],
+];
+
+const KINDS: [Kind; 4] = [
+    Kind {
+        name: "hex8",
+        code: 5,
+        cells: HEXAHEDRON,
+        edges: &[],
+    },
+    Kind {
+        name: "tet4",
+        code: 4,
+        cells: TETRAHEDRA,
+        edges: &[],
+    },
+    Kind {
+        name: "hex20",
+        code: 17,
+        cells: HEXAHEDRON,
+        edges: &[
+            [0, 1],
+            [0, 3],
+            [0, 4],
+            [1, 2],
+            [1, 5],
+            [2, 3],
+            [2, 6],
+            [3, 7],
+            [4, 5],
+            [4, 7],
+            [5, 6],
+            [6, 7],
+        ],
+    },
+    Kind {
+        name: "tet10",
+        code: 11,
+        cells: TETRAHEDRA,
+        edges: &[[0, 1], [1, 2], [0, 2], [0, 3], [2, 3], [1, 3]],
+    },
+];
+
+/// A unit square column of one layer between two heights, its cells skewed at the height of `skewed`.
+fn mesh(kind: &Kind, cells: [usize; 2], heights: [f64; 2], skewed: f64) -> String {
+    let [nx, ny] = cells;
+    let corner = |i: usize, j: usize, z: f64| {
+        let (mut x, mut y) = (i as f64 / nx as f64, j as f64 / ny as f64);
+        if i > 0 && i < nx && j > 0 && j < ny && z == skewed {
+            // as good as random
+            let noise = |a: f64| (a * (1.3 + i as f64 + 2.7 * j as f64)).sin();
+            x += 0.2 * noise(12.9) / nx as f64;
+            y += 0.2 * noise(78.2) / ny as f64;
+        }
+        [x, y, z]
+    };
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    let mut known: BTreeMap<[i64; 3], usize> = BTreeMap::new();
+    let mut number = |p: [f64; 3]| {
+        let key = p.map(|x| (x * 1e9).round() as i64);
+        *known.entry(key).or_insert_with(|| {
+            points.push(p);
+            points.len()
+        })
+    };
+    let mut lines = String::new();
+    let mut count = 0;
+    for i in 0..nx {
+        for j in 0..ny {
+            let ring = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            let around: Vec<[f64; 3]> = (heights.iter())
+                .flat_map(|&z| ring.map(|(i, j)| corner(i, j, z)))
+                .collect();
+            for cell in kind.cells {
+                let at = |k: usize| around[cell[k]];
+                let mut nodes: Vec<usize> = (0..cell.len()).map(|k| number(at(k))).collect();
+                for &[a, b] in kind.edges {
+                    nodes.push(number([0, 1, 2].map(|c| 0.5 * (at(a)[c] + at(b)[c]))));
+                }
+                count += 1;
+                let nodes: Vec<String> = nodes.iter().map(usize::to_string).collect();
+                writeln!(lines, "{count} {} 2 1 1 {}", kind.code, nodes.join(" ")).unwrap();
+            }
+        }
+    }
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"all\"\n$EndPhysicalNames\n$Nodes\n{}\n",
+        points.len()
+    );
+    for (k, p) in points.iter().enumerate() {
+        writeln!(text, "{} {:?} {:?} {:?}", k + 1, p[0], p[1], p[2]).unwrap();
+    }
+    write!(text, "$EndNodes\n$Elements\n{count}\n{lines}$EndElements\n").unwrap();
+    text
+}
+
+/// Two blocks one on the other, the lower one held.
+fn blocks(poisson: f64, rest: &str) -> String {
+    let mut text = format!(
+        "format = 1\nmodel.space = \"solid\"\nmaterial.m.isotropic = {{ young = 1000.0, poisson = {poisson:?} }}\n"
+    );
+    for (body, low, high) in [("low", 0.0, 0.5), ("up", 0.5, 1.0)] {
+        writeln!(
+            text,
+            "body.{body} = {{ gmsh = {{ file = \"{body}.msh\" }}, material = \"m\" }}"
+        )
+        .unwrap();
+        let faces = [
+            ("bottom", [0.0, 0.0, low], [1.0, 1.0, low]),
+            ("top", [0.0, 0.0, high], [1.0, 1.0, high]),
+            ("left", [0.0, 0.0, low], [0.0, 1.0, high]),
+            ("right", [1.0, 0.0, low], [1.0, 1.0, high]),
+            ("front", [0.0, 0.0, low], [1.0, 0.0, high]),
+        ];
+        for (name, from, to) in faces {
+            writeln!(
+                text,
+                "set.{body}-{name} = {{ of = \"{body}.all\", box = {{ from = {from:?}, to = {to:?} }} }}"
+            )
+            .unwrap();
+        }
+    }
+    text + "load.top = { set = \"up-top\", pressure = { value = 1.0 } }\n\
+        step = [{ increments = { fixed = 1 } }]\nsolver.tolerance = 1e-13\n"
+        + rest
+}
+
+/// Largest deviations of pressure and shear from `pressure` and `shear` over the interface.
+fn deviation(folder: &Path, text: &str, pressure: f64, shear: f64) -> f64 {
+    let path = folder.join("case.toml");
+    std::fs::write(&path, text).expect("a file");
+    let document = Document::read(&path).unwrap_or_else(|e| panic!("{e}"));
+    let problem = document.problem().unwrap_or_else(|e| panic!("{e}"));
+    let model = problem.build(folder).unwrap_or_else(|e| panic!("{e}"));
+    let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let mut worst: f64 = 0.0;
+    for interface in &simulation.model.interfaces {
+        let (names, columns) = interface.table(&simulation.state.u);
+        let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
+        assert!(!column("CPRESS").is_empty());
+        for (p, s) in column("CPRESS").iter().zip(column("CSHEAR1")) {
+            worst = worst.max((p - pressure).abs()).max((s.abs() - shear).abs());
+        }
+    }
+    worst
+}
+
+/// Runs `text` for every pair of cell kinds, the meshes 2 × 3 against 3 × 2 and 3 × 3 against 4 × 5.
+fn every_pair(name: &str, text: &str, pressure: f64, shear: f64) {
+    for (cells, others) in [([2, 3], [3, 2]), ([3, 3], [4, 5])] {
+        for low in &KINDS {
+            for up in &KINDS {
+                let folder = support::folder(&format!("mortar-{name}-{}-{}", low.name, up.name));
+                let below = mesh(low, cells, [0.0, 0.5], 0.5);
+                let above = mesh(up, others, [0.5, 1.0], 0.5);
+                std::fs::write(folder.join("low.msh"), below).expect("a file");
+                std::fs::write(folder.join("up.msh"), above).expect("a file");
+                let worst = deviation(&folder, text, pressure, shear);
+                assert!(
+                    worst <= 1e-10,
+                    "{name}, {} under {}, {cells:?} under {others:?}: {worst:e}",
+                    low.name,
+                    up.name
+                );
+            }
+        }
+    }
+}
+
+const PRESSED: &str = r#"
+support.base = { set = "low-bottom", z = 0 }
+support.low-left = { set = "low-left", x = 0 }
+support.up-left = { set = "up-left", x = 0 }
+support.low-front = { set = "low-front", y = 0 }
+support.up-front = { set = "up-front", y = 0 }
+"#;
+
+/// A pressure of one passes from body to body as it is, in a body that spreads as well.
+#[test]
+fn a_uniform_pressure_stays_uniform() {
+    let text = blocks(
+        0.3,
+        &format!(
+            "{PRESSED}
+[interface.joint]
+secondary = \"up-bottom\"
+primary = \"low-top\"
+kinematics.small-sliding = {{}}
+enforcement.augmented-lagrangian = {{ error = 1e-13, factor = 1.0 }}
+"
+        ),
+    );
+    every_pair("pressure", &text, 1.0, 0.0);
+}
+
+/// Glued surfaces carry the same state, in compression and in tension.
+#[test]
+fn tied_surfaces_pass_uniform_states() {
+    let tied = format!(
+        "{PRESSED}
+[interface.joint]
+secondary = \"up-bottom\"
+primary = \"low-top\"
+tied = true
+kinematics.small-sliding = {{}}
+enforcement.augmented-lagrangian = {{ error = 1e-13, factor = 1.0 }}
+"
+    );
+    every_pair("tied", &blocks(0.3, &tied), 1.0, 0.0);
+    let pulled = blocks(0.3, &tied).replace("value = 1.0", "value = -1.0");
+    every_pair("pulled", &pulled, -1.0, 0.0);
+}
+
+/// Uniform shear below the limit sticks, and is carried uniformly.
+#[test]
+fn uniform_shear_sticks() {
+    let text = blocks(
+        0.0,
+        r#"
+support.base = { set = "low-bottom", x = 0, y = 0, z = 0 }
+load.push = { set = "up-top", traction = { value = [0.2, 0.0, 0.0] } }
+load.low-left = { set = "low-left", traction = { value = [0.0, 0.0, -0.2] } }
+load.low-right = { set = "low-right", traction = { value = [0.0, 0.0, 0.2] } }
+load.up-left = { set = "up-left", traction = { value = [0.0, 0.0, -0.2] } }
+load.up-right = { set = "up-right", traction = { value = [0.0, 0.0, 0.2] } }
+
+[interface.joint]
+secondary = "up-bottom"
+primary = "low-top"
+friction.coulomb = { mu = 0.5 }
+kinematics.small-sliding = {}
+enforcement.augmented-lagrangian = { error = 1e-13, factor = 1.0 }
+"#,
+    );
+    every_pair("stick", &text, 1.0, 0.2);
+}
+
+/// Uniform slip: the limit everywhere.
+#[test]
+fn uniform_slip_is_carried_at_the_limit() {
+    let text = blocks(
+        0.0,
+        r#"
+support.base = { set = "low-bottom", x = 0, y = 0, z = 0 }
+support.push = { set = "up-top", x = 0.01, y = 0 }
+load.low-left = { set = "low-left", traction = { value = [0.0, 0.0, -0.3] } }
+load.low-right = { set = "low-right", traction = { value = [0.0, 0.0, 0.3] } }
+load.up-left = { set = "up-left", traction = { value = [0.0, 0.0, -0.3] } }
+load.up-right = { set = "up-right", traction = { value = [0.0, 0.0, 0.3] } }
+
+[interface.joint]
+secondary = "up-bottom"
+primary = "low-top"
+friction.coulomb = { mu = 0.3 }
+kinematics.small-sliding = {}
+enforcement.augmented-lagrangian = { error = 1e-13, factor = 1.0 }
+"#,
+    );
+    every_pair("slip", &text, 1.0, 0.3);
+}
