@@ -53,7 +53,16 @@ fn normal(random: &mut Random, scale: &Scale) -> (&'static str, String, Option<f
     let yields = digits(scale.approach * random.spread(1e-3, 0.3));
     match random.whole(1, 20) {
         1..=10 => ("unilateral", String::new(), None),
-        11..=13 => {
+        // The micro-contact law is written for metres.
+        17..=18 if scale.metres => {
+            let sigma = random.spread(5e-7, 3e-6);
+            let c1 = digits(p * random.spread(100.0, 1000.0));
+            let line = format!(
+                "normal.micro-contact = {{ c1 = {c1:e}, c2 = -0.2, sigma = {sigma:e}, slope = 0.1 }}\n"
+            );
+            ("micro-contact", line, None)
+        }
+        11..=13 | 17..=18 => {
             let c = digits(p / yields);
             let line = format!("normal.linear = {{ c = {c:e} }}\n");
             ("linear", line, Some(yields))
@@ -63,14 +72,6 @@ fn normal(random: &mut Random, scale: &Scale) -> (&'static str, String, Option<f
             let c = digits(p / yields.powf(m));
             let line = format!("normal.power-law = {{ c = {c:e}, m = {m} }}\n");
             ("power-law", line, Some(yields))
-        }
-        17..=18 if scale.metres => {
-            let sigma = random.spread(5e-7, 3e-6);
-            let c1 = digits(p * random.spread(100.0, 1000.0));
-            let line = format!(
-                "normal.micro-contact = {{ c1 = {c1:e}, c2 = -0.2, sigma = {sigma:e}, slope = 0.1 }}\n"
-            );
-            ("micro-contact", line, None)
         }
         _ => {
             let rows = [[0.0, 0.0], [0.5, 0.25], [1.0, 1.0], [2.0, 4.0]];

@@ -13,23 +13,28 @@ pub struct Problem {
     pub text: String,
 }
 
-/// Meshes of a space: linear elements, quadratic ones, and cells along the length that counts, from and to.
+/// Meshes of a space.
 struct Meshes {
     linear: [&'static str; 2],
     quadratic: [&'static str; 2],
+    /// Cells along the length that counts, from and to.
     cells: [f64; 2],
+    /// How much longer they are where one of the bodies has quadratic elements.
+    quadratic_cells: f64,
 }
 
 const PLANE: Meshes = Meshes {
     linear: ["quad4", "tri3"],
     quadratic: ["quad8", "tri6"],
     cells: [20.0, 40.0],
+    quadratic_cells: 1.8,
 };
 
 const SOLID: Meshes = Meshes {
     linear: ["hex8", "tet4"],
     quadratic: ["hex20", "tet10"],
-    cells: [7.0, 12.0],
+    cells: [5.0, 8.0],
+    quadratic_cells: 2.0,
 };
 
 /// The problem of a seed. The bodies are elastic and their strains small; an equilibrium exists at every time.
@@ -70,16 +75,18 @@ pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
     let cells = random.between(meshes.cells[0], meshes.cells[1]);
     let ratio_of = |side: usize, fine: usize| if side == fine { 1.0 } else { ratio };
     let fine = random.whole(0, 1) as usize;
+    let coarser = match order {
+        [false, false] => 1.0,
+        _ => meshes.quadratic_cells,
+    };
     let contrast = random.spread(1e-3, 1e3);
     let base = random.spread(3e3, 2e5);
 
     let mut make = |side: usize| {
-        let quadratic = order[side];
-        let element = match quadratic {
+        let element = match order[side] {
             true => random.pick(&meshes.quadratic),
             false => random.pick(&meshes.linear),
         };
-        let coarser = if quadratic { 1.8 } else { 1.0 };
         let cell = digits(unit * length / cells * coarser * ratio_of(side, fine));
         let upper = side == 1;
         let form = forms[side];
