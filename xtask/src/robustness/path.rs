@@ -95,8 +95,10 @@ pub fn path(random: &mut Random, lower: &Body, upper: &Body, drive: &Drive) -> P
     let flats = lower.form == Form::Flat && upper.form == Form::Flat;
     let broad = flats && upper.width <= lower.width && !upper.mirrored;
     let words = match random.whole(1, 10) {
-        // The far side of a full disc has no facets of its own.
-        1..=2 if upper.form != Form::Round => by_force(random, &mut text, upper, drive),
+        // The far side of a full disc has no facets of its own, and a guide needs points at two heights.
+        1..=2 if upper.form != Form::Round && upper.depth() > 5.0 * upper.cell => {
+            by_force(random, &mut text, upper, drive)
+        }
         3 if broad && upper.space != Space::Axisymmetric => push(random, &mut text, upper, drive),
         _ => by_displacement(random, &mut text, upper, drive),
     };
@@ -191,7 +193,7 @@ fn by_force(random: &mut Random, text: &mut String, upper: &Body, drive: &Drive)
     }
     if along.is_some() {
         // Points at several heights, so that the body cannot turn.
-        let _ = writeln!(text, "\n[set.guide]\n{}", upper.above(0.6));
+        let _ = writeln!(text, "\n[set.guide]\n{}", upper.above(0.55));
         let _ = writeln!(
             text,
             "\n[amplitude]\nslide.table = [[2, 0], [3, 1], [4, 0.5]]"
