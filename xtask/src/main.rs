@@ -1,6 +1,7 @@
 //! Developer tasks: `cargo xtask TASK`.
 
 mod peers;
+mod robustness;
 mod schema;
 mod workspace;
 
@@ -13,6 +14,9 @@ tasks:
   schema                    write stickslip.schema.json, the JSON schema of problem files
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
+  robustness [--count N] [--first SEED] [--discretisation mortar|node-to-facet] [--keep DIR]
+                            run random problems of two bodies (default: seeds 1 to 200), and print a table and a summary in
+                            Markdown; results are kept in DIR, those of failures in any case
 
 figures:
   slide [N ...]             press-and-slide with N cells an edge (default 11 18), stick and slip
@@ -30,6 +34,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
         Some((task, what)) if task == "peers" => peers::compare(what),
+        Some((task, what)) if task == "robustness" => robustness::sweep(what),
         _ => Err(USAGE.to_string()),
     };
     match result {

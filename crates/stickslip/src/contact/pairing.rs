@@ -194,6 +194,8 @@ fn project_from(
 pub struct Beyond {
     /// Distance from the facet within its surface `[m]`; zero inside.
     pub distance: f64,
+    /// The place of the facet it is beyond; the projection itself inside.
+    pub from: Vec3,
     /// The edge it lies beyond, in the order of `surface::edges`; meaningless inside.
     pub edge: usize,
 }
@@ -234,6 +236,7 @@ pub fn beyond(kind: ElementKind, coordinates: &[Vec3], p: &FacetPoint) -> Beyond
     if inside == p.xi || (kind.dim() == 1 && inside[0] == p.xi[0]) {
         return Beyond {
             distance: 0.0,
+            from: p.x,
             edge,
         };
     }
@@ -244,12 +247,16 @@ pub fn beyond(kind: ElementKind, coordinates: &[Vec3], p: &FacetPoint) -> Beyond
     let x = weighted.fold([0.0; 3], |x, (&n, &c)| add_scaled(x, n, c));
     Beyond {
         distance: distance(p.x, x),
+        from: x,
         edge,
     }
 }
 
-/// Distance from `point` to the facet itself (not its extension), given its projection.
+/// Distance from `point` to the facet itself (not its extension), given its projection. The extension of a curved facet may come near to
+/// any place, and its height there says nothing about how far the facet is.
 pub fn facet_distance(point: Vec3, p: &FacetPoint, beyond: Beyond) -> f64 {
-    let height = dot(sub(point, p.x), p.normal);
-    height.hypot(beyond.distance)
+    if beyond.distance == 0.0 {
+        return dot(sub(point, p.x), p.normal).abs();
+    }
+    distance(point, beyond.from)
 }

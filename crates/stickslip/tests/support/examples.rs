@@ -22,6 +22,8 @@ macro_rules! every_example {
             greco = "greco",
             greco_compliance = "greco-compliance",
             impact_bar = "impact-bar",
+            ironing = "ironing",
+            leaving_face = "leaving-face",
             lug = "lug",
             patch_friction = "patch-friction",
             patch_matching = "patch-matching",

@@ -1,0 +1,158 @@
+//! One problem, run and judged by what it leaves behind.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// Finished, and the results are good.
+    Good,
+    /// Finished, but the quality gate did not let the results pass.
+    Gate,
+    /// Not finished.
+    Failed,
+    /// Refused before it began.
+    Refused,
+    /// Stopped after the limit of time.
+    Late,
+}
+
+impl End {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            End::Good => "good",
+            End::Gate => "gate",
+            End::Failed => "failed",
+            End::Refused => "refused",
+            End::Late => "late",
+        }
+    }
+}
+
+/// What came of a problem.
+pub struct Outcome {
+    /// How it ended.
+    pub end: End,
+    /// Wall time `[s]`.
+    pub seconds: f64,
+    /// Newton iterations of each accepted increment.
+    pub iterations: Vec<u64>,
+    /// All iterations, those of rejected attempts too.
+    pub total: u64,
+    /// Increments that were cut.
+    pub cutbacks: u64,
+    /// Displacement dofs.
+    pub dofs: u64,
+    /// Largest penetration over the elastic approach.
+    pub penetration: f64,
+    /// What the program said last, if something is wrong.
+    pub message: String,
+}
+
+/// Runs `case.toml` of a folder on one thread, for so long at most.
+pub fn run(binary: &Path, folder: &Path, limit: Duration) -> Result<Outcome, String> {
+    let say = |e: std::io::Error| format!("{}: {e}", folder.display());
+    let out = folder.join("case.out");
+    // What an earlier run left must not pass for the result of this one.
+    let _ = fs::remove_dir_all(&out);
+    let log = folder.join("log.txt");
+    let mut child = Command::new(binary)
+        .arg("run")
+        .arg(folder.join("case.toml"))
+        .args(["--threads", "1", "--quiet", "-o"])
+        .arg(&out)
+        .stdout(Stdio::null())
+        .stderr(File::create(&log).map_err(say)?)
+        .spawn()
+        .map_err(|e| format!("cannot run {}: {e}", binary.display()))?;
+    let started = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(say)? {
+            break Some(status);
+        }
+        if started.elapsed() > limit {
+            child.kill().map_err(say)?;
+            child.wait().map_err(say)?;
+            break None;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let seconds = started.elapsed().as_secs_f64();
+    let said = fs::read_to_string(&log).unwrap_or_default();
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap_or_default();
+    let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+    let history = fs::read_to_string(out.join("history.csv")).unwrap_or_default();
+    let end = match status.map(|s| s.code()) {
+        None => End::Late,
+        Some(Some(0)) => End::Good,
+        Some(Some(2)) => End::Gate,
+        Some(Some(1)) => End::Refused,
+        Some(_) => End::Failed,
+    };
+    let count = |key: &str| summary.pointer(key).and_then(Value::as_u64).unwrap_or(0);
+    let penetration = summary.pointer("/interfaces/0/relative-to-approach");
+    Ok(Outcome {
+        end,
+        seconds,
+        iterations: column(&history, "ITRS"),
+        total: count("/iterations"),
+        cutbacks: count("/cutbacks"),
+        dofs: count("/size/dofs"),
+        penetration: penetration.and_then(Value::as_f64).unwrap_or(0.0),
+        message: match end {
+            End::Good => String::new(),
+            End::Late => "stopped after the limit of time".to_string(),
+            _ => sentence(&summary, &said),
+        },
+    })
+}
+
+/// What is wrong, in one line: the first finding, or else the first line of error.
+fn sentence(summary: &Value, said: &str) -> String {
+    let finding = summary
+        .pointer("/findings/0/message")
+        .and_then(Value::as_str);
+    let lines: Vec<&str> = said.lines().filter(|l| !l.trim().is_empty()).collect();
+    let error = lines.iter().find(|l| l.trim_start().starts_with("error"));
+    let line = finding.or(error.copied()).or(lines.first().copied());
+    line.unwrap_or("nothing was said").trim().to_string()
+}
+
+/// The whole numbers of a column.
+fn column(csv: &str, name: &str) -> Vec<u64> {
+    let mut lines = csv.lines();
+    let heads = lines.next().unwrap_or_default();
+    let Some(place) = heads.split(',').position(|head| head == name) else {
+        return Vec::new();
+    };
+    lines
+        .filter_map(|line| line.split(',').nth(place)?.parse::<f64>().ok())
+        .map(|number| number as u64)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{column, sentence};
+    use serde_json::json;
+
+    #[test]
+    fn iterations_are_read_by_the_head_of_their_column() {
+        assert_eq!(column("STEP,ITRS\n1,4\n1,7\n", "ITRS"), [4, 7]);
+        assert!(column("", "ITRS").is_empty());
+    }
+
+    #[test]
+    fn a_finding_says_more_than_a_log() {
+        let said = "a note\nerror: step 1 failed\nhelp: no";
+        assert_eq!(sentence(&json!({}), said), "error: step 1 failed");
+        let summary = json!({ "findings": [{ "message": "nothing holds the block" }] });
+        assert_eq!(sentence(&summary, said), "nothing holds the block");
+    }
+}
