@@ -184,6 +184,29 @@ fn bits(case: &Path, overrides: &[String], threads: usize) -> Vec<u64> {
         .collect()
 }
 
+/// Between two increments the blocks part and meet exactly where they were: there are no forces but rounding.
+#[test]
+fn a_path_may_pass_through_the_unloaded_state() {
+    let text = r#"
+        format = 1
+        model.space = "plane-strain"
+        body.lower = { generate.rectangle = { from = [-1, -1], to = [1, 0], cells = [8, 4] }, material = "steel" }
+        body.upper = { generate.rectangle = { from = [-0.5, 0], to = [0.5, 1], cells = [5, 5] }, material = "steel" }
+        material.steel.isotropic = { young = 1e5, poisson = 0.3 }
+        interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.3 }
+        support.base = { set = "lower.bottom", x = 0, y = 0 }
+        support.aside = { set = "upper.top", x = 0 }
+        support.press = { set = "upper.top", y = -1e-3, amplitude = "press" }
+        amplitude.press.table = [[0, 0], [1, 1], [2, -0.2]]
+        solver.method = "condensed"
+        step = [{ increments.fixed = 4 }, { increments.fixed = 6 }]
+    "#;
+    let problem = Document::new(text, None).problem().expect("a problem");
+    let model = problem.build(Path::new(".")).expect("a model");
+    let (states, _) = run(Simulation::new(model).expect("a simulation"));
+    assert_eq!(states.times.len(), 10);
+}
+
 #[test]
 fn bits_do_not_depend_on_threads() {
     let cells = |n: usize, body: &str| format!("body.{body}.generate.box.cells=[{n},{n},{n}]");

@@ -46,6 +46,9 @@ pub(super) struct Condensed {
 /// Out-of-balance force relative to the forces in play that rounding may leave in the interior.
 pub(super) const LEFT: f64 = 1e-7;
 
+/// Forces that are none, relative to the largest there were in the analysis.
+const NOTHING: f64 = 1e-12;
+
 impl Condensed {
     pub(super) fn forget_direction(&mut self) {
         self.previous = None;
@@ -494,8 +497,11 @@ impl Simulation {
         }
         let contact: f64 = accepted.contact.iter().map(|c| c * c).sum();
         let size = size.max(reactions).max(contact).sqrt();
+        self.largest_forces = self.largest_forces.max(size);
         let limit = ((10.0 * self.model.settings.tolerance).max(LEFT) * size)
-            .max(1e4 * f64::EPSILON * rounding.sqrt());
+            .max(1e4 * f64::EPSILON * rounding.sqrt())
+            // Where a path passes through the unloaded state, there is nothing but rounding in play.
+            .max(NOTHING * self.largest_forces);
         if left.sqrt() > limit || left.is_nan() {
             return Err(StepFailure::new(
                 Cause::LinearSolver,

@@ -36,6 +36,8 @@ pub struct Simulation {
     /// Points that may come into contact, and how often they were too few.
     pub(super) kept: Option<Vec<bool>>,
     pub(super) widened: usize,
+    /// Largest norm of the forces in play at any recovered increment.
+    pub(super) largest_forces: f64,
     /// The dofs that are no unknowns for which condensing was found the cheapest.
     pub(super) decided: Option<Vec<bool>>,
     pub(super) notes: Vec<String>,
@@ -164,6 +166,7 @@ impl Simulation {
             },
             kept: None,
             widened: 0,
+            largest_forces: 0.0,
             decided: None,
             notes: Vec::new(),
             seen: Vec::new(),

@@ -281,12 +281,16 @@ impl Interface {
         }
         let size = Self::facet_size(facet, &p);
         let over = beyond(facet.kind, nodes, &p);
+        // A facet is extended for points near its edge. Behind the plane of a distant one lie points that no facet nearby faces, such as
+        // those on the far side of a ball.
+        let behind = dot(sub(position, p.x), p.normal) < 0.0;
+        let extended = facet.continues[over.edge] && !(behind && over.distance > size);
         Some(Look {
             p,
             size,
             away: facet_distance(position, &p, over),
             beyond: over.distance,
-            carried: over.distance <= self.edge_tolerance * size || facet.continues[over.edge],
+            carried: over.distance <= self.edge_tolerance * size || extended,
         })
     }
 
@@ -328,8 +332,7 @@ impl Interface {
             let look = if f == first {
                 seed.take()
             } else {
-                // Beyond a curved facet `away` is the sum of two sides, as of a right triangle: at least 1/√2 of the true distance. The
-                // summand leaves room for ties.
+                // Beyond a facet `away` is the distance to a place of it, at least that to its box. The summand leaves room for ties.
                 let limit = 1.5 * (nearest + 1e-8 * self.memory.margin);
                 if box_distance2(f) > limit * limit {
                     continue;
