@@ -200,7 +200,7 @@ pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
         text.push_str("kinematics.small-sliding = {}\n");
     }
     if let Some(word) = discretisation {
-        text.push_str(&format!("discretisation = \"{word}\"\n"));
+        text.push_str(&format!("discretisation.{word} = {{}}\n"));
     }
     text.push('\n');
     text.push_str(&path.text);
@@ -238,7 +238,7 @@ mod tests {
     fn the_discretisation_is_all_that_differs() {
         let (with, without) = (problem(7, Some("mortar")), problem(7, None));
         assert_eq!(
-            with.text.replace("discretisation = \"mortar\"\n", ""),
+            with.text.replace("discretisation.mortar = {}\n", ""),
             without.text
         );
     }
