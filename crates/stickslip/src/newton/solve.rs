@@ -27,7 +27,7 @@ pub struct System<'a> {
 /// An equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Converged {
-    /// Newton iterations, over all multiplier updates.
+    /// Newton iterations, over all multiplier updates and all that was tried.
     pub iterations: usize,
     /// Multiplier updates.
     pub rounds: usize,
@@ -97,8 +97,10 @@ impl Newton {
         system.constraints.impose(&mut at.u);
         system.links.impose(&mut at.u);
         let guess = at.u.clone();
+        let begun = self.statistics.iterations;
         self.fallbacks.clear();
         self.course = Course::Plain;
+        hold(system, false);
         restart(system, at, &guess);
         let failure = match self.rounds(system, from, at, log) {
             Err(failure) if !matches!(failure.cause, Cause::NotFinite | Cause::Reach) => failure,
@@ -123,8 +125,11 @@ impl Newton {
                 iterations: self.statistics.iterations - before,
                 converged: outcome.is_ok(),
             });
-            if outcome.is_ok() {
-                return outcome;
+            if let Ok(converged) = outcome {
+                return Ok(Converged {
+                    iterations: self.statistics.iterations - begun,
+                    ..converged
+                });
             }
         }
         Err(failure)
@@ -143,9 +148,18 @@ impl Newton {
         match course {
             Course::Plain => None,
             Course::StatusMemory => {
-                // It goes on from where the points went to and fro.
-                let held: usize = system.contact.iter_mut().map(|f| f.steady(true)).sum();
-                (held > 0).then(|| self.rounds(system, from, at, log))
+                // It goes on from where the points went to and fro; if that is no good place, it starts again with those points sticking.
+                if hold(system, true) == 0 {
+                    hold(system, false);
+                    return None;
+                }
+                let mut outcome = self.rounds(system, from, at, log);
+                if outcome.is_err() {
+                    restart(system, at, guess);
+                    outcome = self.rounds(system, from, at, log);
+                }
+                hold(system, false);
+                Some(outcome)
             }
             Course::LineSearch => {
                 restart(system, at, guess);
@@ -324,7 +338,11 @@ impl Newton {
                     contact: std::mem::take(&mut out.residual),
                 });
             }
-            if iteration == settings.max_iterations {
+            // Points that keep changing status are better held than given more time.
+            let chatter = self.course == Course::Plain
+                && stalled(&residuals)
+                && system.contact.iter().any(|f| f.restless() > 0);
+            if chatter || iteration == settings.max_iterations {
                 break;
             }
             b.fill(0.0);
@@ -467,7 +485,7 @@ impl Newton {
                 Cause::NotConverged,
                 format!(
                     "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",
-                    settings.max_iterations,
+                    residuals.len() - 1,
                     last.join(", ")
                 ),
             )
@@ -535,7 +553,10 @@ const MERIT_HALVINGS: usize = 10;
 const ARMIJO: f64 = 1e-4;
 
 /// How often the choices of points that keep changing status are exchanged.
-const MOST_EXCHANGES: usize = 12;
+const MOST_EXCHANGES: usize = 20;
+
+/// Iterations after which a residual that has not fallen counts as stalled.
+const STALL: usize = 8;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
@@ -566,6 +587,21 @@ fn restart(system: &mut System, at: &mut State, guess: &[f64]) {
         force.begin();
     }
     system.bulk.begin();
+}
+
+/// Whether the last iterations have not brought the residual down by an order of magnitude.
+fn stalled(residuals: &[f64]) -> bool {
+    let Some(split) = residuals.len().checked_sub(STALL) else {
+        return false;
+    };
+    let (before, after) = residuals.split_at(split);
+    let least = |r: &[f64]| r.iter().copied().fold(f64::INFINITY, f64::min);
+    before.len() >= STALL && least(after) > 0.1 * least(before)
+}
+
+/// Holds points that keep changing status from now on, or no more; returns how many there are.
+fn hold(system: &mut System, on: bool) -> usize {
+    system.contact.iter_mut().map(|f| f.steady(on)).sum()
 }
 
 /// Softens stick; `false` if there is none.

@@ -124,6 +124,11 @@ pub trait Force: Send {
         false
     }
 
+    /// How many points have changed status or the direction of slip several times in this attempt.
+    fn restless(&self) -> usize {
+        0
+    }
+
     /// From now on, in this attempt: points that keep changing status keep a choice until the rest has settled. Returns how many there are.
     fn steady(&mut self, _on: bool) -> usize {
         0

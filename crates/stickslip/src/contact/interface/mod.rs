@@ -582,6 +582,10 @@ impl Force for Interface {
         self.laws.friction.as_dyn().frictional()
     }
 
+    fn restless(&self) -> usize {
+        self.memory.steady.restless()
+    }
+
     fn steady(&mut self, on: bool) -> usize {
         self.memory.steady.engage(on)
     }

@@ -13,6 +13,9 @@ use crate::math::{Vec3, add_scaled, dot, norm, scale};
 /// Changes of status or reversals of slip after which a point is held.
 const MOST_CHANGES: u32 = 3;
 
+/// How often all choices may be exchanged without fewer being refused.
+const MOST_IDLE: u32 = 1;
+
 /// What a point is held in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Choice {
@@ -30,6 +33,8 @@ struct Course {
     shear: Vec3,
     changes: u32,
     held: Option<Choice>,
+    /// How often it has been closed while it was held.
+    closed: u32,
 }
 
 /// What the points of an interface did, and what they are held in.
@@ -37,13 +42,22 @@ struct Course {
 pub(super) struct Steady {
     on: bool,
     points: Vec<Course>,
+    /// The fewest choices that the laws have refused so far, and how often there were not fewer since.
+    fewest: Option<usize>,
+    idle: u32,
 }
 
 impl Steady {
-    /// A new attempt.
+    /// A new attempt. While points are being held those that were go on, sticking.
     pub fn clear(&mut self) {
-        self.on = false;
-        self.points.clear();
+        for p in &mut self.points {
+            *p = Course {
+                held: p.held.filter(|_| self.on).map(|_| Choice::Stick),
+                ..Course::default()
+            };
+        }
+        self.fewest = None;
+        self.idle = 0;
     }
 
     /// Takes note of an iterate.
@@ -63,6 +77,12 @@ impl Steady {
                 p.hold();
             }
         }
+    }
+
+    /// Points that have changed often.
+    pub fn restless(&self) -> usize {
+        let often = self.points.iter().filter(|p| p.changes >= MOST_CHANGES);
+        often.count()
     }
 
     /// Holds points from now on; returns how many there are.
@@ -108,10 +128,14 @@ impl Interface {
 
     /// Checks what points are held in against the laws. While the laws refuse something, that is exchanged for what they want; when they refuse
     /// nothing all points are let go. Returns how many points were held.
+    ///
+    /// All refused choices are exchanged at once as long as fewer and fewer are refused, after that one at a time: the first goes round in a circle at
+    /// times, the second does not where friction is moderate (Júdice and Pires; Murty).
     pub(super) fn reconsider_held(&mut self) -> usize {
         let memory = &mut self.memory;
         let set_valued = self.laws.normal.as_dyn().pressure(0.0).is_none();
-        let (mut held, mut refused) = (0, 0);
+        let mut held = 0;
+        let mut refused = Vec::new();
         for (i, (p, e)) in (memory.steady.points.iter_mut().zip(&memory.last.points)).enumerate() {
             let Some(choice) = p.held else {
                 continue;
@@ -124,7 +148,15 @@ impl Interface {
                 Choice::Open => {
                     let rest = memory.rest.get(i).copied().unwrap_or(0.0);
                     let pulled = memory.multipliers[i].centre_pressure / e.normal_stiffness;
-                    (pulled > e.gap - rest).then_some(Choice::Stick)
+                    let slid = norm(e.moved);
+                    (pulled > e.gap - rest).then(|| {
+                        // It opened when it stuck: then it may slide.
+                        if p.closed % 2 == 1 && slid > 0.0 {
+                            Choice::Slip(scale(-1.0 / slid, e.moved))
+                        } else {
+                            Choice::Stick
+                        }
+                    })
                 }
                 _ if r.traction[0] <= 0.0 && set_valued => Some(Choice::Open),
                 Choice::Stick => (size > r.limit).then(|| Choice::Slip(scale(1.0 / size, shear))),
@@ -132,13 +164,25 @@ impl Interface {
                     (dot(direction, e.moved) > 0.0).then_some(Choice::Stick)
                 }
             };
-            if wanted.is_some() {
-                p.held = wanted;
-                refused += 1;
-            }
+            refused.extend(wanted.map(|wanted| (i, wanted)));
         }
-        if refused == 0 {
-            for p in &mut memory.steady.points {
+        let steady = &mut memory.steady;
+        if steady.fewest.is_none_or(|fewest| refused.len() < fewest) {
+            steady.fewest = Some(refused.len());
+            steady.idle = 0;
+        } else {
+            steady.idle += 1;
+        }
+        let all = steady.idle <= MOST_IDLE;
+        let first = if all { 0 } else { refused.len().saturating_sub(1) };
+        for &(i, wanted) in &refused[first..] {
+            let p = &mut steady.points[i];
+            p.closed += u32::from(p.held == Some(Choice::Open));
+            p.held = Some(wanted);
+        }
+        if refused.is_empty() {
+            steady.fewest = None;
+            for p in &mut steady.points {
                 if p.held.is_some() {
                     *p = Course::default();
                 }
