@@ -1,5 +1,6 @@
 //! Developer tasks: `cargo xtask TASK`.
 
+mod chatter;
 mod peers;
 mod robustness;
 mod schema;
@@ -12,6 +13,7 @@ usage: cargo xtask TASK
 
 tasks:
   schema                    write stickslip.schema.json, the JSON schema of problem files
+  chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
   robustness [--count N] [--first SEED] [--discretisation mortar|node-to-facet] [--keep DIR]
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
+        Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "peers" => peers::compare(what),
         Some((task, what)) if task == "robustness" => robustness::sweep(what),
         _ => Err(USAGE.to_string()),

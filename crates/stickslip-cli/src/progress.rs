@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use stickslip::Error;
+use stickslip::newton::Course;
 use stickslip::simulation::{Event, Observer, Simulation};
 
 /// Prints what happens.
@@ -52,7 +53,7 @@ impl Observer for Progress {
             }
             Event::Iteration(p) if self.verbose => {
                 say(&format!(
-                    "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}",
+                    "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}{}",
                     p.round,
                     p.iteration,
                     p.residual,
@@ -61,7 +62,11 @@ impl Observer for Progress {
                     p.tally.open,
                     p.tally.stick,
                     p.tally.slip,
-                    p.tally.changed
+                    p.tally.changed,
+                    match p.course {
+                        Course::Plain => String::new(),
+                        course => format!("  ({})", course.name()),
+                    }
                 ));
             }
             Event::Note(text) => say(&format!("  {text}")),

@@ -10,7 +10,7 @@ mod plot;
 mod shapes;
 mod slide;
 mod sweep;
-mod table;
+pub mod table;
 mod threads;
 
 use bench::Bench;

@@ -5,7 +5,7 @@ use super::kinematics::Stencil;
 use super::law::damping::DampingModel;
 use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
 use super::law::normal::{NormalLaw, NormalModel};
-use super::law::slip::{SlipModel, SlipRule, Tangential};
+use super::law::slip::{SlipModel, SlipRule, SlipState, Tangential};
 
 /// The laws of an interface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -62,6 +62,22 @@ pub struct Circumstances {
     pub sticking: bool,
     /// Closing velocity over the increment `[m/s]`.
     pub closing: f64,
+    /// What the point does whatever the laws say; `None` but where it has gone to and fro.
+    pub held: Option<Held>,
+    /// Part of the limit of friction that acts `[-]`; one but in a continuation.
+    pub mobilised: f64,
+}
+
+/// A status that a point is held in until the rest has settled. The branch of the laws that belongs to it goes on where they would leave it, so
+/// that what is solved is smooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Held {
+    /// Nothing acts, even if the point penetrates.
+    Open,
+    /// In contact even if that takes tension, sticking even beyond the limit.
+    Stick,
+    /// In contact even if that takes tension, and sliding: shear traction in this direction, given in the frame, with length one.
+    Slip([f64; 2]),
 }
 
 /// Status of a contact point.
@@ -170,10 +186,14 @@ impl Laws {
         if self.tied {
             return tie(stencil, at);
         }
+        if at.held == Some(Held::Open) {
+            return Response::default();
+        }
         let mut response = self.press(stencil.gap - at.rest, at, unknown);
         let pressure = response.traction[0];
         let friction: &dyn FrictionLaw = self.friction.as_dyn();
-        if pressure > 0.0 {
+        let pressed = pressure > 0.0 || at.held.is_some();
+        if pressed {
             response.status = if friction.frictional() {
                 Status::Stick
             } else {
@@ -185,7 +205,7 @@ impl Laws {
                 response.d_gap[i][i] = -at.touching;
             }
         }
-        if !friction.frictional() || pressure <= 0.0 {
+        if !friction.frictional() || !pressed {
             return response;
         }
         self.shear(stencil, at, unknown, &mut response);
@@ -199,11 +219,16 @@ impl Laws {
         if unknown && normal.pressure(gap).is_none() {
             let keep = 1.0 - at.weight / at.normal_stiffness;
             let p = keep * at.multiplier[0] + (1.0 - keep) * at.centre[0] - at.weight * gap;
-            if p > 0.0 {
+            if p > 0.0 || at.held.is_some() {
                 response.traction[0] = p;
                 response.d_gap[0][0] = -at.weight;
                 response.d_multiplier[0][0] = keep;
             }
+            return response;
+        }
+        if at.held.is_some() && normal.pressure(gap).is_none() {
+            response.traction[0] = -at.normal_stiffness * gap;
+            response.d_gap[0][0] = -at.normal_stiffness;
             return response;
         }
         let p = pressure(normal, gap, at.normal_stiffness);
@@ -259,18 +284,35 @@ impl Laws {
             slack: at.slack,
         };
         let path = motion.length(motion.slip);
-        let limit = self.friction.as_dyn().limit(&FrictionPoint {
-            pressure: response.traction[0],
+        let mut limit = self.friction.as_dyn().limit(&FrictionPoint {
+            pressure: response.traction[0].max(0.0),
             penetration: (-stencil.gap).max(0.0),
             speed: path / at.dt,
             sticking: at.sticking,
         });
+        limit.value *= at.mobilised;
+        limit.d_pressure *= at.mobilised;
+        limit.d_penetration *= at.mobilised;
+        limit.d_speed *= at.mobilised;
+        if response.traction[0] < 0.0 {
+            limit.d_pressure = 0.0;
+        }
         let motion = Tangential {
             smoothing: at.softness * limit.value / at.dt,
             ..motion
         };
         let rule: &dyn SlipRule = self.slip.as_dyn();
-        let shear = rule.traction(limit.value, &motion);
+        let shear = match at.held {
+            None | Some(Held::Open) => rule.traction(limit.value, &motion),
+            Some(Held::Stick) => rule.stuck(limit.value, &motion),
+            Some(Held::Slip(direction)) => SlipState {
+                traction: direction.map(|d| limit.value * d),
+                d_limit: direction,
+                sliding: true,
+                sliding_path: motion.slip,
+                ..SlipState::default()
+            },
+        };
         response.limit = limit.value;
         response.sliding_path = at.path.unwrap_or(shear.sliding_path);
         if shear.sliding {

@@ -6,6 +6,7 @@
 
 mod bulk;
 pub mod condensed;
+mod course;
 mod grids;
 mod linearised;
 mod settings;
@@ -13,6 +14,7 @@ mod solve;
 mod whole;
 
 pub use bulk::Bulk;
+pub use course::{Course, Fallback};
 pub use grids::Places;
 pub use linearised::{Linearised, Operator};
 pub use settings::{Progress, Settings, Statistics};

@@ -1,3 +1,4 @@
+use super::course::Course;
 use crate::system::Tally;
 
 /// Dimensionless settings of the iteration.
@@ -38,6 +39,8 @@ pub struct Statistics {
     pub augmentations: usize,
     /// Increments reached by continuation from softer friction, after a plain iteration had failed.
     pub continuations: usize,
+    /// Ways other than plain iteration that were tried.
+    pub fallbacks: usize,
     /// Symbolic factorisations.
     pub analyses: usize,
     /// Numeric factorisations.
@@ -101,4 +104,6 @@ pub struct Progress {
     pub krylov: usize,
     /// Points by status.
     pub tally: Tally,
+    /// The way it belongs to.
+    pub course: Course,
 }

@@ -1,6 +1,7 @@
 use std::time::Instant;
 
 use super::bulk::Bulk;
+use super::course::{Course, Fallback, PARTS, WINDOW};
 use super::settings::{Progress, Settings, Statistics};
 use crate::system::{
     Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
@@ -26,7 +27,7 @@ pub struct System<'a> {
 /// An equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Converged {
-    /// Newton iterations, over all multiplier updates.
+    /// Newton iterations, over all multiplier updates and all that was tried.
     pub iterations: usize,
     /// Multiplier updates.
     pub rounds: usize,
@@ -47,6 +48,9 @@ pub struct Newton {
     pub settings: Settings,
     /// Counts since the start.
     pub statistics: Statistics,
+    /// What was tried in the last solution when plain iteration had failed, in this order.
+    pub fallbacks: Vec<Fallback>,
+    course: Course,
 }
 
 /// A residual and what it is compared with.
@@ -59,6 +63,8 @@ struct Balance {
     scale: f64,
     /// What rounding leaves of the forces.
     floor: f64,
+    /// The merit function: out-of-balance forces and residuals of multipliers.
+    merit: f64,
 }
 
 impl Balance {
@@ -91,37 +97,122 @@ impl Newton {
         system.constraints.impose(&mut at.u);
         system.links.impose(&mut at.u);
         let guess = at.u.clone();
-        for force in &mut system.contact {
-            force.begin();
-        }
-        system.bulk.begin();
+        let begun = self.statistics.iterations;
+        self.fallbacks.clear();
+        self.course = Course::Plain;
+        hold(system, false);
+        restart(system, at, &guess);
         let failure = match self.rounds(system, from, at, log) {
             Err(failure) if !matches!(failure.cause, Cause::NotFinite | Cause::Reach) => failure,
             outcome => return outcome,
         };
-        // Continuation: stick that yields like the bodies first, then ever more stiffly, each from the solution before. What holds a
-        // body may be far softer than the body itself: then so must stick be.
-        for first in [1.0, 1e-3, 1e-6, 1e-9] {
-            at.u.clone_from(&guess);
-            system.bulk.begin();
-            let mut softened = false;
-            for force in &mut system.contact {
-                force.begin();
-                softened |= force.soften(Some(first));
-            }
-            if !softened {
-                return Err(failure);
-            }
-            self.statistics.continuations += 1;
-            let outcome = self.continuation(first, system, from, at, log);
-            for force in &mut system.contact {
-                force.soften(None);
-            }
-            if outcome.is_ok() {
-                return outcome;
+        for course in [
+            Course::StatusMemory,
+            Course::LineSearch,
+            Course::SofterStick,
+            Course::PartialFriction,
+        ] {
+            let before = self.statistics.iterations;
+            self.course = course;
+            let outcome = self.follow(course, system, from, at, &guess, log);
+            self.course = Course::Plain;
+            let Some(outcome) = outcome else {
+                continue;
+            };
+            self.statistics.fallbacks += 1;
+            self.fallbacks.push(Fallback {
+                kind: course,
+                iterations: self.statistics.iterations - before,
+                converged: outcome.is_ok(),
+            });
+            if let Ok(converged) = outcome {
+                return Ok(Converged {
+                    iterations: self.statistics.iterations - begun,
+                    ..converged
+                });
             }
         }
         Err(failure)
+    }
+
+    /// Tries one way; `None` if it does not apply.
+    fn follow(
+        &mut self,
+        course: Course,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        guess: &[f64],
+        log: &mut dyn FnMut(&Progress),
+    ) -> Option<Result<Converged, StepFailure>> {
+        match course {
+            Course::Plain => None,
+            Course::StatusMemory => {
+                // It goes on from where the points went to and fro; if that is no good place, it starts again with those points sticking.
+                if hold(system, true) == 0 {
+                    hold(system, false);
+                    return None;
+                }
+                let mut outcome = self.rounds(system, from, at, log);
+                if outcome.is_err() {
+                    restart(system, at, guess);
+                    outcome = self.rounds(system, from, at, log);
+                }
+                hold(system, false);
+                Some(outcome)
+            }
+            Course::LineSearch => {
+                restart(system, at, guess);
+                Some(self.rounds(system, from, at, log))
+            }
+            Course::SofterStick => {
+                // What holds a body may be far softer than the body itself: then so must stick be.
+                let mut last = None;
+                for first in [1.0, 1e-3, 1e-6, 1e-9] {
+                    restart(system, at, guess);
+                    if !soften(system, Some(first)) {
+                        return None;
+                    }
+                    self.statistics.continuations += 1;
+                    let outcome = self.continuation(first, system, from, at, log);
+                    soften(system, None);
+                    let done = outcome.is_ok();
+                    last = Some(outcome);
+                    if done {
+                        break;
+                    }
+                }
+                last
+            }
+            Course::PartialFriction => {
+                restart(system, at, guess);
+                if !mobilise(system, Some(PARTS[0])) {
+                    return None;
+                }
+                let outcome = self.mobilisation(system, from, at, log);
+                mobilise(system, None);
+                Some(outcome)
+            }
+        }
+    }
+
+    /// Equilibria under ever more friction, each from the one before.
+    fn mobilisation(
+        &mut self,
+        system: &mut System,
+        from: &State,
+        at: &mut State,
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
+        let mut iterations = 0;
+        for part in PARTS {
+            mobilise(system, Some(part));
+            iterations += self.equilibrium(system, from, at, 0, log)?.iterations;
+        }
+        mobilise(system, None);
+        let mut converged = self.rounds(system, from, at, log)?;
+        converged.iterations += iterations;
+        Ok(converged)
     }
 
     fn continuation(
@@ -140,14 +231,10 @@ impl Newton {
             if factor > last {
                 break;
             }
-            for force in &mut system.contact {
-                force.soften(Some(factor));
-            }
+            soften(system, Some(factor));
             iterations += self.equilibrium(system, from, at, 0, log)?.iterations;
         }
-        for force in &mut system.contact {
-            force.soften(None);
-        }
+        soften(system, None);
         let mut converged = self.rounds(system, from, at, log)?;
         converged.iterations += iterations;
         Ok(converged)
@@ -163,9 +250,21 @@ impl Newton {
     ) -> Result<Converged, StepFailure> {
         let mut total = 0;
         let mut round = 0;
+        let mut exchanges = 0;
         loop {
             let mut converged = self.equilibrium(system, from, at, round, log)?;
             total += converged.iterations;
+            let held: usize = system.contact.iter_mut().map(|f| f.reconsider()).sum();
+            if held > 0 {
+                exchanges += 1;
+                if exchanges > MOST_EXCHANGES {
+                    return Err(StepFailure {
+                        culprits: diagnose(system),
+                        ..StepFailure::new(Cause::NotConverged, "points keep changing status")
+                    });
+                }
+                continue;
+            }
             let rate = system.rate;
             let stage = Stage {
                 from,
@@ -215,6 +314,8 @@ impl Newton {
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();
+        let strict_merit = self.course == Course::LineSearch;
+        let mut merits = [balance.merit; WINDOW];
         // Residual at which steps began to have to gain; they have to until a hundredth of it is left.
         let mut strict: f64 = 0.0;
         for iteration in 0..=settings.max_iterations {
@@ -237,7 +338,11 @@ impl Newton {
                     contact: std::mem::take(&mut out.residual),
                 });
             }
-            if iteration == settings.max_iterations {
+            // Points that keep changing status are better held than given more time.
+            let chatter = self.course == Course::Plain
+                && stalled(&residuals)
+                && system.contact.iter().any(|f| f.restless() > 0);
+            if chatter || iteration == settings.max_iterations {
                 break;
             }
             b.fill(0.0);
@@ -282,6 +387,7 @@ impl Newton {
                 (false, true) => 1e3,
                 (false, false) => 10.0,
             };
+            let most_merit = merits.iter().copied().fold(0.0, f64::max);
             let start = at.u.clone();
             let mut step = 1.0;
             let mut best: Option<(f64, f64)> = None;
@@ -297,7 +403,11 @@ impl Newton {
                 // Most full steps are taken: their tangent is made at once.
                 out.tentative = halvings == 0;
                 balance = self.evaluate(system, from, at, &mut out, halvings == 0)?;
-                let now = balance.norm.max(out.multiplier_residual);
+                let now = if strict_merit {
+                    balance.merit
+                } else {
+                    balance.norm.max(out.multiplier_residual)
+                };
                 if now.is_finite() && best.is_none_or(|(b, _)| now < b) {
                     best = Some((now, step));
                 }
@@ -305,9 +415,15 @@ impl Newton {
                 let lost = now.is_nan() || now > LOST * before;
                 let most = match settings.line_search {
                     n if n > 0 && lost => MOST_HALVINGS,
+                    _ if strict_merit => MERIT_HALVINGS,
                     n => n,
                 };
-                if now <= patience * before || halvings >= most {
+                let good = if strict_merit {
+                    now <= (1.0 - ARMIJO * step) * most_merit
+                } else {
+                    now <= patience * before
+                };
+                if good || halvings >= most {
                     break;
                 }
                 halvings += 1;
@@ -319,7 +435,12 @@ impl Newton {
                     ..StepFailure::new(Cause::NotFinite, "the forces are not finite")
                 });
             };
-            let step = if halvings >= settings.line_search {
+            let tried = if strict_merit {
+                MERIT_HALVINGS
+            } else {
+                settings.line_search
+            };
+            let step = if halvings >= tried {
                 chosen
             } else {
                 step
@@ -340,7 +461,9 @@ impl Newton {
                 }
                 balance = self.evaluate(system, from, at, &mut out, true)?;
             }
+            merits[iteration % WINDOW] = balance.merit;
             log(&Progress {
+                course: self.course,
                 iteration,
                 round,
                 residual: reported,
@@ -362,7 +485,7 @@ impl Newton {
                 Cause::NotConverged,
                 format!(
                     "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",
-                    settings.max_iterations,
+                    residuals.len() - 1,
                     last.join(", ")
                 ),
             )
@@ -412,6 +535,7 @@ impl Newton {
         Ok(Balance {
             forces,
             norm: norm.sqrt(),
+            merit: (norm + out.multiplier_merit).sqrt(),
             scale: others.max(contact.sqrt()),
             floor: (out.rounding + bulk).sqrt(),
         })
@@ -423,6 +547,16 @@ const LOST: f64 = 1e4;
 
 /// Most halvings even so.
 const MOST_HALVINGS: usize = 40;
+
+/// Most halvings of a step that has to reduce the merit function, and by how much it has to, relative to what Newton's direction promises.
+const MERIT_HALVINGS: usize = 10;
+const ARMIJO: f64 = 1e-4;
+
+/// How often the choices of points that keep changing status are exchanged.
+const MOST_EXCHANGES: usize = 20;
+
+/// Iterations after which a residual that has not fallen counts as stalled.
+const STALL: usize = 8;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
@@ -444,6 +578,42 @@ fn transfer(links: &Links, out: &mut Assembler) {
             *dofs = moved;
         }
     }
+}
+
+/// Starts an attempt at the guess.
+fn restart(system: &mut System, at: &mut State, guess: &[f64]) {
+    at.u.copy_from_slice(guess);
+    for force in &mut system.contact {
+        force.begin();
+    }
+    system.bulk.begin();
+}
+
+/// Whether the last iterations have not brought the residual down by an order of magnitude.
+fn stalled(residuals: &[f64]) -> bool {
+    let Some(split) = residuals.len().checked_sub(STALL) else {
+        return false;
+    };
+    let (before, after) = residuals.split_at(split);
+    let least = |r: &[f64]| r.iter().copied().fold(f64::INFINITY, f64::min);
+    before.len() >= STALL && least(after) > 0.1 * least(before)
+}
+
+/// Holds points that keep changing status from now on, or no more; returns how many there are.
+fn hold(system: &mut System, on: bool) -> usize {
+    system.contact.iter_mut().map(|f| f.steady(on)).sum()
+}
+
+/// Softens stick; `false` if there is none.
+fn soften(system: &mut System, factor: Option<f64>) -> bool {
+    let forces = system.contact.iter_mut();
+    forces.fold(false, |any, f| f.soften(factor) || any)
+}
+
+/// Lets a part of friction act; `false` if there is none.
+fn mobilise(system: &mut System, part: Option<f64>) -> bool {
+    let forces = system.contact.iter_mut();
+    forces.fold(false, |any, f| f.mobilise(part) || any)
 }
 
 fn tally(system: &System) -> Tally {

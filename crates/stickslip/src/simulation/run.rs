@@ -8,7 +8,7 @@ use super::explicit::Explicit;
 use super::inertia::strain_energy;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
-use super::summary::{Phases, Summary};
+use super::summary::{FallbackSummary, Phases, Summary};
 use super::{diagnosis, history};
 use crate::body::Around;
 use crate::error::{Error, RunError};
@@ -281,6 +281,7 @@ impl Simulation {
                 Some(_) => self.attempt_explicit(trial),
             };
             self.notes.extend(self.factors.notes());
+            self.note_fallbacks(&step, &trial);
             self.tell_notes(observers)?;
             match outcome {
                 Ok(accepted) => {
@@ -337,6 +338,29 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// Takes note of what was tried beside plain iteration.
+    fn note_fallbacks(&mut self, step: &Step, trial: &Trial) {
+        let summary = &mut self.summary;
+        for tried in self.newton.fallbacks.drain(..) {
+            let outcome = if tried.converged { "converged" } else { "failed" };
+            // Once of each kind is enough for people; the list has them all.
+            if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
+                self.notes.push(format!(
+                    "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations (`fallbacks` of the summary lists all of them)",
+                    step.name, trial.from, tried.kind.name(), tried.iterations
+                ));
+            }
+            if summary.fallbacks.len() < MOST_REASONS {
+                summary.fallbacks.push(FallbackSummary {
+                    step: step.name.clone(),
+                    from: trial.from,
+                    to: trial.to,
+                    tried,
+                });
+            }
+        }
     }
 
     /// Takes note of an attempt that failed.

@@ -4,7 +4,7 @@ use super::ledger::{EnergyLedger, EnergyQuality};
 use super::model::Model;
 use crate::contact::interface::Quality;
 use crate::error::Error;
-use crate::newton::Statistics;
+use crate::newton::{Fallback, Statistics};
 
 /// What `summary.json` holds.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -36,6 +36,8 @@ pub struct Summary {
     pub cutbacks: usize,
     /// Why, one line each.
     pub cutback_reasons: Vec<String>,
+    /// What was tried when plain iteration had failed, in this order, attempt by attempt. When nothing helped the increment was cut back.
+    pub fallbacks: Vec<FallbackSummary>,
     /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
     pub stable_increment: f64,
     /// Mass added by mass scaling, relative to the mass there is.
@@ -64,6 +66,21 @@ pub struct Summary {
     pub interfaces: Vec<InterfaceSummary>,
     /// Last row of the history.
     pub last: std::collections::BTreeMap<String, f64>,
+}
+
+/// A way other than plain iteration by which an increment was tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct FallbackSummary {
+    /// Step.
+    pub step: String,
+    /// Start of the increment `[s]`.
+    pub from: f64,
+    /// Its end `[s]`.
+    pub to: f64,
+    /// Which way, and what came of it.
+    #[serde(flatten)]
+    pub tried: Fallback,
 }
 
 /// Size of a problem.

@@ -119,6 +119,27 @@ pub trait Force: Send {
         false
     }
 
+    /// Lets only this part of friction act, for a solution that is approached by continuation; `None`: all of it. `false` if there is none.
+    fn mobilise(&mut self, _part: Option<f64>) -> bool {
+        false
+    }
+
+    /// How many points have changed status or the direction of slip several times in this attempt.
+    fn restless(&self) -> usize {
+        0
+    }
+
+    /// From now on, in this attempt: points that keep changing status keep a choice until the rest has settled. Returns how many there are.
+    fn steady(&mut self, _on: bool) -> usize {
+        0
+    }
+
+    /// At an equilibrium: lets the points go that keep a choice, or changes the choice where the laws refuse it. Returns how many there were; zero
+    /// says that the laws hold everywhere.
+    fn reconsider(&mut self) -> usize {
+        0
+    }
+
     /// Multiplier update between equilibrium solves.
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         Augmentation::Done

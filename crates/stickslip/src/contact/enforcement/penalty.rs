@@ -23,9 +23,9 @@ pub struct Penalty {
     pub tangential_stiffness: Option<f64>,
 }
 
-/// What is wrong with the four parameters that say how stiff.
+/// What is wrong with the parameters that say how stiff, a multiple and an absolute one each.
 pub(super) fn stiffness_faults(
-    values: [(&'static str, Option<f64>); 4],
+    values: &[(&'static str, Option<f64>)],
 ) -> Vec<(&'static str, String)> {
     let mut faults: Vec<_> = values
         .iter()
@@ -59,7 +59,7 @@ impl Enforcement for Penalty {
     }
 
     fn faults(&self) -> Vec<(&'static str, String)> {
-        stiffness_faults([
+        stiffness_faults(&[
             ("factor", self.factor),
             ("stiffness", self.stiffness),
             ("tangential-factor", self.tangential_factor),

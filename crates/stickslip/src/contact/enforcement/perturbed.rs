@@ -41,7 +41,7 @@ impl Enforcement for PerturbedLagrangian {
     }
 
     fn faults(&self) -> Vec<(&'static str, String)> {
-        stiffness_faults([
+        stiffness_faults(&[
             ("factor", self.factor),
             ("stiffness", self.stiffness),
             ("tangential-factor", self.tangential_factor),

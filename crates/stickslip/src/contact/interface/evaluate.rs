@@ -222,7 +222,7 @@ struct Look {
 }
 
 /// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
-fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
+pub(super) fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
     let g11 = dot(e[0], e[0]);
     let b1 = dot(v, e[0]);
     if dim == 2 {
@@ -726,6 +726,8 @@ impl Interface {
             rest: self.memory.rest.get(i).copied().unwrap_or(0.0),
             sticking: self.memory.committed[i].status != Status::Slip,
             closing: self.closing(i, stencil.gap, scene.dt),
+            held: self.held(i, &stencil.frame_before, dim),
+            mobilised: self.memory.mobilised.unwrap_or(1.0),
         };
         for row in &mut batch.rated {
             row.clear();

@@ -5,6 +5,7 @@ mod faces;
 mod reach;
 mod report;
 mod springs;
+mod steady;
 
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ use crate::system::{
     Stage, State, StepFailure, Tally,
 };
 use evaluate::{Anchor, Batch, Evaluation};
+use steady::Steady;
 
 /// What the secondary touches.
 #[derive(Debug, Clone)]
@@ -116,6 +118,12 @@ pub struct Memory {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     inertia: Vec<f64>,
     softening: Option<f64>,
+    /// Part of the limit of friction that acts; `None`: all of it.
+    mobilised: Option<f64>,
+    /// How often the stiffness of the enforcement has been raised tenfold in this attempt, and the violation after the round before.
+    tightened: u32,
+    violation: Option<f64>,
+    steady: Steady,
     /// Points that do not take part; empty where all do.
     asleep: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
@@ -185,6 +193,9 @@ struct Flips {
     over: bool,
     left: usize,
 }
+
+/// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.
+const GAIN: f64 = 0.1;
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
 const CHUNK: usize = 16;
@@ -462,6 +473,7 @@ impl Interface {
             flips.last.rotate_right(1);
             flips.last[0] = now;
         }
+        memory.steady.note(last);
         if unknown {
             for (m, e) in memory.multipliers.iter_mut().zip(last) {
                 m.base = e.multiplier;
@@ -506,6 +518,9 @@ impl Force for Interface {
             };
         }
         memory.flips.fill(Flips::default());
+        memory.steady.clear();
+        memory.tightened = 0;
+        memory.violation = None;
         memory.last.points.clear();
         memory.pending = false;
         memory.untouched = memory.committed.iter().all(|h| h.status == Status::Open);
@@ -542,6 +557,7 @@ impl Force for Interface {
             if let Some((rest, _)) = &e.saddle {
                 let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 out.multiplier_residual = out.multiplier_residual.max(worst * area);
+                out.multiplier_merit += rest.iter().map(|r| (r * area).powi(2)).sum::<f64>();
             }
             if let Some(tangent) = batch.tangent(e) {
                 if let Some((_, shift)) = e.saddle {
@@ -582,6 +598,23 @@ impl Force for Interface {
     fn soften(&mut self, factor: Option<f64>) -> bool {
         self.memory.softening = factor;
         self.laws.friction.as_dyn().frictional()
+    }
+
+    fn mobilise(&mut self, part: Option<f64>) -> bool {
+        self.memory.mobilised = part;
+        self.laws.friction.as_dyn().frictional()
+    }
+
+    fn restless(&self) -> usize {
+        self.memory.steady.restless()
+    }
+
+    fn steady(&mut self, on: bool) -> usize {
+        self.memory.steady.engage(on)
+    }
+
+    fn reconsider(&mut self) -> usize {
+        self.reconsider_held()
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
@@ -645,6 +678,11 @@ impl Force for Interface {
         if worst <= (error * approach).max(16.0 * f64::EPSILON * reach) {
             Augmentation::Done
         } else {
+            // An update that gains little says that the stiffness is low for what presses on it.
+            if memory.violation.is_some_and(|before| worst > GAIN * before) {
+                memory.tightened += 1;
+            }
+            memory.violation = Some(worst);
             Augmentation::Again(worst / (error * approach).max(f64::MIN_POSITIVE))
         }
     }

@@ -4,6 +4,9 @@ use super::Interface;
 use crate::contact::enforcement::{Multipliers, Stiffness};
 use crate::system::Links;
 
+/// Stiffness relative to that of the bodies up to which an augmented Lagrangian is tightened.
+const STIFFEST: f64 = 1e6;
+
 /// Penetration of a point about to touch, relative to the cell beneath.
 const TOUCHED: f64 = 1e-6;
 
@@ -82,13 +85,18 @@ impl Interface {
         rigid.into_iter().fold(highest, f64::max)
     }
 
-    /// A stiffness of the enforcement, or of the cell beneath where the enforcement is not by springs.
+    /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
     pub(super) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
         if self.memory.explicit && self.laws.enforcement.as_dyn().multipliers() != Multipliers::None
         {
-            own
-        } else {
-            stiffness.resolve(own)
+            return own;
         }
+        let start = stiffness.resolve(own);
+        if self.memory.tightened == 0 {
+            return start;
+        }
+        // Never softer than asked for, and never so stiff that the bodies drown in rounding.
+        let raised = start * 10_f64.powi(self.memory.tightened as i32);
+        raised.min(STIFFEST * own).max(start)
     }
 }

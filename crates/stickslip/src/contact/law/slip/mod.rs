@@ -70,6 +70,9 @@ pub trait SlipRule: Send + Sync {
     /// Traction for a limit `[Pa]` and a motion.
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState;
 
+    /// The traction of a point that sticks whatever the limit is, with which stick and slip of a point that cannot decide are told apart.
+    fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState;
+
     /// Whether the rule sticks through a stiffness (and so can be made exact by multipliers).
     fn sticks(&self) -> bool;
 

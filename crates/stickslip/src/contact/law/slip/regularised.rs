@@ -89,6 +89,19 @@ impl SlipRule for Regularised {
         state
     }
 
+    fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
+        // the tangent at rest, φ ≈ 2 w/ε
+        let slope = 2.0 / (self.epsilon.max(motion.smoothing) * motion.dt);
+        let phi = motion.slip.map(|s| slope * s);
+        SlipState {
+            traction: phi.map(|phi| -limit * phi),
+            d_limit: phi.map(|phi| -phi),
+            d_slip: [[-limit * slope, 0.0], [0.0, -limit * slope]],
+            sliding_path: motion.slip,
+            ..SlipState::default()
+        }
+    }
+
     fn sticks(&self) -> bool {
         false
     }

@@ -53,6 +53,10 @@ impl SlipRule for ReturnMapping {
         }
     }
 
+    fn stuck(&self, _limit: f64, motion: &Tangential) -> SlipState {
+        self.traction(f64::INFINITY, motion)
+    }
+
     fn sticks(&self) -> bool {
         true
     }

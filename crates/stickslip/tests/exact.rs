@@ -1,0 +1,204 @@
+//! Exact contact and stick: no numerical stiffness shows in the answer, and points that open, close, stick and slip in turn are no reason to fail.
+
+mod support;
+
+use stickslip::newton::Course;
+use stickslip::problem::Problem;
+use stickslip::simulation::Simulation;
+use support::Record;
+
+/// Two cubes with edges of 10 mm, meshes that do not match; numbers for a unit of length that is `1/length` metres.
+fn cubes(length: f64, friction: &str, enforcement: &str) -> String {
+    let l = |x: f64| x * length;
+    let young = 210e9 / (length * length);
+    format!(
+        r#"
+format = 1
+model.space = "solid"
+body.lower = {{ generate.box = {{ to = [{a:?}, {a:?}, {a:?}], cells = [6, 6, 6] }}, material = "steel" }}
+body.upper = {{ generate.box = {{ from = [0, 0, {a:?}], to = [{a:?}, {a:?}, {b:?}], cells = [5, 5, 5] }}, material = "steel" }}
+material.steel.isotropic = {{ young = {young:?}, poisson = 0.3 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}
+support.down = {{ set = "upper.top", x = 0, y = 0, z = {down:?} }}
+step = [{{ increments = {{ fixed = 1 }} }}]
+
+[interface.joint]
+secondary = "upper.bottom"
+primary = "lower.top"
+{friction}
+{enforcement}
+"#,
+        a = l(0.01),
+        b = l(0.02),
+        down = l(-2e-5),
+    )
+}
+
+/// A run that must succeed, and the simulation at its end.
+fn run(problem: &Problem) -> (Record, Simulation) {
+    let mut record = Record::default();
+    let mut simulation = support::build(problem).unwrap_or_else(|e| panic!("{e}"));
+    let outcome = simulation.run(&mut [&mut record]);
+    outcome.unwrap_or_else(|e| panic!("{e}"));
+    (record, simulation)
+}
+
+/// Force of the cubes and iterations.
+fn press(text: &str) -> (f64, f64) {
+    let (record, _) = run(&support::problem(text));
+    assert_eq!(record.cutbacks, 0);
+    let (_, row) = &record.increments[0];
+    let last = |column: &str| row.get(column).expect(column);
+    (last("down.RF3"), last("ITRS"))
+}
+
+#[test]
+fn the_force_does_not_depend_on_the_numerical_stiffness() {
+    for friction in ["", "friction.coulomb = { mu = 0.2 }"] {
+        let (limit, _) = press(&cubes(
+            1.0,
+            friction,
+            "enforcement.augmented-lagrangian = { error = 1e-8 }",
+        ));
+        assert!(limit < -1e4, "{limit}");
+        for factor in [0.1, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
+            let enforcement =
+                format!("enforcement.augmented-lagrangian = {{ factor = {factor:?} }}");
+            let (metres, n) = press(&cubes(1.0, friction, &enforcement));
+            assert!(
+                (metres / limit - 1.0).abs() < 1e-3,
+                "factor {factor}: {metres}, limit {limit}"
+            );
+            let (millimetres, m) = press(&cubes(1e3, friction, &enforcement));
+            assert!(
+                (millimetres / limit - 1.0).abs() < 1e-3,
+                "factor {factor}: {millimetres}"
+            );
+            assert_eq!(n, m, "factor {factor}");
+        }
+    }
+}
+
+#[test]
+fn an_absolute_stiffness_is_only_where_it_starts() {
+    let (limit, _) = press(&cubes(1.0, "", ""));
+    // from far too soft to far too stiff; the bodies have some 1e14 Pa/m
+    for stiffness in [1e10, 1e12, 1e17] {
+        let enforcement =
+            format!("enforcement.augmented-lagrangian = {{ stiffness = {stiffness:?} }}");
+        let (force, _) = press(&cubes(1.0, "", &enforcement));
+        assert!(
+            (force / limit - 1.0).abs() < 1e-3,
+            "stiffness {stiffness}: {force}"
+        );
+    }
+    let both = "enforcement.augmented-lagrangian = { stiffness = 1e12, factor = 10.0 }";
+    let said = support::complaint(&cubes(1.0, "", both));
+    assert!(said.contains("not both"), "{said}");
+}
+
+#[test]
+fn a_penalty_stays_what_it_is() {
+    let of = |factor: f64| {
+        let enforcement = format!("enforcement.penalty = {{ factor = {factor:?} }}");
+        press(&cubes(1.0, "", &enforcement)).0
+    };
+    assert!(of(0.1) / of(1e4) < 0.5);
+}
+
+/// The median of the Newton iterations an increment took.
+fn median(record: &Record) -> f64 {
+    let mut all: Vec<f64> = record
+        .increments
+        .iter()
+        .map(|(_, row)| row.get("ITRS").expect("ITRS"))
+        .collect();
+    all.sort_by(f64::total_cmp);
+    0.5 * (all[(all.len() - 1) / 2] + all[all.len() / 2])
+}
+
+/// Runs without a cut-back, in few iterations; the numbers of open points.
+fn settles(text: &str) -> Vec<f64> {
+    let (record, simulation) = run(&support::problem(text));
+    assert_eq!(
+        record.cutbacks, 0,
+        "{:?}",
+        simulation.summary.cutback_reasons
+    );
+    let median = median(&record);
+    assert!(median <= 12.0, "{median}");
+    let rows = record.increments.iter();
+    rows.map(|(_, row)| row.get("OPEN").expect("OPEN"))
+        .collect()
+}
+
+#[test]
+fn a_block_whose_corner_lifts_and_closes_again() {
+    let text = include_str!("chatter/greco.toml");
+    for steps in [1, 5, 20] {
+        let open = settles(&text.replace("fixed = 1 ", &format!("fixed = {steps} ")));
+        assert_eq!(open.len(), 4 * steps);
+        assert!(open[steps - 1] > 0.0, "{open:?}");
+        assert_eq!(open[2 * steps - 1], 0.0, "{open:?}");
+        assert!(open[3 * steps - 1] > 0.0, "{open:?}");
+    }
+}
+
+#[test]
+fn a_block_that_rocks_from_edge_to_edge() {
+    let open = settles(include_str!("chatter/rocking.toml"));
+    assert_eq!(open[0], 0.0, "{open:?}");
+    assert!(open.iter().filter(|&&n| n >= 3.0).count() >= 4, "{open:?}");
+}
+
+/// The block of `examples/greco-compliance` with the whole load in one increment from nothing: slip of 30 µm, friction that is nearly a jump at 1 nm.
+/// Plain iteration sends points from slip in one direction to slip in the other.
+#[test]
+fn slip_that_goes_to_and_fro_is_held_until_the_rest_has_settled() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.04], cells = [32, 10] }, material = "steel" }
+material.steel.isotropic = { young = 130e9, poisson = 0.2 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+support.symmetry = { set = "block.right", x = 0 }
+load.top = { set = "block.top", pressure = { value = 5e7 } }
+load.side = { set = "block.left", pressure = { value = 15e7 } }
+probe.A = { point = [0, 0] }
+step = [{ increments = { fixed = 1 } }]
+
+[interface.base]
+secondary = "block.bottom"
+primary = "floor"
+normal.power-law = { c = 1e15, m = 1.0 }
+friction.power-law = { c = 1e15, m = 1.0 }
+slip.regularised = { epsilon = 1e-9 }
+"#;
+    let (record, simulation) = run(&support::problem(text));
+    assert_eq!(record.cutbacks, 0);
+    let (iterations, row) = &record.increments[0];
+    // VERIFICATION P2 A, with the same exact solution as from the seated block
+    let u = row.get("A.U1").expect("A.U1");
+    assert!((u / 2.840_424_1e-5 - 1.0).abs() < 1e-6, "{u}");
+    let tried = &simulation.summary.fallbacks;
+    let kinds: Vec<Course> = tried.iter().map(|f| f.tried.kind).collect();
+    assert_eq!(kinds, [Course::StatusMemory]);
+    assert!(tried[0].tried.converged);
+    assert_eq!((tried[0].from, tried[0].to), (0.0, 1.0));
+    let noted = &simulation.summary.notes;
+    assert!(
+        noted.iter().any(|n| n.contains("status memory")),
+        "{noted:?}"
+    );
+    assert!(
+        iterations
+            .last()
+            .is_some_and(|p| p.course == Course::StatusMemory)
+    );
+}
+
+#[test]
+fn a_soft_slab_under_an_iron() {
+    let open = settles(include_str!("chatter/ironing.toml"));
+    assert_eq!(open.len(), 32);
+}
