@@ -6,6 +6,7 @@ use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
+use super::loose::Loose;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{Phases, Summary};
@@ -57,6 +58,8 @@ pub struct Simulation {
     /// By probe; `None` at rigid bodies.
     pub(super) around: Vec<Option<Around>>,
     pub(super) step: usize,
+    /// Bodies that only contact can hold.
+    pub(super) loose: Loose,
     started: Instant,
 }
 
@@ -110,7 +113,7 @@ impl Simulation {
 
     /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
     /// same bits, whoever made the factors.
-    pub fn with_library(model: Model, library: Arc<Library>) -> Result<Self, Error> {
+    pub fn with_library(mut model: Model, library: Arc<Library>) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
         let assembled = !model.steps.iter().all(Step::is_explicit);
@@ -165,7 +168,7 @@ impl Simulation {
             kept: None,
             widened: 0,
             decided: None,
-            notes: Vec::new(),
+            notes: std::mem::take(&mut model.notes),
             seen: Vec::new(),
             condensed: None,
             moving: Vec::new(),
@@ -175,6 +178,7 @@ impl Simulation {
             held: BTreeMap::new(),
             released: Vec::new(),
             step: 0,
+            loose: Loose::default(),
             started,
             model,
         };
@@ -196,6 +200,7 @@ impl Simulation {
             self.started.elapsed().as_secs_f64(),
             outcome.as_ref().err(),
         );
+        self.summary.artificial_energy = self.artificial_energy();
         self.summary.interfaces = history::interfaces(self);
         for observer in observers.iter_mut() {
             observer.see(self, Event::End)?;
@@ -207,6 +212,7 @@ impl Simulation {
         for step in 0..self.model.steps.len() {
             self.step = step;
             self.begin_step();
+            self.begin_acting();
             match self.model.steps[step].dynamic {
                 Some(dynamic) => {
                     self.explicit = None;
@@ -267,6 +273,9 @@ impl Simulation {
             let Some(trial) = stepper.next() else {
                 break;
             };
+            if step.dynamic.is_none() {
+                self.meet(trial, observers)?;
+            }
             let outcome = match step.dynamic {
                 None => self.attempt_static(trial, observers),
                 Some(
@@ -279,7 +288,9 @@ impl Simulation {
             };
             self.notes.extend(self.factors.notes());
             self.tell_notes(observers)?;
+            let outcome = self.judge_loose(outcome);
             match outcome {
+                Ok(_) if self.carried_on(trial, observers)? => {}
                 Ok(accepted) => {
                     increment += 1;
                     let iterations = if accepted.hard {
@@ -318,6 +329,9 @@ impl Simulation {
                     attempt = 1;
                 }
                 Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
+                Err(failure) if self.may_follow(&step, &failure) => {
+                    self.follow(trial, observers)?
+                }
                 Err(failure) => {
                     self.flush(observers)?;
                     let seen = std::mem::take(&mut self.seen);

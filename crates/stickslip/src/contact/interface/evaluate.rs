@@ -24,7 +24,7 @@ const KEPT: f64 = 1e-3;
 const FLAT: f64 = 1e-5;
 
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
-const TOUCHING: f64 = 1e-6;
+pub(super) const TOUCHING: f64 = 1e-6;
 
 /// What all points of one evaluation share.
 pub(super) struct Scene<'a> {
@@ -39,6 +39,8 @@ pub(super) struct Scene<'a> {
     pub belt_end: Vec3,
     pub rate: Option<Rate<'a>>,
     pub dt: f64,
+    /// Time at the end of the increment.
+    pub t: f64,
     /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
     pub initial: bool,
     pub tangent: bool,
@@ -495,6 +497,7 @@ impl Interface {
     fn respond(&self, i: usize, facet: &[usize], scene: &Scene, batch: &mut Batch) -> Evaluation {
         let dim = self.dofs.dim;
         let point = &self.points[i];
+        batch.stencil.gap -= self.initial.offset(i, scene.t);
         let stencil = &batch.stencil;
         let first = batch.dofs.len();
         for &node in point.nodes.iter().chain(facet) {

@@ -1,17 +1,21 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
 mod evaluate;
+mod meeting;
 mod reach;
 mod report;
 mod springs;
+mod start;
 
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 
+pub use meeting::Meeting;
 pub use reach::Reach;
 pub use report::{Quality, Resultant};
+pub use start::{Initial, Start, TOLERANCE};
 
 use super::enforcement::Multipliers;
 use super::kinematics::KinematicsModel;
@@ -63,6 +67,8 @@ pub struct Interface {
     pub schedule: Schedule,
     /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
     pub edge_tolerance: f64,
+    /// What becomes of the gaps of the meshes.
+    pub initial: Initial,
     /// Histories and the last evaluation; `Memory::default()` to start with.
     pub memory: Memory,
 }
@@ -357,6 +363,7 @@ impl Interface {
             belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
             rate: stage.rate,
             dt: stage.dt,
+            t: stage.at.t,
             tangent: wants.tangent,
             surrogate: wants.surrogate,
             initial: wants.initial,
@@ -631,6 +638,7 @@ impl Force for Interface {
     fn commit(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
+        let (initial, times) = (&self.initial, [stage.from.t, stage.at.t]);
         let memory = &mut self.memory;
         if !active || memory.last.points.is_empty() {
             for h in &mut memory.committed {
@@ -643,11 +651,12 @@ impl Force for Interface {
         }
         memory.creep = 0.0;
         let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
-        for ((h, e), point) in memory
+        for (i, ((h, e), point)) in memory
             .committed
             .iter_mut()
             .zip(&memory.last.points)
             .zip(&self.points)
+            .enumerate()
         {
             let r = &e.response;
             let shear = e.along(&e.frame);
@@ -657,6 +666,9 @@ impl Force for Interface {
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
             memory.dissipated += (-work * point.area).max(0.0);
             memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * point.area;
+            // Overlap that is resolved drives the surfaces apart.
+            let [before, now] = times.map(|t| initial.offset(i, t));
+            memory.belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * point.area;
             if creeps && r.status == Status::Stick {
                 memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
             }

@@ -8,7 +8,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Interface, Memory, Primary};
+use crate::contact::interface::{Initial, Interface, Memory, Primary, TOLERANCE};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, triangulate};
@@ -93,6 +93,7 @@ pub(super) fn build(
             belt: belt(table),
             schedule: timeline.interface(problem, name),
             edge_tolerance: EDGE_TOLERANCE,
+            initial: Initial::new(table.initial, table.initial_tolerance.unwrap_or(TOLERANCE)),
             memory: Memory::default(),
         });
     }
