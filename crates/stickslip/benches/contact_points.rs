@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
-use stickslip::contact::interface::{Interface, Memory, Primary};
+use stickslip::contact::interface::{Initial, Interface, Memory, Primary};
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
 use stickslip::contact::response::Laws;
@@ -152,6 +152,7 @@ fn interface(
         belt: Vec::new(),
         schedule: Schedule::always(),
         edge_tolerance: 1e-3,
+        initial: Initial::default(),
         memory: Memory::default(),
     }
 }

@@ -3,6 +3,7 @@
 // Tensor components and nodes read best by their indices.
 #![allow(clippy::needless_range_loop)]
 
+mod anchors;
 mod around;
 mod elastic;
 mod extrapolate;
@@ -21,6 +22,7 @@ mod rigid;
 mod space;
 mod waves;
 
+pub use anchors::{Anchors, Hold, spread};
 pub use around::Around;
 pub use elastic::{Elastic, Part};
 pub use facets::{positive_areas, tributary_areas};

@@ -251,6 +251,8 @@ impl Newton {
         let mut total = 0;
         let mut round = 0;
         let mut exchanges = 0;
+        let patience = system.contact.iter().map(|f| f.patience()).max();
+        let most = MOST_ROUNDS + patience.unwrap_or(0);
         loop {
             let mut converged = self.equilibrium(system, from, at, round, log)?;
             total += converged.iterations;
@@ -285,12 +287,12 @@ impl Newton {
             }
             round += 1;
             self.statistics.augmentations += 1;
-            if round > MOST_ROUNDS {
+            if round > most {
                 return Err(StepFailure {
                     culprits: diagnose(system),
                     ..StepFailure::new(
                         Cause::NotConverged,
-                        format!("the multipliers did not settle in {MOST_ROUNDS} updates; the gap error is still {worst:.1e} times its limit"),
+                        format!("the multipliers did not settle in {most} updates; the gap error is still {worst:.1e} times its limit"),
                     )
                 }
                 .help("allow a larger `error` or a larger `factor` in the augmented Lagrangian, or smaller increments"));

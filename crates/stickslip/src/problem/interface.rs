@@ -3,6 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
+use crate::contact::interface::Start;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
@@ -55,6 +56,18 @@ pub struct Interface {
     /// triangles. Without meaning in 2D and on obstacles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facets: Option<FacetShape>,
+    /// What becomes of gaps and overlaps that the meshes have when the interface begins to act.
+    #[serde(default, skip_serializing_if = "as_meshed")]
+    pub initial: Start,
+    /// Gap up to which `initial` takes hold of a point, as a fraction of the height of the cell beneath; a tenth if not given. Without
+    /// meaning for `as-meshed` and `ramp`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_tolerance: Option<f64>,
+}
+
+fn as_meshed(start: &Start) -> bool {
+    *start == Start::AsMeshed
 }
 
 impl Interface {

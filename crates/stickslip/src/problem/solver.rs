@@ -24,6 +24,9 @@ pub struct Solver {
     /// kept.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub energy_limit: f64,
+    /// Whether bodies that supports leave free, and that loads push, are moved in quasi-static steps until they touch, and held by weak
+    /// springs that follow them until contact holds them and the springs carry nothing.
+    pub follow_loose_bodies: bool,
     /// How the systems of Newton's method are solved.
     pub method: Solution,
     /// Systems of linear equations.
@@ -39,6 +42,7 @@ impl Default for Solver {
             line_search: settings.line_search,
             largest_change: None,
             energy_limit: 0.01,
+            follow_loose_bodies: true,
             method: Solution::default(),
             linear: Linear::default(),
         }

@@ -239,6 +239,9 @@ impl Simulation {
                 interface.limit(&self.state.u, reach, &mut kept);
             }
         }
+        for point in self.loose.points() {
+            kept[point] = true;
+        }
         for link in self.model.links.all() {
             kept[link.points.clone()].fill(false);
             kept[link.hidden..link.hidden + 2].fill(true);
@@ -381,7 +384,7 @@ impl Simulation {
             rate: None,
             constraints,
             links: &self.model.links,
-            contact: inertia::contact(&mut self.model.interfaces),
+            contact: (self.loose).with(inertia::contact(&mut self.model.interfaces)),
         };
         let converged = self
             .newton

@@ -7,7 +7,7 @@ use super::run::Simulation;
 use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::error::RunError;
-use crate::math::symmetric_eigen;
+use crate::math::{Vec3, symmetric_eigen};
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
@@ -74,8 +74,32 @@ pub struct InterfaceReport {
     pub laws: String,
 }
 
+/// A body that supports and springs leave free to move.
+pub(super) struct FreeBody {
+    /// Its index.
+    pub body: usize,
+    /// Its free motions: what they are, and displacements by dof, the largest of size one.
+    pub motions: Vec<(String, Vec<f64>)>,
+    /// An orthonormal basis of the directions in which it can move without turning.
+    pub slides: Vec<Vec3>,
+}
+
 /// Motions of each body that the supports and springs acting at `t` do not hold.
 pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
+    let bodies = free_bodies(simulation, t).into_iter();
+    let modes = bodies.flat_map(|free| {
+        let body = simulation.model.bodies[free.body].name.clone();
+        let modes = free.motions.into_iter();
+        modes.map(move |(motion, _)| FreeMode {
+            body: body.clone(),
+            motion,
+        })
+    });
+    modes.collect()
+}
+
+/// The bodies that supports and springs acting at `t` leave free to move.
+pub(super) fn free_bodies(simulation: &Simulation, t: f64) -> Vec<FreeBody> {
     let model = &simulation.model;
     let mut held = simulation.constraints(t).fixed;
     for link in model.links.all() {
@@ -88,7 +112,7 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
         }
     }
     let mut out = Vec::new();
-    for body in &model.bodies {
+    for (index, body) in model.bodies.iter().enumerate() {
         let modes = match body.rigid {
             None => {
                 let points: Vec<usize> = body.points.clone().collect();
@@ -124,6 +148,7 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
             .collect();
         let (values, vectors) = symmetric_eigen(&gram);
         let largest = values.last().copied().unwrap_or(0.0);
+        let mut motions = Vec::new();
         for (k, value) in values.iter().enumerate() {
             if *value > 1e-10 * largest.max(f64::MIN_POSITIVE) {
                 continue;
@@ -134,13 +159,49 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
                 .filter(|(i, _)| vectors[*i][k].abs() > 0.1)
                 .map(|(_, (name, _, _))| name.as_str())
                 .collect();
-            out.push(FreeMode {
-                body: body.name.clone(),
-                motion: parts.join(" with "),
-            });
+            let mut vector = vec![0.0; model.dofs.count()];
+            for (i, (_, mode, scale)) in modes.iter().enumerate() {
+                let factor = scale * vectors[i][k];
+                vector
+                    .iter_mut()
+                    .zip(mode)
+                    .for_each(|(v, m)| *v += factor * m);
+            }
+            motions.push((parts.join(" with "), vector));
         }
+        if motions.is_empty() {
+            continue;
+        }
+        // Translations come first.
+        let axes: Vec<usize> = modes.iter().filter_map(|(name, ..)| axis(name)).collect();
+        let block: Vec<Vec<f64>> = gram[..axes.len()]
+            .iter()
+            .map(|row| row[..axes.len()].to_vec())
+            .collect();
+        let (values, vectors) = symmetric_eigen(&block);
+        let slides = values.iter().enumerate();
+        let slides = slides.filter(|(_, v)| **v <= 1e-10 * largest.max(f64::MIN_POSITIVE));
+        let slides = slides.map(|(k, _)| {
+            let mut slide = [0.0; 3];
+            for (i, &c) in axes.iter().enumerate() {
+                slide[c] = vectors[i][k];
+            }
+            slide
+        });
+        out.push(FreeBody {
+            body: index,
+            motions,
+            slides: slides.collect(),
+        });
     }
     out
+}
+
+/// The direction of a translation.
+fn axis(motion: &str) -> Option<usize> {
+    let axes = ["x", "y", "z"].into_iter();
+    let translation = motion.strip_prefix("translation ")?;
+    axes.into_iter().position(|a| a == translation)
 }
 
 /// The motions of a rigid body over all dofs, hidden ones and those of its points.

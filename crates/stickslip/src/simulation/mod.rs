@@ -1,6 +1,7 @@
 //! A model and its run: the step loop, observers, reports.
 
 mod accepted;
+mod approach;
 mod choice;
 pub mod compare;
 mod condense;
@@ -13,6 +14,7 @@ mod history;
 mod inertia;
 mod leap;
 mod ledger;
+mod loose;
 mod model;
 mod pending;
 mod run;

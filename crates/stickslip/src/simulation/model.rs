@@ -50,6 +50,10 @@ pub struct Model {
     pub largest_change: f64,
     /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
     pub energy_limit: f64,
+    /// Whether bodies that only contact can hold are followed until it does.
+    pub follow: bool,
+    /// What a user should know of how it was made.
+    pub notes: Vec<String>,
 }
 
 /// A body: a range of points and blocks of the mesh.

@@ -6,6 +6,7 @@ use super::condense::Condensed;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
+use super::loose::Loose;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{FallbackSummary, Phases, Summary};
@@ -59,6 +60,8 @@ pub struct Simulation {
     /// By probe; `None` at rigid bodies.
     pub(super) around: Vec<Option<Around>>,
     pub(super) step: usize,
+    /// Bodies that only contact can hold.
+    pub(super) loose: Loose,
     started: Instant,
 }
 
@@ -112,7 +115,7 @@ impl Simulation {
 
     /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
     /// same bits, whoever made the factors.
-    pub fn with_library(model: Model, library: Arc<Library>) -> Result<Self, Error> {
+    pub fn with_library(mut model: Model, library: Arc<Library>) -> Result<Self, Error> {
         let started = Instant::now();
         // An explicit analysis needs no matrix of the bodies.
         let assembled = !model.steps.iter().all(Step::is_explicit);
@@ -168,7 +171,7 @@ impl Simulation {
             widened: 0,
             largest_forces: 0.0,
             decided: None,
-            notes: Vec::new(),
+            notes: std::mem::take(&mut model.notes),
             seen: Vec::new(),
             condensed: None,
             moving: Vec::new(),
@@ -178,6 +181,7 @@ impl Simulation {
             held: BTreeMap::new(),
             released: Vec::new(),
             step: 0,
+            loose: Loose::default(),
             started,
             model,
         };
@@ -199,6 +203,7 @@ impl Simulation {
             self.started.elapsed().as_secs_f64(),
             outcome.as_ref().err(),
         );
+        self.summary.artificial_energy = self.artificial_energy();
         self.summary.interfaces = history::interfaces(self);
         for observer in observers.iter_mut() {
             observer.see(self, Event::End)?;
@@ -210,6 +215,7 @@ impl Simulation {
         for step in 0..self.model.steps.len() {
             self.step = step;
             self.begin_step();
+            self.begin_acting();
             match self.model.steps[step].dynamic {
                 Some(dynamic) => {
                     self.explicit = None;
@@ -270,6 +276,9 @@ impl Simulation {
             let Some(trial) = stepper.next() else {
                 break;
             };
+            if step.dynamic.is_none() {
+                self.meet(trial, observers)?;
+            }
             let outcome = match step.dynamic {
                 None => self.attempt_static(trial, observers),
                 Some(
@@ -283,7 +292,9 @@ impl Simulation {
             self.notes.extend(self.factors.notes());
             self.note_fallbacks(&step, &trial);
             self.tell_notes(observers)?;
+            let outcome = self.judge_loose(outcome);
             match outcome {
+                Ok(_) if self.carried_on(trial, observers)? => {}
                 Ok(accepted) => {
                     increment += 1;
                     let iterations = if accepted.hard {
@@ -322,6 +333,9 @@ impl Simulation {
                     attempt = 1;
                 }
                 Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
+                Err(failure) if self.may_follow(&step, &failure) => {
+                    self.follow(trial, observers)?
+                }
                 Err(failure) => {
                     self.flush(observers)?;
                     let seen = std::mem::take(&mut self.seen);

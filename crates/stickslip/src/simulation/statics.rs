@@ -42,6 +42,7 @@ impl Simulation {
                 matrix,
                 diagonal,
                 state,
+                loose,
                 ..
             } = self;
             let mut bulk = Whole::new(
@@ -57,7 +58,7 @@ impl Simulation {
                 rate: None,
                 constraints,
                 links: &model.links,
-                contact: inertia::contact(&mut model.interfaces),
+                contact: loose.with(inertia::contact(&mut model.interfaces)),
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
         };

@@ -45,6 +45,10 @@ pub struct Summary {
     /// Largest rotation of a rigid body so far `[rad]`; 0 without one. Rotations are linearised about the start: above about 0.1 it
     /// shows, as the body grows by the half of its square.
     pub largest_rotation: f64,
+    /// Increments in which bodies that only contact can hold were moved or anchored.
+    pub followed: usize,
+    /// Energy left in the anchors that held such bodies in the last of them, over the strain energy.
+    pub artificial_energy: f64,
     /// Counts and times of the solver.
     pub solver: Statistics,
     /// Seconds by phase.

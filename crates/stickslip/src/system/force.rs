@@ -145,6 +145,11 @@ pub trait Force: Send {
         Augmentation::Done
     }
 
+    /// Rounds of updates that may be needed beyond those of multipliers.
+    fn patience(&self) -> usize {
+        0
+    }
+
     /// How many points have another status in the present attempt than at the last accepted state.
     fn switched(&self) -> usize {
         0

@@ -32,7 +32,7 @@ const FLAT: f64 = 1e-5;
 const LEAST_AREA: f64 = 1e-6;
 
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
-const TOUCHING: f64 = 1e-6;
+pub(super) const TOUCHING: f64 = 1e-6;
 
 /// What all points of one evaluation share.
 pub(super) struct Scene<'a> {
@@ -49,6 +49,8 @@ pub(super) struct Scene<'a> {
     pub belt_end: Vec3,
     pub rate: Option<Rate<'a>>,
     pub dt: f64,
+    /// Time at the end of the increment.
+    pub t: f64,
     /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
     pub initial: bool,
     pub tangent: bool,
@@ -661,6 +663,7 @@ impl Interface {
         if let Some(glued) = self.memory.glued.get(i) {
             batch.stencil.gap -= glued;
         }
+        batch.stencil.gap -= self.initial.offset(i, scene.t);
         let stencil = &batch.stencil;
         let first = batch.dofs.len();
         for &(node, _) in &batch.sides[sides..] {

@@ -2,9 +2,11 @@
 
 mod evaluate;
 mod faces;
+mod meeting;
 mod reach;
 mod report;
 mod springs;
+mod start;
 mod steady;
 
 #[cfg(test)]
@@ -12,8 +14,10 @@ mod tests;
 
 use rayon::prelude::*;
 
+pub use meeting::Meeting;
 pub use reach::Reach;
 pub use report::{Quality, Resultant};
+pub use start::{Initial, Start, TOLERANCE};
 
 use super::enforcement::Multipliers;
 use super::kinematics::KinematicsModel;
@@ -73,6 +77,8 @@ pub struct Interface {
     pub schedule: Schedule,
     /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
     pub edge_tolerance: f64,
+    /// What becomes of the gaps of the meshes.
+    pub initial: Initial,
     /// Histories and the last evaluation; `Memory::default()` to start with.
     pub memory: Memory,
 }
@@ -392,6 +398,7 @@ impl Interface {
             belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
             rate: stage.rate,
             dt: stage.dt,
+            t: stage.at.t,
             tangent: wants.tangent,
             surrogate: wants.surrogate,
             initial: wants.initial,
@@ -700,6 +707,7 @@ impl Force for Interface {
     fn commit(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
+        let (initial, times) = (&self.initial, [stage.from.t, stage.at.t]);
         let memory = &mut self.memory;
         if !active || memory.last.points.is_empty() {
             for h in &mut memory.committed {
@@ -712,7 +720,12 @@ impl Force for Interface {
         }
         memory.creep = 0.0;
         let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
-        for (h, e) in memory.committed.iter_mut().zip(&memory.last.points) {
+        for (i, (h, e)) in memory
+            .committed
+            .iter_mut()
+            .zip(&memory.last.points)
+            .enumerate()
+        {
             let r = &e.response;
             let shear = e.along(&e.frame);
             // By the trapezoidal rule, like the work of the loads: exact where the traction grows in proportion.
@@ -721,6 +734,9 @@ impl Force for Interface {
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
             memory.dissipated += (-work * e.area).max(0.0);
             memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * e.area;
+            // Overlap that is resolved drives the surfaces apart.
+            let [before, now] = times.map(|t| initial.offset(i, t));
+            memory.belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * e.area;
             if creeps && r.status == Status::Stick {
                 memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
             }

@@ -157,6 +157,14 @@ impl Interface {
 
     /// The smallest gaps over the span; infinite where a point does not face the primary.
     fn gaps(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
+        let gaps = self.distances_to_primary(x, reach);
+        let end = reach.span[1];
+        let gaps = gaps.into_iter().enumerate();
+        gaps.map(|(i, gap)| gap - self.initial.offset(i, end))
+            .collect()
+    }
+
+    fn distances_to_primary(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
         match &self.primary {
             Primary::Rigid(shape, motion) => {
                 let [from, to] = reach.span;

@@ -85,6 +85,7 @@ fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
         belt: Vec::new(),
         schedule: Schedule::always(),
         edge_tolerance: 1e-3,
+        initial: Initial::default(),
         memory: Memory::default(),
     }
 }

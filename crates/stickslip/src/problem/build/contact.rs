@@ -9,7 +9,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Interface, Memory, Primary};
+use crate::contact::interface::{Initial, Interface, Memory, Primary, TOLERANCE};
 use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -161,6 +161,7 @@ impl Make<'_> {
             belt: belt(table),
             schedule: self.schedule.clone(),
             edge_tolerance: EDGE_TOLERANCE,
+            initial: Initial::new(table.initial, table.initial_tolerance.unwrap_or(TOLERANCE)),
             memory: Memory::default(),
         })
     }

@@ -7,6 +7,7 @@ mod meshes;
 mod rigid;
 mod schedules;
 mod sets;
+mod snap;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -33,8 +34,21 @@ impl Problem {
         if !findings.is_empty() {
             return Err(problem_error(findings));
         }
+        let model = self.build_moved(folder, snap::Moves::default())?;
+        let start = model.steps.first().map_or(0.0, |s| s.start);
+        let moves = snap::moves(self, &model.interfaces, start);
+        if moves.notes.is_empty() {
+            return Ok(model);
+        }
+        // All that follows from coordinates is made anew.
+        self.build_moved(folder, moves)
+    }
+
+    /// The model with some points of the mesh moved.
+    fn build_moved(&self, folder: &Path, moves: snap::Moves) -> Result<Model, Error> {
         let space = space(self);
-        let built = meshes::build(self, folder)?;
+        let mut built = meshes::build(self, folder)?;
+        snap::apply(&moves, &mut built.mesh)?;
         let mesh = Arc::new(built.mesh);
         let stiff = self.body.values().filter(|b| b.rigid).count();
         let dofs = Dofs {
@@ -117,6 +131,8 @@ impl Problem {
             },
             method: self.solver.method,
             energy_limit: self.solver.energy_limit,
+            follow: self.solver.follow_loose_bodies,
+            notes: moves.notes,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,
         })

@@ -241,6 +241,8 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
             damping: DampingModel::default(),
             friction: FrictionModel::default(),
             slip: SlipModel::default(),
+            initial: interface.initial,
+            initial_tolerance: interface.initial_tolerance,
             primary_velocity: None,
             primary_velocity_table: None,
         };

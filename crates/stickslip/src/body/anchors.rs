@@ -1,0 +1,243 @@
+//! Weak springs that hold bodies which nothing else holds, and move on with them until they carry nothing.
+
+use crate::math::{Vec3, add_scaled, distance, norm, sub};
+use crate::mesh::Mesh;
+use crate::system::{
+    Assembler, Augmentation, Dofs, Energy, Force, Role, Stage, StepFailure, Tangent,
+};
+
+/// Anchors of loose bodies.
+///
+/// After each equilibrium the anchors move to where the bodies have come, and another is sought: the proximal point method. Where
+/// contact holds a body the anchors soon move no more; then they carry nothing, and have changed nothing. A motion that nothing resists
+/// and no load drives stays where it is.
+#[derive(Debug, Clone)]
+pub struct Anchors {
+    dofs: Dofs,
+    groups: Vec<Group>,
+    rounds: usize,
+}
+
+/// The anchors of one body.
+#[derive(Debug, Clone)]
+struct Group {
+    points: Vec<usize>,
+    /// Stiffness in each direction at a point `[N/m]`: now, to start with, and at least.
+    stiffness: f64,
+    first: f64,
+    least: f64,
+    /// How far the body may move in one round, about `[m]`.
+    reach: f64,
+    /// Displacements of the points at the start, those of the anchors, and those of the points at the last evaluation.
+    start: Vec<Vec3>,
+    at: Vec<Vec3>,
+    now: Vec<Vec3>,
+}
+
+/// What an anchor is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// A spring of the size of the bodies' own at a point of their surfaces `[N/m]`.
+    pub spring: f64,
+    /// Largest force that pushes bodies `[N]`.
+    pub force: f64,
+    /// How far the body may move in one round, about `[m]`.
+    pub reach: f64,
+}
+
+/// Stiffness of an anchor relative to the bodies' own, to start with and at least.
+const WEAK: f64 = 1e-3;
+const WEAKEST: f64 = 1e-6;
+
+/// Largest ratio by which anchors get weaker from one round to the next.
+const RELIEF: f64 = 100.0;
+
+/// Rounds in which a body has to come to rest.
+const MOST_ROUNDS: usize = 100;
+
+impl Anchors {
+    /// No anchors yet.
+    pub fn new(dofs: Dofs) -> Self {
+        Anchors {
+            dofs,
+            groups: Vec::new(),
+            rounds: 0,
+        }
+    }
+
+    /// Anchors a body at these points of the mesh, where they are at displacements `u`.
+    pub fn hold(&mut self, points: Vec<usize>, u: &[f64], hold: Hold) {
+        let here: Vec<Vec3> = points.iter().map(|&p| self.dofs.vector(u, p)).collect();
+        let count = points.len().max(1) as f64;
+        let first = (WEAK * hold.spring).max(hold.force / (count * hold.reach));
+        self.groups.push(Group {
+            points,
+            stiffness: first,
+            first,
+            least: WEAKEST * hold.spring,
+            reach: hold.reach,
+            start: here.clone(),
+            at: here.clone(),
+            now: here,
+        });
+    }
+
+    /// The points of the mesh that are anchored.
+    pub fn points(&self) -> impl Iterator<Item = usize> + '_ {
+        self.groups.iter().flat_map(|g| g.points.iter().copied())
+    }
+
+    /// How far each body has moved since its anchors were laid, as the largest displacement of an anchored point over what it may move
+    /// in one round.
+    pub fn travel(&self) -> f64 {
+        let moved = self.groups.iter().flat_map(|g| {
+            let pairs = g.start.iter().zip(&g.now);
+            pairs.map(|(&a, &b)| distance(a, b) / g.reach)
+        });
+        moved.fold(0.0, f64::max)
+    }
+
+    /// Points of the `k`-th body and how far they have moved since their anchors were laid.
+    pub fn moved(&self, k: usize) -> Vec<(usize, Vec3)> {
+        let g = &self.groups[k];
+        let moved = g.start.iter().zip(&g.now).map(|(&a, &b)| sub(b, a));
+        g.points.iter().copied().zip(moved).collect()
+    }
+
+    /// The next increment starts from where the bodies have come.
+    pub fn rest(&mut self) {
+        for g in &mut self.groups {
+            g.start.clone_from(&g.now);
+            g.at.clone_from(&g.now);
+        }
+    }
+
+    /// Whether the bodies were still on their way when the last attempt ended.
+    pub fn adrift(&self) -> bool {
+        self.rounds >= MOST_ROUNDS
+    }
+
+    /// Energy left in the springs `[J]`.
+    pub fn left(&self) -> f64 {
+        let of = |g: &Group| -> f64 {
+            let pairs = g.now.iter().zip(&g.at);
+            0.5 * g.stiffness * pairs.map(|(&a, &b)| distance(a, b).powi(2)).sum::<f64>()
+        };
+        self.groups.iter().map(of).sum()
+    }
+}
+
+impl Force for Anchors {
+    fn name(&self) -> &str {
+        "anchors"
+    }
+
+    fn role(&self) -> Role {
+        Role::Contact
+    }
+
+    fn begin(&mut self) {
+        self.rounds = 0;
+        for g in &mut self.groups {
+            g.stiffness = g.first;
+            g.at.clone_from(&g.start);
+            g.now.clone_from(&g.start);
+        }
+    }
+
+    fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
+        let dim = self.dofs.dim;
+        let mut unit = vec![0.0; 3 * dim];
+        let mut square = vec![0.0; dim * dim];
+        for c in 0..dim {
+            unit[c * dim + c] = 1.0;
+            square[c * dim + c] = 1.0;
+        }
+        for g in &mut self.groups {
+            let change: Vec<f64> = unit.iter().map(|e| g.stiffness * e).collect();
+            let surrogate: Vec<f64> = match out.wants_surrogate {
+                true => square.iter().map(|e| g.stiffness * e).collect(),
+                false => Vec::new(),
+            };
+            for ((&p, at), now) in g.points.iter().zip(&g.at).zip(&mut g.now) {
+                *now = self.dofs.vector(&stage.at.u, p);
+                let dofs: Vec<usize> = (0..dim).map(|c| self.dofs.of(p, c)).collect();
+                let away = sub(*now, *at);
+                let force: Vec<f64> = (0..dim).map(|c| g.stiffness * away[c]).collect();
+                out.add_coupling(&dofs);
+                out.add_residual(&dofs, &force);
+                // what rounding leaves of displacements that are large
+                let rounding = 4.0 * f64::EPSILON * g.stiffness * norm(*now);
+                out.rounding += rounding * rounding;
+                out.add_tangent(
+                    &dofs,
+                    Tangent {
+                        rows: &unit,
+                        change: &change,
+                        area: 1.0,
+                        hessian: &[],
+                        surrogate: &surrogate,
+                    },
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn augment(&mut self, _stage: &Stage) -> Augmentation {
+        let mut worst: f64 = 0.0;
+        for g in &mut self.groups {
+            let pairs = g.now.iter().zip(&g.at);
+            let away = pairs.map(|(&a, &b)| distance(a, b)).fold(0.0, f64::max);
+            if away == 0.0 {
+                continue;
+            }
+            worst = worst.max(away / g.reach);
+            g.at.clone_from(&g.now);
+            // What is left of the force may move the body as far in the next round as all of it in the first.
+            let relief = (g.reach / away).clamp(1.0, RELIEF);
+            g.stiffness = (g.stiffness / relief).max(g.least.min(g.stiffness));
+        }
+        if worst == 0.0 {
+            return Augmentation::Done;
+        }
+        self.rounds += 1;
+        Augmentation::Again(worst)
+    }
+
+    fn patience(&self) -> usize {
+        MOST_ROUNDS
+    }
+
+    fn energy(&self) -> Energy {
+        Energy {
+            stored: self.left(),
+            ..Energy::default()
+        }
+    }
+}
+
+/// Points that span a body: each the farthest from those before, the first the farthest from their centre.
+pub fn spread(mesh: &Mesh, points: std::ops::Range<usize>, count: usize) -> Vec<usize> {
+    let x = &mesh.points;
+    let number = points.len().max(1) as f64;
+    let centre = points
+        .clone()
+        .fold([0.0; 3], |s, p| add_scaled(s, 1.0 / number, x[p]));
+    let mut away: Vec<f64> = points.clone().map(|p| distance(x[p], centre)).collect();
+    let mut out = Vec::new();
+    while out.len() < count.min(points.len()) {
+        // The first of those that are about as far: the choice must not depend on rounding.
+        let largest = away.iter().copied().fold(0.0, f64::max);
+        let k = away.iter().position(|&d| d >= (1.0 - 1e-6) * largest);
+        let p = points.start + k.unwrap_or(0);
+        if out.is_empty() {
+            away.fill(f64::INFINITY);
+        }
+        out.push(p);
+        for (away, q) in away.iter_mut().zip(points.clone()) {
+            *away = away.min(distance(x[p], x[q]));
+        }
+    }
+    out
+}

@@ -1,0 +1,264 @@
+//! How far a motion of whole bodies may go until the surfaces of an interface touch.
+
+use super::evaluate::TOUCHING;
+use super::{Interface, Primary};
+use crate::contact::response::Status;
+use crate::contact::surface::{Facet, triangulate};
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+
+/// Where two surfaces meet along a motion.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Meeting {
+    /// Part of the motion that can be made before surfaces that are apart may touch; infinite where they never do.
+    pub way: f64,
+    /// Points of the mesh that touch and come nearer: of the secondary, and of the primary where that is a body.
+    pub touching: Vec<(usize, Option<usize>)>,
+}
+
+/// Part of the gap at which a point that just touches is given a stiffness.
+const CLOSE: f64 = 0.5;
+
+/// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other.
+const SLIDING: f64 = 1e-9;
+
+/// How far beyond its edges a ray still meets a facet, relative to the facet.
+const EDGE: f64 = 1e-6;
+
+/// Part of the margin of the search that is gone at once where no facet is near.
+const STRIDE: f64 = 0.5;
+
+impl Interface {
+    /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
+    /// primary.
+    pub fn meeting(&mut self, u: &[f64], w: &[f64], t: f64) -> Meeting {
+        let none = Meeting {
+            way: f64::INFINITY,
+            touching: Vec::new(),
+        };
+        let speeds: Vec<Vec3> = (self.nodes.iter())
+            .map(|&node| self.dofs.vector(w, node))
+            .collect();
+        let largest = speeds.iter().map(|&v| norm(v)).fold(0.0, f64::max);
+        if largest == 0.0 {
+            return none;
+        }
+        let x = self.coordinates(u);
+        match &self.primary {
+            Primary::Rigid(..) => self.meeting_obstacle(&x, &speeds, largest, t),
+            Primary::Facets(_) => match self.meeting_of_boxes(&x, &speeds, largest) {
+                Some(0.0) => self.meeting_facets(&x, &speeds, largest, t),
+                Some(way) => Meeting { way, ..none },
+                None => none,
+            },
+        }
+    }
+
+    /// Whether any point is in contact at the last accepted state.
+    pub fn touched(&self) -> bool {
+        let committed = self.memory.committed.iter();
+        committed.into_iter().any(|h| h.status != Status::Open)
+    }
+
+    /// Points of the mesh and outward normals of both surfaces there, facet by facet of the primary.
+    pub fn normals(&self) -> Vec<(usize, Vec3)> {
+        let mut out = Vec::new();
+        for point in &self.points {
+            out.extend(point.nodes.iter().map(|&n| (self.nodes[n], point.normal)));
+        }
+        if let Primary::Facets(facets) = &self.primary {
+            for piece in triangulate(facets.clone()) {
+                let x: Vec<Vec3> = piece.nodes.iter().map(|&n| self.reference[n]).collect();
+                let normal = outward(&x);
+                let normal = scale(1.0 / norm(normal).max(f64::MIN_POSITIVE), normal);
+                out.extend(piece.nodes.iter().map(|&n| (self.nodes[n], normal)));
+            }
+        }
+        out
+    }
+
+    /// Springs that stand for the bodies at a contact point `[N/m]` and the height of the cell beneath `[m]`, mean values.
+    pub fn typical(&self) -> (f64, f64) {
+        let count = self.points.len().max(1) as f64;
+        let springs = self.points.iter().map(|p| p.stiffness * p.area);
+        let sizes = self.points.iter().map(|p| p.size);
+        (springs.sum::<f64>() / count, sizes.sum::<f64>() / count)
+    }
+
+    fn meeting_obstacle(&self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Meeting {
+        let mut meeting = Meeting {
+            way: f64::INFINITY,
+            touching: Vec::new(),
+        };
+        let Primary::Rigid(shape, motion) = &self.primary else {
+            return meeting;
+        };
+        let pose = motion.pose(t);
+        for (i, point) in self.points.iter().enumerate() {
+            let Some(foot) = shape.as_dyn().foot(pose.inward(point.position(x))) else {
+                continue;
+            };
+            let v = point.position(speeds);
+            let closing = -dot(v, pose.turn(foot.normal));
+            if closing <= SLIDING * largest {
+                continue;
+            }
+            let gap = foot.gap - self.initial.offset(i, t);
+            if gap <= CLOSE * TOUCHING * point.size {
+                meeting.touching.push((self.nodes[point.nodes[0]], None));
+                continue;
+            }
+            // Seen from inside, the surface is nearer than its tangent plane: no further than it is away.
+            let hollow = (0..3).map(|i| foot.curvature[i][i]).sum::<f64>() < 0.0;
+            let speed = if hollow { norm(v) } else { closing };
+            meeting.way = meeting.way.min(gap / speed);
+        }
+        meeting
+    }
+
+    /// How far the motion can go until the boxes around both sides touch; `None` if they never do.
+    fn meeting_of_boxes(&self, x: &[Vec3], speeds: &[Vec3], largest: f64) -> Option<f64> {
+        let Primary::Facets(facets) = &self.primary else {
+            return None;
+        };
+        let range = |of: &[Vec3], nodes: &mut dyn Iterator<Item = usize>| {
+            nodes.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |b, n| {
+                let of = of[n];
+                [
+                    std::array::from_fn(|c| b[0][c].min(of[c])),
+                    std::array::from_fn(|c| b[1][c].max(of[c])),
+                ]
+            })
+        };
+        let ours = || self.points.iter().flat_map(|p| p.nodes.iter().copied());
+        let theirs = || facets.iter().flat_map(|f| f.nodes.iter().copied());
+        let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
+        let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
+        let smallest = self.points.iter().map(|p| p.size);
+        let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
+        let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
+        for c in 0..self.dofs.dim {
+            for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
+                let apart = upper[0][c] - lower[1][c];
+                let fastest = v_lower[1][c] - v_upper[0][c];
+                let slowest = v_lower[0][c] - v_upper[1][c];
+                if apart > slack {
+                    if fastest <= SLIDING * largest {
+                        return None;
+                    }
+                    entry = entry.max(apart / fastest);
+                } else if slowest < 0.0 {
+                    exit = exit.min((apart - slack) / slowest);
+                }
+            }
+        }
+        (entry <= exit).then_some(entry)
+    }
+
+    fn meeting_facets(&mut self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Meeting {
+        let mut meeting = Meeting {
+            way: f64::INFINITY,
+            touching: Vec::new(),
+        };
+        self.search(x);
+        let mut boxes = Vec::new();
+        self.enclose(x, &mut boxes);
+        let Primary::Facets(facets) = &self.primary else {
+            return meeting;
+        };
+        let margin = self.memory.margin;
+        let stride = STRIDE * margin / (2.0 * largest);
+        for (i, point) in self.points.iter().enumerate() {
+            let (position, v) = (point.position(x), point.position(speeds));
+            let offset = self.initial.offset(i, t);
+            let foot = self.closest(i, x, &boxes, None, None).ok();
+            let foot = foot.map(|(f, foot)| {
+                let nodes = facets[f].nodes.iter().zip(&foot.n);
+                let carried = nodes.fold([0.0; 3], |s, (&node, &n)| add_scaled(s, n, speeds[node]));
+                let gap = dot(sub(position, foot.x), foot.normal) - offset;
+                (gap, -dot(sub(v, carried), foot.normal), facets[f].nodes[0])
+            });
+            if let Some((gap, closing, node)) = foot
+                && gap <= CLOSE * TOUCHING * point.size
+                && closing > SLIDING * largest
+            {
+                let secondary = self.nodes[point.nodes[0]];
+                let primary = self.nodes[node];
+                meeting.touching.push((secondary, Some(primary)));
+                continue;
+            }
+            // Along the motion another facet may be met before the nearest one.
+            let mut way = f64::INFINITY;
+            for &f in &self.memory.candidates[i] {
+                way = way.min(along_ray(&facets[f], x, speeds, position, v, largest));
+            }
+            if way * largest > CLOSE * TOUCHING * point.size {
+                meeting.way = meeting.way.min(way);
+            }
+            // What is left to facets that are curved.
+            if let Some((gap, closing, _)) = foot
+                && gap > CLOSE * TOUCHING * point.size
+                && closing > SLIDING * largest
+                && gap <= 0.1 * margin
+            {
+                meeting.way = meeting.way.min(gap / closing);
+            }
+        }
+        meeting.way = meeting.way.min(stride);
+        meeting
+    }
+}
+
+/// Not normalised: out of a straight edge or a triangle.
+fn outward(x: &[Vec3]) -> Vec3 {
+    let along = sub(x[1], x[0]);
+    match x.get(2) {
+        Some(&third) => cross(along, sub(third, x[0])),
+        None => [along[1], -along[0], 0.0],
+    }
+}
+
+/// When a point at `position` that moves with `v` meets a facet; infinite if it does not.
+fn along_ray(
+    facet: &Facet,
+    x: &[Vec3],
+    speeds: &[Vec3],
+    position: Vec3,
+    v: Vec3,
+    largest: f64,
+) -> f64 {
+    let count = facet.nodes.len() as f64;
+    let carried = facet.nodes.iter().fold([0.0; 3], |s, &n| add(s, speeds[n]));
+    let v = add_scaled(v, -1.0 / count, carried);
+    let mut way = f64::INFINITY;
+    for piece in triangulate(vec![facet.clone()]) {
+        let corners: Vec<Vec3> = piece.nodes.iter().map(|&n| x[n]).collect();
+        let normal = outward(&corners);
+        let size = norm(normal);
+        let closing = -dot(v, normal) / size;
+        if closing.is_nan() || closing <= SLIDING * largest {
+            continue;
+        }
+        let s = dot(sub(position, corners[0]), normal) / size / closing;
+        if s < 0.0 || s >= way {
+            continue;
+        }
+        let hit = add_scaled(position, s, v);
+        let inside = match corners.as_slice() {
+            &[a, b] => {
+                let along = sub(b, a);
+                let at = dot(sub(hit, a), along) / dot(along, along);
+                (-EDGE..=1.0 + EDGE).contains(&at)
+            }
+            &[a, b, c] => {
+                let part = |p: Vec3, q: Vec3| dot(cross(sub(p, hit), sub(q, hit)), normal);
+                let least = part(a, b).min(part(b, c)).min(part(c, a));
+                least >= -EDGE * size * size
+            }
+            _ => false,
+        };
+        if inside {
+            way = s;
+        }
+    }
+    way
+}

@@ -1,0 +1,369 @@
+//! Bodies that only contact can hold, in quasi-static steps: they are moved until they touch, and anchored until contact holds them.
+
+use super::accepted::Accepted;
+use super::diagnosis::{FreeBody, free_bodies};
+use super::model::Step;
+use super::run::{Observer, Simulation};
+use crate::body::{Anchors, Hold, spread};
+use crate::contact::interface::Interface;
+use crate::error::Error;
+use crate::math::{dot, norm};
+use crate::system::{Cause, Force, StepFailure};
+use crate::time::Trial;
+
+/// What is known of bodies that only contact can hold.
+#[derive(Default)]
+pub(super) struct Loose {
+    anchors: Option<Anchors>,
+    /// The step for which bodies were looked at, and those that interfaces may hold.
+    known: Option<(usize, Vec<FreeBody>)>,
+    /// Contact alone was found not to be enough in this step: the anchors stay.
+    stay: bool,
+    /// Nothing holds the bodies: they have been followed in vain.
+    vain: bool,
+    /// How often the bodies were put elsewhere in this increment.
+    put: usize,
+    /// Energy left in the anchors.
+    left: f64,
+}
+
+/// Way in rounds of the anchors that is made without strain before the increment is computed once more.
+const LONG: f64 = 0.5;
+
+/// How often bodies are put elsewhere in one increment.
+const MOST_PUT: usize = 6;
+
+/// Part of a cell that a body may move in a round.
+const REACH: f64 = 0.25;
+
+/// Component of a motion along a normal from which on contact may resist it.
+const RESISTED: f64 = 1e-6;
+
+impl Loose {
+    /// The forces with the anchors among them.
+    pub fn with<'a>(&'a mut self, mut forces: Vec<&'a mut dyn Force>) -> Vec<&'a mut dyn Force> {
+        if let Some(anchors) = &mut self.anchors {
+            forces.push(anchors);
+        }
+        forces
+    }
+
+    /// Points of the mesh that are anchored.
+    pub fn points(&self) -> Vec<usize> {
+        let anchors = self.anchors.iter();
+        anchors.flat_map(|a| a.points()).collect()
+    }
+}
+
+impl Simulation {
+    /// Finds the bodies that supports leave free and interfaces may hold.
+    fn know(&mut self) {
+        if matches!(self.loose.known, Some((step, _)) if step == self.step) {
+            return;
+        }
+        let step = &self.model.steps[self.step];
+        let middle = 0.5 * (step.start + step.end);
+        let mut bodies = Vec::new();
+        if self.model.follow && !self.model.interfaces.is_empty() {
+            bodies = free_bodies(self, middle);
+        }
+        let active = |i: &&Interface| i.schedule.active(middle);
+        let interfaces: Vec<&Interface> = self.model.interfaces.iter().filter(active).collect();
+        let dofs = self.model.dofs;
+        let mut resisted = false;
+        bodies.retain(|free| {
+            let points = &self.model.bodies[free.body].points;
+            let mut met = false;
+            for interface in &interfaces {
+                for (point, normal) in interface.normals() {
+                    if points.contains(&point) {
+                        met = true;
+                        resisted |= free.motions.iter().any(|(_, motion)| {
+                            dot(dofs.vector(motion, point), normal).abs() > RESISTED
+                        });
+                    }
+                }
+            }
+            met
+        });
+        if !resisted {
+            bodies.clear();
+        }
+        self.loose = Loose {
+            known: Some((self.step, bodies)),
+            left: self.loose.left,
+            ..Loose::default()
+        };
+    }
+
+    /// Moves loose bodies that touch nothing yet until they do.
+    pub(super) fn meet(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        self.know();
+        let loose = &self.loose;
+        let Some((_, bodies)) = &loose.known else {
+            return Ok(());
+        };
+        if bodies.is_empty() || loose.anchors.is_some() || loose.vain || loose.put > 0 {
+            return Ok(());
+        }
+        let untouched = |free: &FreeBody| {
+            let points = &self.model.bodies[free.body].points;
+            let mut all = self.model.interfaces.iter();
+            all.all(|i| !i.touched() || !i.nodes.iter().any(|n| points.contains(n)))
+        };
+        if !bodies.iter().any(untouched) {
+            return Ok(());
+        }
+        if self.approach_all(trial, observers)? {
+            self.anchor(trial, observers)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a failure may come from bodies that nothing holds yet, and that have not been anchored.
+    pub(super) fn may_follow(&self, step: &Step, failure: &StepFailure) -> bool {
+        let known = self.loose.known.as_ref();
+        step.dynamic.is_none()
+            && matches!(failure.cause, Cause::Singular | Cause::LinearSolver)
+            && self.loose.anchors.is_none()
+            && !self.loose.vain
+            && known.is_some_and(|(_, bodies)| !bodies.is_empty())
+    }
+
+    /// Anchors the bodies that nothing else holds.
+    pub(super) fn follow(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        self.approach_all(trial, observers)?;
+        self.loose.stay = true;
+        if !self.loose.vain {
+            self.anchor(trial, observers)?;
+        }
+        Ok(())
+    }
+
+    /// Moves loose bodies until they touch; whether any has moved.
+    fn approach_all(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        self.flush(observers)?;
+        let Some((step, bodies)) = self.loose.known.take() else {
+            return Ok(false);
+        };
+        let external = self.external(trial.to);
+        let found = self.approach(&bodies, &external, trial);
+        let mut names = Vec::new();
+        for (free, &moved) in bodies.iter().zip(&found.moved) {
+            if moved > 0.0 {
+                let name = &self.model.bodies[free.body].name;
+                names.push(format!("{name} by {moved:.3e}"));
+            }
+        }
+        self.loose.known = Some((step, bodies));
+        if !found.adrift.is_empty() {
+            self.loose.vain = true;
+            return Ok(false);
+        }
+        if names.is_empty() {
+            return Ok(false);
+        }
+        self.notes.push(format!(
+            "moved without strain until they touch: {}",
+            names.join(", ")
+        ));
+        self.put(found.u, observers)?;
+        Ok(true)
+    }
+
+    /// Takes other displacements, which differ by motions without strain, as the last state.
+    fn put(&mut self, u: Vec<f64>, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        self.flush(observers)?;
+        self.state.u = u;
+        self.model.links.impose(&mut self.state.u);
+        self.forget_direction();
+        self.provide(observers, true)
+    }
+
+    /// Sees to it that the solver knows the points that may touch now, and those that are anchored.
+    fn provide(&mut self, observers: &mut [&mut dyn Observer], moved: bool) -> Result<(), Error> {
+        self.choose_candidates();
+        if moved {
+            self.condensed = None;
+        }
+        self.condense()?;
+        self.tell_notes(observers)
+    }
+
+    /// Lays anchors.
+    fn anchor(&mut self, trial: Trial, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        self.flush(observers)?;
+        let external = self.external(trial.to);
+        let pushes = self.pushes(&external).into_iter();
+        let force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
+        let model = &self.model;
+        let mut anchors = Anchors::new(model.dofs);
+        let mut names = Vec::new();
+        let bodies = self.loose.known.iter().flat_map(|(_, bodies)| bodies);
+        for free in bodies {
+            let body = &model.bodies[free.body];
+            let (mut spring, mut size) = (0.0_f64, f64::INFINITY);
+            for interface in &model.interfaces {
+                if interface.nodes.iter().any(|n| body.points.contains(n)) {
+                    let (k, h) = interface.typical();
+                    spring = spring.max(k);
+                    size = size.min(h);
+                }
+            }
+            let hold = Hold {
+                spring,
+                force,
+                reach: REACH * size,
+            };
+            let points = spread(&model.mesh, body.points.clone(), model.dofs.dim + 1);
+            anchors.hold(points, &self.state.u, hold);
+            let motions: Vec<&str> = free.motions.iter().map(|(name, _)| name.as_str()).collect();
+            names.push(format!("{} ({})", body.name, motions.join(", ")));
+        }
+        self.notes.push(format!(
+            "followed until contact holds them: {}",
+            names.join("; ")
+        ));
+        self.loose.anchors = Some(anchors);
+        self.provide(observers, false)
+    }
+
+    /// What an attempt with anchors says of the bodies: those that are still on their way are held by nothing.
+    pub(super) fn judge_loose(
+        &mut self,
+        outcome: Result<Accepted, StepFailure>,
+    ) -> Result<Accepted, StepFailure> {
+        let Some(anchors) = &self.loose.anchors else {
+            return outcome;
+        };
+        match outcome {
+            Err(failure) if failure.cause == Cause::Reach => Err(failure),
+            Err(failure) => {
+                let adrift = anchors.adrift();
+                self.loose.anchors = None;
+                self.loose.put = 0;
+                if !adrift {
+                    return Err(failure);
+                }
+                self.loose.vain = true;
+                Err(StepFailure {
+                    cause: Cause::Singular,
+                    message: "a body has been followed, but contact does not hold it".into(),
+                    ..failure
+                })
+            }
+            accepted => accepted,
+        }
+    }
+
+    /// Whether an increment is to be computed again, as the bodies went so far that it should start where they have come.
+    pub(super) fn carried_on(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let Some(anchors) = self.loose.anchors.take() else {
+            self.loose.put = 0;
+            return Ok(false);
+        };
+        if anchors.travel() <= LONG || self.loose.put >= MOST_PUT {
+            self.loose.put = 0;
+            self.loose.left = anchors.left();
+            self.summary.followed += 1;
+            if self.loose.stay {
+                let mut anchors = anchors;
+                anchors.rest();
+                self.loose.anchors = Some(anchors);
+            }
+            return Ok(false);
+        }
+        self.loose.put += 1;
+        self.flush(observers)?;
+        let mut u = self.state.u.clone();
+        let mut names = Vec::new();
+        let bodies = self.loose.known.iter().flat_map(|(_, bodies)| bodies);
+        for (k, free) in bodies.enumerate() {
+            let way = rigid_part(free, &anchors, k, self.model.dofs, &mut u);
+            names.push(format!(
+                "{} by {way:.3e}",
+                self.model.bodies[free.body].name
+            ));
+        }
+        self.notes.push(format!(
+            "moved without strain to where contact holds them: {}",
+            names.join(", ")
+        ));
+        self.put(u, observers)?;
+        self.anchor(trial, observers)?;
+        Ok(true)
+    }
+
+    /// Energy left in anchors over the strain energy.
+    pub(super) fn artificial_energy(&self) -> f64 {
+        let strain = self.summary.energy.strain;
+        if self.loose.left == 0.0 {
+            0.0
+        } else {
+            self.loose.left / strain.max(f64::MIN_POSITIVE)
+        }
+    }
+}
+
+/// Adds to `u` the free motion that comes nearest to that of the anchored points of the `k`-th body; its largest displacement.
+fn rigid_part(
+    free: &FreeBody,
+    anchors: &Anchors,
+    k: usize,
+    dofs: crate::system::Dofs,
+    u: &mut [f64],
+) -> f64 {
+    let moved = anchors.moved(k);
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let over = |a: &[f64], b: &dyn Fn(usize, usize) -> f64| -> f64 {
+        let mut sum = 0.0;
+        for (n, (p, _)) in moved.iter().enumerate() {
+            for c in 0..dofs.dim {
+                sum += a[dofs.of(*p, c)] * b(n, c);
+            }
+        }
+        sum
+    };
+    // Orthonormal with regard to the anchored points.
+    for (_, motion) in &free.motions {
+        let mut v = motion.clone();
+        for _ in 0..2 {
+            for q in &basis {
+                let s = over(&v, &|n, c| q[dofs.of(moved[n].0, c)]);
+                v.iter_mut().zip(q).for_each(|(v, q)| *v -= s * q);
+            }
+        }
+        let size = over(&v, &|n, c| v[dofs.of(moved[n].0, c)]).sqrt();
+        if size > 1e-8 {
+            v.iter_mut().for_each(|v| *v /= size);
+            basis.push(v);
+        }
+    }
+    let mut way: f64 = 0.0;
+    let mut total = vec![0.0; u.len()];
+    for q in &basis {
+        let s = over(q, &|n, c| moved[n].1[c]);
+        total.iter_mut().zip(q).for_each(|(t, q)| *t += s * q);
+    }
+    for (n, _) in moved.iter().enumerate() {
+        way = way.max(norm(dofs.vector(&total, moved[n].0)));
+    }
+    u.iter_mut().zip(&total).for_each(|(u, t)| *u += t);
+    way
+}

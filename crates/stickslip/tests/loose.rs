@@ -1,0 +1,268 @@
+//! Bodies that only contact can hold: forces close the gaps, whatever their size, and what helped on the way is gone at the end.
+
+mod support;
+
+use std::path::Path;
+
+use stickslip::problem::Problem;
+use stickslip::simulation::{Simulation, Summary};
+use support::Record;
+
+/// Gaps `[m]`.
+const GAPS: [f64; 6] = [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+const FRICTION: [&str; 2] = ["none = {}", "coulomb = { mu = 0.2 }"];
+
+/// Units of length and stress, as multiples of the metre and the pascal.
+type Units = (f64, f64);
+const SI: Units = (1.0, 1.0);
+const MILLIMETRES: Units = (1e3, 1e-6);
+
+/// What came of a run.
+struct Outcome {
+    record: Record,
+    summary: Summary,
+}
+
+impl Outcome {
+    fn last(&self, column: &str) -> f64 {
+        self.summary.last[column]
+    }
+
+    /// Iterations of each increment.
+    fn iterations(&self) -> Vec<usize> {
+        self.record.increments.iter().map(|i| i.0.len()).collect()
+    }
+
+    /// Converged, without anything artificial left, and in balance with the load.
+    fn is_sound(&self, what: &str, (columns, load): (&[&str], f64)) {
+        let s = &self.summary;
+        assert!(s.completed, "{what}");
+        assert!(
+            s.artificial_energy < 1e-10,
+            "{what}: {:e}",
+            s.artificial_energy
+        );
+        assert!(s.energy.strain > 0.0, "{what}");
+        let carried: f64 = columns.iter().map(|c| self.last(c)).sum();
+        let error = (carried / load - 1.0).abs();
+        assert!(error < 1e-6, "{what}: {carried:e} instead of {load:e}");
+    }
+}
+
+fn simulation(text: &str) -> Simulation {
+    let problem: Problem = support::problem(text);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/closing-gaps");
+    let model = problem.build(&folder).unwrap_or_else(|e| panic!("{e}"));
+    Simulation::new(model).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn run(what: &str, text: &str) -> Outcome {
+    let mut record = Record::default();
+    let mut simulation = simulation(text);
+    let outcome = simulation.run(&mut [&mut record]);
+    outcome.unwrap_or_else(|e| panic!("{what}: {e}"));
+    Outcome {
+        record,
+        summary: simulation.summary,
+    }
+}
+
+/// A block above another; nothing but contact holds it.
+fn plane_blocks(gap: f64, friction: &str, (length, stress): Units) -> String {
+    let l = |x: f64| x * length;
+    format!(
+        r#"
+format = 1
+model = {{ space = "plane-strain", thickness = {t:?} }}
+body.lower = {{ generate.rectangle = {{ to = [{w:?}, {h:?}], cells = [10, 4] }}, material = "steel" }}
+body.upper = {{ generate.rectangle = {{ from = [{a:?}, {h:?}], to = [{b:?}, {top:?}], cells = [7, 5] }}, translate = [0, {gap:?}], material = "steel" }}
+material.steel.isotropic = {{ young = {young:?}, poisson = 0.3 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+load.press = {{ set = "upper.top", pressure = {{ value = {p:?} }} }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.{friction} }}
+step = [{{ increments.fixed = 2 }}]
+"#,
+        t = l(1.0),
+        w = l(0.05),
+        h = l(0.02),
+        a = l(0.01),
+        b = l(0.04),
+        top = l(0.04),
+        gap = l(gap),
+        young = 210e9 * stress,
+        p = 50e6 * stress,
+    )
+}
+
+fn solid_blocks(gap: f64, friction: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "solid"
+body.lower = {{ generate.box = {{ to = [0.03, 0.03, 0.01], cells = [5, 5, 2] }}, material = "steel" }}
+body.upper = {{ generate.box = {{ from = [0.005, 0.005, 0.01], to = [0.025, 0.025, 0.02], cells = [4, 4, 2] }}, translate = [0, 0, {gap:?}], material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}
+load.press = {{ set = "upper.top", pressure = {{ value = 50e6 }} }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.{friction} }}
+step = [{{ increments.fixed = 1 }}]
+"#
+    )
+}
+
+/// A pin in a hole 1 mm larger in radius, so far above the bottom of the hole.
+fn pin(gap: f64, friction: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ gmsh.file = "hole.msh", scale = 1e-3, material = "steel" }}
+body.pin = {{ generate.disc = {{ radius = 0.01, size = 1e-3 }}, translate = [0, {shift:?}], material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+interface.seat = {{ secondary = "pin.arc", primary = "block.hole", friction.{friction} }}
+support.base = {{ set = "block.bottom", x = 0, y = 0 }}
+load.push = {{ set = "pin", body-force = {{ value = [0, -3e9] }} }}
+step = [{{ increments.fixed = 2 }}]
+"#,
+        shift = gap - 1e-3,
+    )
+}
+
+/// A ball above three others that touch nothing but their supports.
+fn balls(gap: f64, friction: &str) -> String {
+    let mut text = format!(
+        r#"
+format = 1
+model.space = "solid"
+body.top = {{ generate.ball = {{ centre = [0, 0, 0.01636306817], radius = 0.01, size = 0.004 }}, translate = [0, 0, {gap:?}], material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+load.weight = {{ set = "top", body-force = {{ value = [0, 0, -2.4e8] }} }}
+step = [{{ increments.fixed = 1 }}]
+"#
+    );
+    for (name, x, y) in [
+        ("a", 0.0115, 0.0),
+        ("b", -0.00575, 0.00995929214),
+        ("c", -0.00575, -0.00995929214),
+    ] {
+        text += &format!(
+            r#"
+body.{name} = {{ generate.ball = {{ centre = [{x:?}, {y:?}, 0], radius = 0.01, size = 0.004 }}, material = "steel" }}
+set.base-{name} = {{ of = "{name}", box = {{ from = [-0.03, -0.03, -0.011], to = [0.03, 0.03, -0.003] }} }}
+support.{name} = {{ set = "base-{name}", x = 0, y = 0, z = 0 }}
+interface.on-{name} = {{ secondary = "top.surface", primary = "{name}.surface", friction.{friction} }}
+"#
+        );
+    }
+    text
+}
+
+#[test]
+fn blocks_in_the_plane_are_pressed_together() {
+    for gap in GAPS {
+        for friction in FRICTION {
+            let what = format!("gap {gap:e}, {friction}");
+            let outcome = run(&what, &plane_blocks(gap, friction, SI));
+            outcome.is_sound(&what, (&["joint.CFN2", "joint.CFS2"], 1.5e6));
+        }
+    }
+}
+
+#[test]
+fn millimetres_make_no_difference() {
+    for gap in [1e-5, 1e-3] {
+        for friction in FRICTION {
+            let of = |units| run("blocks", &plane_blocks(gap, friction, units)).iterations();
+            assert_eq!(of(SI), of(MILLIMETRES), "gap {gap:e}, {friction}");
+        }
+    }
+}
+
+#[test]
+fn blocks_in_space_are_pressed_together() {
+    for gap in GAPS {
+        for friction in FRICTION {
+            let what = format!("gap {gap:e}, {friction}");
+            let outcome = run(&what, &solid_blocks(gap, friction));
+            outcome.is_sound(&what, (&["joint.CFN3", "joint.CFS3"], 2e4));
+        }
+    }
+}
+
+#[test]
+fn the_sparse_matrix_finds_the_same() {
+    let text = plane_blocks(1e-3, FRICTION[1], SI);
+    let other = format!("{text}\nsolver.method = \"sparse\"");
+    let [a, b] = [text, other].map(|t| run("blocks", &t));
+    let [p, q] = [&a, &b].map(|o| o.last("joint.CPRESSMAX"));
+    assert!((p / q - 1.0).abs() < 1e-6, "{p:e} {q:e}");
+}
+
+#[test]
+fn a_pin_falls_into_its_seat() {
+    for gap in [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3] {
+        for friction in FRICTION {
+            let what = format!("gap {gap:e}, {friction}");
+            let outcome = run(&what, &pin(gap, friction));
+            // the section of the pin is a polygon
+            let load = outcome.last("seat.CFN2") + outcome.last("seat.CFS2");
+            outcome.is_sound(&what, (&["seat.CFN2", "seat.CFS2"], load));
+            assert!((load / (3e9 * 3.14159e-4) - 1.0).abs() < 1e-2, "{load:e}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_comes_to_rest_on_three() {
+    for gap in [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+        for friction in FRICTION {
+            let what = format!("gap {gap:e}, {friction}");
+            let outcome = run(&what, &balls(gap, friction));
+            let columns =
+                ["on-a", "on-b", "on-c"].map(|i| [format!("{i}.CFN3"), format!("{i}.CFS3")]);
+            let columns: Vec<&str> = columns.iter().flatten().map(String::as_str).collect();
+            let load: f64 = columns.iter().map(|c| outcome.last(c)).sum();
+            outcome.is_sound(&what, (&columns, load));
+            // a ball of 4.19 cm³, less what the mesh cuts off
+            assert!((0.8..1.0).contains(&(load / 1005.3)), "{what}: {load}");
+            for i in ["on-a", "on-b", "on-c"] {
+                assert!(outcome.last(&format!("{i}.CAREA")) > 0.0, "{what}: {i}");
+            }
+        }
+    }
+}
+
+/// A load along a motion that contact does not resist has no equilibrium.
+#[test]
+fn a_body_that_slides_off_is_not_followed_for_ever() {
+    let text = plane_blocks(1e-5, FRICTION[0], SI);
+    let pushed = format!(
+        "{text}\nload.side = {{ set = \"upper.left\", traction = {{ value = [1e6, 0] }} }}"
+    );
+    let message = support::complaint(&pushed);
+    assert!(message.contains("body upper"), "{message}");
+    assert!(message.contains("translation x"), "{message}");
+}
+
+/// Nothing lies in the way of the load.
+#[test]
+fn a_body_that_is_pulled_away_is_not_followed() {
+    let text =
+        plane_blocks(1e-5, FRICTION[0], SI).replace("value = 50000000.0", "value = -50000000.0");
+    let message = support::complaint(&text);
+    assert!(
+        message.contains("free to move as a rigid body"),
+        "{message}"
+    );
+}
+
+#[test]
+fn following_can_be_switched_off() {
+    let text = plane_blocks(1e-5, FRICTION[0], SI) + "\nsolver.follow-loose-bodies = false";
+    let message = support::complaint(&text);
+    assert!(
+        message.contains("free to move as a rigid body"),
+        "{message}"
+    );
+}

@@ -1,0 +1,139 @@
+//! What becomes of the gaps that meshes have when an interface begins to act.
+
+mod support;
+
+use std::path::Path;
+
+use stickslip::simulation::Simulation;
+
+/// Two blocks, the upper one too high or too low by `gap`, pressed by a displacement or held.
+fn blocks(gap: f64, press: f64, initial: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ to = [1, 1], cells = [6, 6] }}, material = "soft" }}
+body.upper = {{ generate.rectangle = {{ from = [0, 1], to = [1, 2], cells = [6, 6] }}, translate = [0, {gap:?}], material = "soft" }}
+material.soft.isotropic = {{ young = 1000.0, poisson = 0.0 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.top = {{ set = "upper.top", x = 0, y = {press:?} }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", {initial} }}
+step = [{{ increments.fixed = 4 }}]
+"#
+    )
+}
+
+fn run(text: &str) -> Simulation {
+    let model = support::problem(text).build(Path::new("."));
+    let simulation = model.and_then(Simulation::new);
+    let mut simulation = simulation.unwrap_or_else(|e| panic!("{e}"));
+    let outcome = simulation.run(&mut []);
+    outcome.unwrap_or_else(|e| panic!("{e}"));
+    simulation
+}
+
+fn force(text: &str) -> f64 {
+    run(text).summary.last["joint.CFN2"]
+}
+
+fn near(a: f64, b: f64, tolerance: f64) {
+    assert!(
+        (a - b).abs() <= tolerance * b.abs().max(1e-12),
+        "{a:e} instead of {b:e}"
+    );
+}
+
+/// Without lateral contraction the two blocks are a bar of length 2: a shortening by `d` needs `500 d`.
+#[test]
+fn an_offset_closes_gaps_and_forgets_overlaps() {
+    for gap in [5e-3, -5e-3] {
+        near(
+            force(&blocks(gap, -0.01, "initial = \"offset\"")),
+            5.0,
+            2e-2,
+        );
+    }
+    // as meshed the gap has to be closed first
+    near(
+        force(&blocks(5e-3, -0.01, "initial = \"as-meshed\"")),
+        2.5,
+        2e-2,
+    );
+    // beyond the tolerance a gap is a gap
+    let far = "initial = \"offset\", initial-tolerance = 1e-3";
+    near(force(&blocks(5e-3, -0.01, far)), 2.5, 2e-2);
+}
+
+#[test]
+fn snapped_points_lie_on_the_primary() {
+    let text = blocks(5e-3, -0.01, "initial = \"snap\"");
+    let simulation = run(&text);
+    near(simulation.summary.last["joint.CFN2"], 5.0, 2e-2);
+    let notes = simulation.summary.notes.join("\n");
+    assert!(
+        notes.contains("7 points of the mesh moved onto the primary, by 5.000e-3"),
+        "{notes}"
+    );
+    let mesh = &simulation.model.mesh;
+    let on = mesh.points.iter().filter(|x| x[1] == 1.0).count();
+    assert_eq!(on, 14);
+}
+
+#[test]
+fn a_snap_that_turns_a_cell_inside_out_is_refused() {
+    let text = blocks(-0.4, -0.01, "initial = \"snap\", initial-tolerance = 100.0");
+    let built = support::problem(&text).build(Path::new("."));
+    let message = match built {
+        Err(e) => e.to_string(),
+        Ok(_) => panic!("built"),
+    };
+    assert!(message.contains("moved onto a primary"), "{message}");
+}
+
+#[test]
+fn overlap_is_resolved_over_the_step() {
+    let text = blocks(-0.01, 0.0, "initial = \"ramp\"");
+    let mut record = support::Record::default();
+    let model = support::problem(&text).build(Path::new("."));
+    let mut simulation = model
+        .and_then(Simulation::new)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let outcome = simulation.run(&mut [&mut record]);
+    outcome.unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(record.increments.len(), 4);
+    for (k, (_, row)) in record.increments.iter().enumerate() {
+        let column = row
+            .names
+            .iter()
+            .position(|n| n == "joint.CFN2")
+            .expect("a column");
+        let part = (k + 1) as f64 / 4.0;
+        near(row.values[column], 5.0 * part, 2e-2);
+    }
+    // what the overlap puts in is in the bodies, and the ledger knows
+    let summary = &simulation.summary;
+    assert!(summary.energy_quality.met, "{:?}", summary.energy);
+    assert!(
+        summary.energy.residual.abs() < 1e-6 * summary.energy.strain,
+        "{:?}",
+        summary.energy
+    );
+    // the same at the end as at once
+    near(
+        force(&text),
+        force(&blocks(-0.01, 0.0, "initial = \"as-meshed\"")),
+        1e-6,
+    );
+}
+
+#[test]
+fn an_explicit_step_knows_the_start_as_well() {
+    let text = blocks(5e-3, -0.01, "initial = \"offset\", enforcement.penalty = { stiffness = 1e5 }")
+        .replace("poisson = 0.0 }", "poisson = 0.0, density = 1.0 }")
+        .replace("support.top", "#support.top")
+        .replace(
+            "step = [{ increments.fixed = 4 }]",
+            "initial.fall = { set = \"upper\", velocity = [0, -0.1] }\nstep = [{ duration = 0.01, dynamic = { scheme.central-difference = {} } }]",
+        );
+    assert!(force(&text) > 0.0);
+}
