@@ -5,6 +5,7 @@ use super::kinematics::Stencil;
 use super::law::damping::DampingModel;
 use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
 use super::law::normal::{NormalLaw, NormalModel};
+use super::law::Wear;
 use super::law::slip::{SlipModel, SlipRule, Tangential};
 
 /// The laws of an interface.
@@ -20,6 +21,8 @@ pub struct Laws {
     pub slip: SlipModel,
     /// How contact and stick are enforced.
     pub enforcement: EnforcementModel,
+    /// What sliding wears off, if that is followed.
+    pub wear: Option<Wear>,
 }
 
 /// What one evaluation of the laws needs beside the stencil.

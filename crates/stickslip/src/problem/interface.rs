@@ -7,6 +7,7 @@ use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
+use crate::contact::law::Wear;
 
 /// `[interface.NAME]`: two surfaces that may touch, and their laws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +30,10 @@ pub struct Interface {
     /// How stick and slip change hands.
     #[serde(default)]
     pub slip: SlipModel,
+    /// What sliding wears off the surfaces: the field CWEAR, and depth and volume in the history. The geometry stays as it is. Not
+    /// followed if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear: Option<Wear>,
     /// How contact and stick are enforced.
     #[serde(default)]
     pub enforcement: EnforcementModel,

@@ -1,6 +1,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::limits::Limits;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
@@ -50,6 +51,8 @@ pub struct Model {
     pub largest_change: f64,
     /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
     pub energy_limit: f64,
+    /// What counts as a good solution.
+    pub quality: Limits,
 }
 
 /// A body: a range of points and blocks of the mesh.

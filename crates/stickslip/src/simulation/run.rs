@@ -9,7 +9,7 @@ use super::inertia::strain_energy;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{Phases, Summary};
-use super::{diagnosis, history};
+use super::{diagnosis, history, quality};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
@@ -183,6 +183,8 @@ impl Simulation {
         simulation.summary.energy.strain = strain;
         simulation.summary.energy_quality.limit = simulation.model.energy_limit;
         simulation.summary.energy_quality.met = true;
+        simulation.summary.quality.gate = simulation.model.quality.gate;
+        simulation.summary.quality.met = true;
         simulation.summary.phases.assemble = started.elapsed().as_secs_f64();
         Ok(simulation)
     }
@@ -196,7 +198,9 @@ impl Simulation {
             self.started.elapsed().as_secs_f64(),
             outcome.as_ref().err(),
         );
-        self.summary.interfaces = history::interfaces(self);
+        self.summary.interfaces = quality::interfaces(self);
+        let limits = self.model.quality;
+        self.judge_energy(&limits);
         for observer in observers.iter_mut() {
             observer.see(self, Event::End)?;
         }

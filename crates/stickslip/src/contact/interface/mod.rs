@@ -1,8 +1,11 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
 mod evaluate;
+mod oscillation;
+mod quality;
 mod reach;
 mod report;
+mod sides;
 mod springs;
 
 #[cfg(test)]
@@ -10,8 +13,11 @@ mod tests;
 
 use rayon::prelude::*;
 
+pub use oscillation::neighbours;
+pub use quality::{Balance, Quality};
 pub use reach::Reach;
-pub use report::{Quality, Resultant};
+pub use report::Resultant;
+pub use sides::WearReport;
 
 use super::enforcement::Multipliers;
 use super::kinematics::KinematicsModel;
@@ -51,6 +57,8 @@ pub struct Interface {
     pub reference: Vec<Vec3>,
     /// Points of the secondary.
     pub points: Vec<ContactPoint>,
+    /// For each of them the others beside it, see [`neighbours`]; empty where nobody asks how smooth the pressure is.
+    pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,
     /// Normal law, friction, slip rule, enforcement.
@@ -85,6 +93,10 @@ pub struct Memory {
     margin: f64,
     frozen: Vec<Option<(usize, FacetPoint)>>,
     dissipated: f64,
+    /// Sum of area times `rubbed` over all points and increments `[N m]`.
+    rubbed: f64,
+    /// Dissipated energy and `rubbed` per area at the nodes of the primary, by node; empty before anything slid.
+    traces: Vec<[f64; 2]>,
     belt_work: f64,
     damped: f64,
     /// Largest velocity of slip below the limit over the last increment.
@@ -144,6 +156,10 @@ struct History {
     facet: Option<usize>,
     /// The part of the pressure that damping added.
     damping: f64,
+    /// Energy that friction has dissipated here `[J/m²]`.
+    dissipated: f64,
+    /// Pressure times path of sliding, accumulated: `∫ p |ds|` `[Pa m]`.
+    rubbed: f64,
 }
 
 /// Multipliers of a contact point in the current attempt.
@@ -631,23 +647,29 @@ impl Force for Interface {
     fn commit(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
+        let areas = self.areas();
         let memory = &mut self.memory;
         if !active || memory.last.points.is_empty() {
             for h in &mut memory.committed {
                 *h = History {
                     slip: h.slip,
+                    dissipated: h.dissipated,
+                    rubbed: h.rubbed,
                     ..History::default()
                 };
             }
             return;
         }
         memory.creep = 0.0;
-        let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
-        for ((h, e), point) in memory
+        let frictional = self.laws.friction.as_dyn().frictional();
+        let creeps = frictional && !self.laws.slip.as_dyn().sticks();
+        let mut traces = vec![[0.0; 2]; areas.len()];
+        for (((h, e), area), trace) in memory
             .committed
             .iter_mut()
             .zip(&memory.last.points)
-            .zip(&self.points)
+            .zip(areas)
+            .zip(&mut traces)
         {
             let r = &e.response;
             let shear = e.along(&e.frame);
@@ -655,8 +677,11 @@ impl Force for Interface {
             let carried = e.carried;
             let mean = [0, 1].map(|i| 0.5 * (carried[i] + r.traction[i + 1]));
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
-            memory.dissipated += (-work * point.area).max(0.0);
-            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * point.area;
+            let rubbed = 0.5 * (h.pressure + r.traction[0]) * e.path(frictional);
+            *trace = [(-work).max(0.0), rubbed.max(0.0)];
+            memory.dissipated += (-work * area).max(0.0);
+            memory.rubbed += trace[1] * area;
+            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * area;
             if creeps && r.status == Status::Stick {
                 memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
             }
@@ -667,7 +692,7 @@ impl Force for Interface {
                     h.gap - e.gap
                 };
                 let work = 0.5 * (h.damping + r.damping) * closed;
-                memory.damped += (work * point.area).max(0.0);
+                memory.damped += (work * area).max(0.0);
             }
             let slid = if r.status == Status::Open {
                 [0.0; 3]
@@ -683,8 +708,11 @@ impl Force for Interface {
                 status: r.status,
                 facet: e.facet,
                 damping: r.damping,
+                dissipated: h.dissipated + trace[0],
+                rubbed: h.rubbed + trace[1],
             };
         }
+        self.leave_traces(&traces);
     }
 
     fn energy(&self) -> Energy {
@@ -725,5 +753,19 @@ impl Evaluation {
     fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
         let t = self.response.traction;
         add_scaled(scale(t[1], frame[0]), t[2], frame[1])
+    }
+
+    /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
+    fn path(&self, frictional: bool) -> f64 {
+        let r = &self.response;
+        match (r.status, frictional) {
+            (Status::Open, _) => 0.0,
+            (_, true) => {
+                let [a, b] = r.sliding_path;
+                let [e, f] = self.frame_before;
+                crate::math::norm(add_scaled(scale(a, e), b, f))
+            }
+            (_, false) => crate::math::norm(self.moved),
+        }
     }
 }

@@ -72,6 +72,7 @@ fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
         node_ids: (0..reference.len() as u64).collect(),
         reference,
         points,
+        neighbours: Vec::new(),
         primary: Primary::Facets(facets),
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),

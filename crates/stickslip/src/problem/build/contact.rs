@@ -8,7 +8,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Interface, Memory, Primary};
+use crate::contact::interface::{Interface, Memory, Primary, neighbours};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, triangulate};
@@ -70,7 +70,9 @@ pub(super) fn build(
                 "the surface is empty",
             )]));
         }
+        let beneath = surfaces.facets(&secondary, &mut numbering);
         let nodes = numbering.nodes;
+        let reference: Vec<Vec3> = nodes.iter().map(|&n| mesh.points[n]).collect();
         out.push(Interface {
             name: name.clone(),
             dofs: Dofs {
@@ -78,7 +80,8 @@ pub(super) fn build(
                 points: mesh.points.len(),
             },
             node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
-            reference: nodes.iter().map(|&n| mesh.points[n]).collect(),
+            neighbours: neighbours(&points, &beneath, &reference),
+            reference,
             nodes,
             points,
             primary,
@@ -88,6 +91,7 @@ pub(super) fn build(
                 friction: table.friction.clone(),
                 slip: table.slip.clone(),
                 enforcement: table.enforcement.clone(),
+                wear: table.wear,
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),

@@ -116,6 +116,7 @@ impl Problem {
             },
             method: self.solver.method,
             energy_limit: self.solver.energy_limit,
+            quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,
         })

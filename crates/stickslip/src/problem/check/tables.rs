@@ -212,6 +212,9 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         enforcement.kind(),
         enforcement.as_dyn().faults(),
     );
+    if let Some(wear) = &interface.wear {
+        findings.faults(&["interface", name, "wear"], wear.faults());
+    }
     let triangles = interface.kinematics.as_dyn().triangles();
     if triangles && interface.facets == Some(FacetShape::Bilinear) {
         findings.add(
