@@ -8,12 +8,17 @@ const PRESSURE: f64 = 40.0;
 const SLIP: f64 = 0.05;
 const MU: f64 = 0.25;
 
-/// A block that is pressed on another, held across and with a mesh of its own, whose surface moves by `SLIP` in the second step: the pressure
-/// is that of the load everywhere, and the shear `MU` times that.
+/// A block that is pressed on another, held across and with a mesh of its own, whose surface moves by `SLIP` in the last step: the pressure
+/// is that of the load everywhere, and the shear `MU` times that. It begins to slide in the step before, as the work of a shear that sets in
+/// within an increment is that of its mean.
 fn belt(dim: usize, element: &str) -> Simulation {
     let block = |from: &str, to: &str, cells: &str, element: &str| match dim {
-        2 => format!("generate.rectangle = {{ from = [{from}], to = [{to}], cells = [{cells}]{element} }}"),
-        _ => format!("generate.box = {{ from = [{from}], to = [{to}], cells = [{cells}]{element} }}"),
+        2 => format!(
+            "generate.rectangle = {{ from = [{from}], to = [{to}], cells = [{cells}]{element} }}"
+        ),
+        _ => {
+            format!("generate.box = {{ from = [{from}], to = [{to}], cells = [{cells}]{element} }}")
+        }
     };
     let (space, lower, upper, across, belt) = match dim {
         2 => (
@@ -21,17 +26,27 @@ fn belt(dim: usize, element: &str) -> Simulation {
             block("0, 0", "1, 1", "4, 1", ""),
             block("0, 1", "1, 2", "3, 2", element),
             "x = 0.0",
-            format!("[1, 0, 0], [1.5, {}, 0], [2, 0, 0]", 2.0 * SLIP),
+            format!(
+                "[1, 0, 0], [1.5, 1e-9, 0], [2, 0, 0], [2.5, {}, 0], [3, 0, 0]",
+                2.0 * SLIP
+            ),
         ),
         _ => (
             "solid",
             block("0, 0, 0", "1, 1, 1", "4, 4, 1", ""),
             block("0, 0, 1", "1, 1, 2", "3, 3, 1", element),
             "x = 0.0, y = 0.0",
-            format!("[1, 0, 0, 0], [1.5, {}, 0, 0], [2, 0, 0, 0]", 2.0 * SLIP),
+            format!(
+                "[1, 0, 0, 0], [1.5, 1e-9, 0, 0], [2, 0, 0, 0], [2.5, {}, 0, 0], [3, 0, 0, 0]",
+                2.0 * SLIP
+            ),
         ),
     };
-    let fixed = if dim == 2 { "x = 0.0, y = 0.0" } else { "x = 0.0, y = 0.0, z = 0.0" };
+    let fixed = if dim == 2 {
+        "x = 0.0, y = 0.0"
+    } else {
+        "x = 0.0, y = 0.0, z = 0.0"
+    };
     let text = format!(
         r#"format = 1
 model.space = "{space}"
@@ -41,7 +56,7 @@ material.soft.isotropic = {{ young = 1e4, poisson = 0.3 }}
 support.lower = {{ set = "lower", {fixed} }}
 support.upper = {{ set = "upper", {across} }}
 load.press = {{ set = "upper.top", pressure.value = {PRESSURE} }}
-step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "slide", increments = {{ fixed = 4 }} }}]
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "begin" }}, {{ name = "slide", increments = {{ fixed = 4 }} }}]
 [interface.joint]
 secondary = "upper.bottom"
 primary = "lower.top"
@@ -67,7 +82,10 @@ fn on(simulation: &Simulation, body: usize, name: &str) -> Vec<f64> {
 fn uniform(values: &[f64], expected: f64, what: &str) {
     assert!(values.len() > 2, "{what}: {values:?}");
     for v in values {
-        assert!((v / expected - 1.0).abs() < 1e-6, "{what}: {v} for {expected}");
+        assert!(
+            (v / expected - 1.0).abs() < 1e-6,
+            "{what}: {v} for {expected}"
+        );
     }
 }
 
@@ -92,7 +110,10 @@ fn a_block_that_slides_under_pressure_wears_and_dissipates_as_the_laws_say_on_bo
         let last = &simulation.summary.last;
         let close = |name: &str, expected: f64| {
             let value = last[name];
-            assert!((value / expected - 1.0).abs() < 1e-6, "{what}: {name} {value} for {expected}");
+            assert!(
+                (value / expected - 1.0).abs() < 1e-6,
+                "{what}: {name} {value} for {expected}"
+            );
         };
         close("joint.CWEARMAX", 3e-6 * PRESSURE * SLIP);
         close("joint.CWEARVOL", 4e-6 * PRESSURE * SLIP);
@@ -107,13 +128,13 @@ fn a_block_that_slides_under_pressure_wears_and_dissipates_as_the_laws_say_on_bo
 fn what_slides_away_leaves_its_trace_where_it_was() {
     let text = r#"format = 1
 model.space = "plane-strain"
-body.rail = { generate.rectangle = { to = [4, 0.5], cells = [40, 2] }, material = "soft" }
-body.slider = { generate.rectangle = { from = [0.5, 0.5], to = [1.5, 1], cells = [7, 3] }, material = "soft" }
+body.rail = { generate.rectangle = { to = [4, 0.5], cells = [160, 1] }, material = "soft" }
+body.slider = { generate.rectangle = { from = [0.5, 0.5], to = [1.5, 1], cells = [50, 2] }, material = "soft" }
 material.soft.isotropic = { young = 1e4, poisson = 0.0 }
 support.rail = { set = "rail", x = 0.0, y = 0.0 }
 support.slider = { set = "slider", x = 2.0 }
 load.press = { set = "slider.top", pressure.value = 40 }
-step = [{ name = "press", increments = { fixed = 1 }, supports = ["rail", "still"] }, { name = "slide", increments = { fixed = 40 }, supports = ["rail", "slider"] }]
+step = [{ name = "press", increments = { fixed = 1 }, supports = ["rail", "still"] }, { name = "slide", increments = { fixed = 80 }, supports = ["rail", "slider"] }]
 support.still = { set = "slider", x = 0.0 }
 [interface.joint]
 secondary = "slider.bottom"
@@ -133,10 +154,19 @@ wear = { coefficient = 1e-6, primary-coefficient = 1e-6 }
         point.expect("a node of the rail")
     };
     let full = 1e-6 * 40.0;
-    // All of the slider, one unit long, has passed over the middle of the rail; it has left where it began.
-    for (x, depth) in [(1.8, 1.0), (2.0, 1.0), (2.2, 1.0), (1.0, 0.5), (3.0, 0.5), (0.2, 0.0), (3.8, 0.0)] {
+    // All of the slider, one unit long, has passed over the middle of the rail; it has left where it began. A node is met from a facet
+    // before to a facet behind, 0.025 each.
+    for (x, depth) in [
+        (1.8, 1.0),
+        (2.0, 1.0),
+        (2.2, 1.0),
+        (1.0, 0.5),
+        (3.0, 0.5),
+        (0.2, 0.0),
+        (3.8, 0.0),
+    ] {
         let value = worn.values[at(x)];
-        assert!((value - full * depth).abs() < 0.06 * full, "{x}: {value}");
+        assert!((value - full * depth).abs() < 0.08 * full, "{x}: {value}");
     }
     assert!(pressed.values[at(1.0)].is_nan());
     let secondary = simulation.summary.last["joint.CWEARVOL"] / 2.0;

@@ -2,10 +2,10 @@
 
 use super::enforcement::{EnforcementModel, Multipliers, pressure};
 use super::kinematics::Stencil;
+use super::law::Wear;
 use super::law::damping::DampingModel;
 use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
 use super::law::normal::{NormalLaw, NormalModel};
-use super::law::Wear;
 use super::law::slip::{SlipModel, SlipRule, Tangential};
 
 /// The laws of an interface.

@@ -3,11 +3,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
-use crate::contact::law::Wear;
 
 /// `[interface.NAME]`: two surfaces that may touch, and their laws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -22,7 +22,7 @@ const LEAST: f64 = 1e-3;
 struct Acting {
     /// Sum of everything.
     left: Torsor,
-    /// The largest of the sums of magnitudes of loads, contact forces, reactions and springs `[N]`.
+    /// The largest of the sums of magnitudes of loads, contact forces, reactions, springs and, in motion, inertia and elastic forces `[N]`.
     scale: f64,
     /// Half the size of the body `[m]`.
     arm: f64,
@@ -38,9 +38,16 @@ impl Simulation {
         for &(dof, k) in self.model.springs.iter().flat_map(|s| s.entries()) {
             springs[dof] -= k * self.state.u[dof];
         }
+        let inertia = self.motion.as_ref().map(|motion| {
+            let inertial = motion.inertia.mass_times(&self.state.a);
+            [inertial, motion.internal.clone()]
+        });
+        let inside = inertia.unwrap_or_default();
         let bodies = self.model.bodies.iter();
-        let acting: Vec<Acting> = bodies.map(|b| self.acting(b, &fixed, &springs)).collect();
-        let most = acting.iter().map(|a| a.scale).fold(0.0, f64::max);
+        let acting = bodies.map(|b| self.acting(b, &fixed, &springs, &inside));
+        let acting: Vec<Acting> = acting.collect();
+        let most = acting.iter().map(|a| a.scale).fold(gate.forces, f64::max);
+        gate.forces = most;
         if most == 0.0 {
             return;
         }
@@ -51,13 +58,24 @@ impl Simulation {
             } else {
                 0.0
             };
-            let value = norm(a.left.force).max(moment) / scale;
+            let left = norm(a.left.force).max(moment);
             let place = format!("body {}", body.name);
-            gate.note("equilibrium", &place, value, limits.equilibrium, self.state.t);
+            let (figure, limit, t) = ("equilibrium", limits.equilibrium, self.state.t);
+            match self.motion.is_some() {
+                true => gate.note_in_motion(figure, &place, [left, scale], limit, t),
+                false => gate.note(figure, &place, left / scale, limit, t),
+            }
         }
     }
 
-    fn acting(&self, body: &Body, fixed: &[bool], springs: &[f64]) -> Acting {
+    /// `inside`: forces of inertia and elastic forces, where there is motion.
+    fn acting(
+        &self,
+        body: &Body,
+        fixed: &[bool],
+        springs: &[f64],
+        inside: &[Vec<f64>; 2],
+    ) -> Acting {
         let model = &self.model;
         let dofs = model.dofs;
         // Of a rigid body the hidden points carry everything: the second has moments over a length.
@@ -79,15 +97,18 @@ impl Simulation {
             arm: 0.5 * norm(sub(high, low)),
             ..Acting::default()
         };
-        let mut sums = [0.0; 4];
+        let mut sums = [0.0; 6];
         for p in points.clone() {
             let mut left = [0.0; 3];
-            let mut parts = [[0.0; 3]; 4];
+            let mut parts = [[0.0; 3]; 6];
             for (c, left) in left.iter_mut().enumerate().take(dofs.dim) {
                 let dof = dofs.of(p, c);
                 let reaction = if fixed[dof] { self.forces[dof] } else { 0.0 };
                 let all = [self.load[dof], -self.contact[dof], reaction, springs[dof]];
-                for (part, x) in parts.iter_mut().zip(all) {
+                let within = inside
+                    .each_ref()
+                    .map(|f| f.get(dof).copied().unwrap_or(0.0));
+                for (part, x) in parts.iter_mut().zip(all.into_iter().chain(within)) {
                     part[c] = x;
                 }
                 *left = match self.motion.is_some() || link.is_some() {

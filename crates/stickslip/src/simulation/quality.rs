@@ -1,5 +1,7 @@
 //! The quality gate: figures by which accepted increments are judged, and their limits.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::limits::{GateMode, Limits};
@@ -18,6 +20,12 @@ pub struct Gate {
     pub met: bool,
     /// The worst of each figure at each place.
     pub figures: Vec<Figure>,
+    /// The largest forces of any body so far `[N]`.
+    #[serde(skip)]
+    pub(super) forces: f64,
+    /// Of figures in motion: the largest violation so far, and the largest of what it is relative to.
+    #[serde(skip)]
+    so_far: BTreeMap<(&'static str, String), [f64; 2]>,
 }
 
 /// A figure at its worst.
@@ -113,7 +121,14 @@ impl Gate {
         self.gate == GateMode::Error && !self.met
     }
 
-    pub(super) fn note(&mut self, figure: &'static str, place: &str, value: f64, limit: f64, time: f64) {
+    pub(super) fn note(
+        &mut self,
+        figure: &'static str,
+        place: &str,
+        value: f64,
+        limit: f64,
+        time: f64,
+    ) {
         // An infinite limit is none, and JSON has no infinity.
         let limit = limit.is_finite().then_some(limit);
         // What is not a number is above every limit.
@@ -138,6 +153,30 @@ impl Gate {
         }
         self.met = self.figures.iter().all(|f| f.met);
     }
+
+    /// The same for a figure in motion, where what it is relative to comes and goes: the largest violation so far is compared with the largest
+    /// of that so far.
+    pub(super) fn note_in_motion(
+        &mut self,
+        figure: &'static str,
+        place: &str,
+        [left, scale]: [f64; 2],
+        limit: f64,
+        time: f64,
+    ) {
+        let so_far = self.so_far.entry((figure, place.to_string()));
+        let so_far = so_far.or_default();
+        *so_far = [so_far[0].max(left), so_far[1].max(scale)];
+        let value = ratio(so_far[0], so_far[1]);
+        let known = self.figures.iter_mut();
+        let mut same = known.filter(|f| f.figure == figure && f.place == place);
+        if let Some(f) = same.next() {
+            // What looked bad beside small forces may be nothing beside those that came later.
+            f.value = 0.0;
+            f.met = true;
+        }
+        self.note(figure, place, value, limit, time);
+    }
 }
 
 /// How far the bodies have come nearer elastically `[m]`: `2 U / F`, at least the compression of one layer of cells.
@@ -145,6 +184,9 @@ fn approach(energy: f64, resultant: &Resultant, quality: &Quality) -> f64 {
     let whole = 2.0 * energy / resultant.total.max(f64::MIN_POSITIVE);
     whole.max(quality.layer)
 }
+
+/// Forces that move by less than this part of the size of the model do no work worth a balance.
+const STILL: f64 = 1e-6;
 
 fn ratio(value: f64, scale: f64) -> f64 {
     if value == 0.0 || scale <= 0.0 {
@@ -194,20 +236,18 @@ impl Simulation {
                     q.relative_to_size,
                     limits.penetration_to_size,
                 );
-                note(
-                    "penetration-to-approach",
-                    ratio(q.penetration, approach),
-                    limits.penetration_to_approach,
-                );
                 note("complementarity", q.complementarity, limits.complementarity);
-                if self.motion.is_none() {
-                    note(
-                        "false-slip",
-                        ratio(q.false_slip, approach),
-                        limits.false_slip,
-                    );
+                let (figure, limit) = ("penetration-to-approach", limits.penetration_to_approach);
+                if self.motion.is_some() {
+                    let pair = [q.penetration, approach];
+                    gate.note_in_motion(figure, &place, pair, limit, t);
+                } else {
+                    note(figure, ratio(q.penetration, approach), limit);
+                    let false_slip = ratio(q.false_slip, approach);
+                    note("false-slip", false_slip, limits.false_slip);
                 }
             }
+            let mut note = |figure, value, limit| gate.note(figure, &place, value, limit, t);
             note("oscillation", q.oscillation, limits.oscillation);
             note("excess-shear", q.excess_shear, limits.excess_shear);
             let b = interface.balance(&self.state.u);
@@ -233,8 +273,14 @@ impl Simulation {
         }
         let in_motion = self.model.moves().then_some(self.model.energy_limit);
         let limit = limits.energy.or(in_motion).unwrap_or(f64::INFINITY);
-        let (value, t) = (self.summary.energy_quality.residual, self.state.t);
-        self.summary.quality.note("energy", "model", value, limit, t);
+        let quality = &self.summary.energy_quality;
+        // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
+        let least = STILL * self.model.mesh.diameter() * self.summary.quality.forces;
+        let value = ratio(quality.largest, quality.scale.max(least));
+        let t = self.state.t;
+        self.summary
+            .quality
+            .note("energy", "model", value, limit, t);
     }
 }
 
@@ -255,12 +301,12 @@ pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale),
             moment: ratio(norm(b.moment), b.scale * b.size),
-            numerical_stiffness: factor.filter(|_| energy > 0.0).map(|factor| {
-                NumericalStiffness {
+            numerical_stiffness: factor
+                .filter(|_| energy > 0.0)
+                .map(|factor| NumericalStiffness {
                     factor,
                     independent_to: quality.violation_work / (2.0 * energy),
-                }
-            }),
+                }),
         }
     })
     .collect()

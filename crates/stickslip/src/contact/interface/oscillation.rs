@@ -37,7 +37,10 @@ pub fn neighbours(points: &[ContactPoint], facets: &[Facet], x: &[Vec3]) -> Vec<
     for (i, near) in across(points, &groups, x) {
         beside[i].extend(near);
     }
-    beside.into_iter().map(|s| s.into_iter().collect()).collect()
+    beside
+        .into_iter()
+        .map(|s| s.into_iter().collect())
+        .collect()
 }
 
 /// Nodes that follow each other along the edges of a facet, those in the middle of edges included.
@@ -52,7 +55,11 @@ fn pairs(facet: &Facet) -> Vec<[usize; 2]> {
         _ => &[0, 4, 1, 5, 2, 6, 3, 7],
     };
     let next = order.iter().cycle().skip(1);
-    order.iter().zip(next).map(|(&a, &b)| [n[a], n[b]]).collect()
+    order
+        .iter()
+        .zip(next)
+        .map(|(&a, &b)| [n[a], n[b]])
+        .collect()
 }
 
 /// For quadrature points: the nearest of their own face and of those that share an edge with it.
@@ -186,7 +193,79 @@ impl Interface {
 
 #[cfg(test)]
 mod tests {
+    use super::super::History;
+    use super::super::tests::sample;
     use super::*;
+    use crate::contact::kinematics::KinematicsModel;
+    use crate::shape::ElementKind;
+
+    const SIDE: usize = 17;
+
+    /// A square of nodes, graded towards one corner, with this pressure at the places in the unit square.
+    fn index(pressure: impl Fn(f64, f64, usize) -> f64) -> f64 {
+        let at = |k: usize| (k as f64 / (SIDE - 1) as f64).powf(1.2);
+        let reference: Vec<Vec3> = (0..SIDE * SIDE)
+            .map(|k| [at(k % SIDE), at(k / SIDE), 0.0])
+            .collect();
+        let facets: Vec<Facet> = (0..(SIDE - 1) * (SIDE - 1))
+            .map(|k| {
+                let n = (k / (SIDE - 1)) * SIDE + k % (SIDE - 1);
+                Facet {
+                    kind: ElementKind::Quad4,
+                    nodes: vec![n, n + 1, n + SIDE + 1, n + SIDE],
+                    continues: Vec::new(),
+                    modulus: 1.0,
+                    cell: 0,
+                }
+            })
+            .collect();
+        let points: Vec<ContactPoint> = (0..SIDE * SIDE)
+            .map(|k| ContactPoint {
+                nodes: vec![k],
+                weights: vec![1.0],
+                area: 1.0,
+                stiffness: 1.0,
+                normal: [0.0, 0.0, -1.0],
+                size: 1.0,
+            })
+            .collect();
+        let mut interface = Interface {
+            neighbours: neighbours(&points, &facets, &reference),
+            nodes: (0..reference.len()).collect(),
+            points,
+            ..sample(ElementKind::Quad4, KinematicsModel::default())
+        };
+        let inner = &interface.neighbours[SIDE + 1];
+        assert_eq!(*inner, [1, SIDE, SIDE + 2, 2 * SIDE + 1]);
+        let history = reference.iter().enumerate().map(|(k, x)| History {
+            pressure: pressure(x[0], x[1], k / SIDE + k % SIDE),
+            ..History::default()
+        });
+        interface.memory.committed = history.collect();
+        interface.reference = reference;
+        interface.oscillation()
+    }
+
+    #[test]
+    fn a_checkerboard_has_the_index_of_its_amplitude_and_smooth_pressures_have_next_to_none() {
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        for amplitude in [0.05, 0.3, 0.99] {
+            let found = index(|_, _, k| 3.0 * (1.0 + amplitude * sign(k)));
+            assert!(
+                (found / amplitude - 1.0).abs() < 0.1,
+                "{found} for {amplitude}"
+            );
+        }
+        let linear = index(|x, y, _| 1.0 + 2.0 * x - 0.5 * y);
+        assert!(linear < 1e-5, "{linear}");
+        let hertz = index(|x, y, _| {
+            let r2 = ((x - 0.5).powi(2) + (y - 0.5).powi(2)) / 0.16;
+            (1.0 - r2).max(0.0).sqrt()
+        });
+        assert!(hertz < 5e-3, "{hertz}");
+        let punch = index(|x, _, _| 1.0 / (1.02 - (2.0 * x - 1.0).powi(2)).sqrt());
+        assert!(punch < 2e-2, "{punch}");
+    }
 
     #[test]
     fn a_linear_field_is_met_by_its_neighbours() {
@@ -198,7 +277,11 @@ mod tests {
         ];
         let weights = linear(&places).expect("all around");
         let value = |p: Vec3| 3.0 + 2.0 * p[0] - p[1];
-        let met: f64 = places.iter().zip(&weights).map(|(&p, w)| w * value(p)).sum();
+        let met: f64 = places
+            .iter()
+            .zip(&weights)
+            .map(|(&p, w)| w * value(p))
+            .sum();
         assert!((met - 3.0).abs() < 1e-5, "{met}");
         assert!(linear(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]).is_none());
     }

@@ -117,7 +117,8 @@ impl Interface {
     pub fn numerical_factor(&self) -> Option<f64> {
         let points = self.points.iter().zip(&self.memory.last.points);
         let closed = points.filter(|(_, e)| e.response.status != Status::Open);
-        let ratio = closed.map(|(p, e)| e.normal_stiffness.min(e.tangential_stiffness) / p.stiffness);
+        let ratio =
+            closed.map(|(p, e)| e.normal_stiffness.min(e.tangential_stiffness) / p.stiffness);
         let least = ratio.fold(f64::INFINITY, f64::min);
         (least.is_finite() && !self.memory.explicit).then_some(least)
     }
