@@ -1,6 +1,6 @@
 //! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
 //!
-//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check, 3 not converged.
+//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged.
 //! Results and listings go to standard output, diagnostics to standard error.
 
 mod commands;
@@ -33,7 +33,7 @@ enum Command {
 
 /// The input is wrong; also the code of a wrong command line.
 const INPUT: u8 = 1;
-/// Results fail a check.
+/// Results fail a check or the quality gate.
 const CHECK: u8 = 2;
 
 fn main() -> ExitCode {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use stickslip::Error;
 use stickslip::newton::Course;
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Event, Gate, Observer, Simulation};
 
 /// Prints what happens.
 pub struct Progress {
@@ -85,6 +85,17 @@ impl Observer for Progress {
     }
 }
 
+/// Says which figures of the quality gate are above their limits.
+pub fn gate(gate: &Gate) {
+    let word = if gate.failed() { "error" } else { "warning" };
+    for figure in gate.violations() {
+        say(&format!("{word}: quality: {}", figure.sentence()));
+    }
+    if !gate.met {
+        say("  the results are kept; `[quality]` in the problem file sets the limits");
+    }
+}
+
 /// What a user wants to know at the end.
 pub fn closing(simulation: &Simulation, directory: &Path) {
     let s = &simulation.summary;
@@ -147,6 +158,14 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
             "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",
             i.name, i.quality.relative_to_size, i.relative_to_approach
         ));
+        if let Some(n) = &i.numerical_stiffness {
+            say(&format!(
+                "  {}: independent of the numerical stiffness to {:.1e} % (factor {:.3e})",
+                i.name,
+                100.0 * n.independent_to,
+                n.factor
+            ));
+        }
     }
     say(&format!("results in {}", directory.display()));
 }

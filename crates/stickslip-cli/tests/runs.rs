@@ -273,3 +273,60 @@ fn curve_tabulates_the_laws_of_an_interface() {
         text(&unknown.stderr)
     );
 }
+
+/// Springs as soft as the block itself: it sinks into the floor.
+const SOFT: &str = "[interface.base.enforcement.penalty]\nfactor = 1\n";
+
+#[test]
+fn a_poor_result_is_kept_and_ends_with_code_2_and_a_sentence() {
+    let place = Place::new("quality");
+    place.write("case.toml", &format!("{CASE}{SOFT}"));
+    let (case, out) = (place.path("case.toml"), place.path("out"));
+    let output = stickslip(&["run", &case, "-o", &out, "--quiet"]);
+    let said = text(&output.stderr);
+    assert_eq!(code(&output), Some(2), "{said}");
+    assert!(
+        said.contains("error: quality: interface base: penetration-to-approach is"),
+        "{said}"
+    );
+    assert!(said.contains("above its limit"), "{said}");
+    assert!(last(&place.read("out/history.csv"), "base.CFN2") > 0.0);
+    let summary: serde_json::Value =
+        serde_json::from_str(&place.read("out/summary.json")).expect("JSON");
+    assert_eq!(summary["completed"], true);
+    assert_eq!(summary["quality"]["met"], false);
+    assert_eq!(summary["quality"]["gate"], "error");
+
+    let output = stickslip(&["run", &case, "-o", &out, "--set", "quality.gate=\"warn\""]);
+    let said = text(&output.stderr);
+    assert_eq!(code(&output), Some(0), "{said}");
+    assert!(
+        said.contains("warning: quality: interface base: penetration-to-approach"),
+        "{said}"
+    );
+    assert!(
+        said.contains("independent of the numerical stiffness to"),
+        "{said}"
+    );
+
+    let output = stickslip(&["run", &case, "-o", &out, "--set", "quality.gate=\"off\""]);
+    assert_eq!(code(&output), Some(0));
+    assert!(!text(&output.stderr).contains("quality:"));
+}
+
+#[test]
+fn a_sweep_says_which_runs_are_poor() {
+    let place = Place::new("quality-sweep");
+    let case = place.path("case.toml");
+    place.write("case.toml", &format!("{CASE}{SOFT}"));
+    let axis = "interface.base.enforcement.penalty.factor=1,1e4";
+    let output = stickslip(&["sweep", &case, "--set", axis, "-q"]);
+    assert_eq!(code(&output), Some(2), "{}", text(&output.stderr));
+    let table = place.read("case.sweep.csv");
+    let rows: Vec<&str> = table.lines().filter(|l| !l.starts_with('#')).collect();
+    assert!(
+        rows[1].contains("quality: interface base: penetration"),
+        "{table}"
+    );
+    assert!(rows[2].contains("done"), "{table}");
+}

@@ -145,6 +145,7 @@ fn interface(
         nodes: (0..reference.len()).collect(),
         node_ids: (0..reference.len() as u64).collect(),
         reference,
+        neighbours: Vec::new(),
         points,
         primary: Primary::Facets(facets),
         laws,

@@ -62,5 +62,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if !arguments.quiet {
         crate::progress::closing(&simulation, &directory);
     }
-    Ok(ExitCode::SUCCESS)
+    let quality = &simulation.summary.quality;
+    if quality.failed() || !arguments.quiet {
+        crate::progress::gate(quality);
+    }
+    Ok(match quality.failed() {
+        true => ExitCode::from(crate::CHECK),
+        false => ExitCode::SUCCESS,
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::enforcement::{EnforcementModel, Multipliers, pressure};
 use super::kinematics::Stencil;
+use super::law::Wear;
 use super::law::damping::DampingModel;
 use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
 use super::law::normal::{NormalLaw, NormalModel};
@@ -22,6 +23,8 @@ pub struct Laws {
     pub enforcement: EnforcementModel,
     /// The surfaces are glued: neither gap nor slip changes, and the laws have no meaning.
     pub tied: bool,
+    /// What sliding wears off, if that is followed.
+    pub wear: Option<Wear>,
 }
 
 /// What one evaluation of the laws needs beside the stencil.

@@ -5,6 +5,7 @@ use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::interface::Start;
 use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
@@ -31,6 +32,10 @@ pub struct Interface {
     /// How stick and slip change hands.
     #[serde(default)]
     pub slip: SlipModel,
+    /// What sliding wears off the surfaces: the field CWEAR, and depth and volume in the history. The geometry stays as it is. Not
+    /// followed if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear: Option<Wear>,
     /// How contact and stick are enforced.
     #[serde(default)]
     pub enforcement: EnforcementModel,

@@ -25,6 +25,7 @@ mod output;
 mod overrides;
 mod probe;
 mod prose;
+mod quality;
 mod schema;
 mod set;
 mod solver;
@@ -54,6 +55,7 @@ pub use model::{Model, SpaceKind};
 pub use obstacle::Obstacle;
 pub use output::Output;
 pub use probe::Probe;
+pub use quality::Quality;
 pub use schema::schema;
 pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
@@ -109,6 +111,9 @@ pub struct Problem {
     /// Tolerances and limits of the solution.
     #[serde(default)]
     pub solver: Solver,
+    /// What counts as a good solution.
+    #[serde(default)]
+    pub quality: Quality,
     /// What is written, and when.
     #[serde(default)]
     pub output: Output,

@@ -225,7 +225,9 @@ impl<'s> Walk<'s> {
                 return;
             }
         }
-        if !x.is_finite() {
+        // A limit may be infinite where its schema says so: TOML can write it, JSON has no word for it.
+        let unlimited = x == f64::INFINITY && expected.own.get("infinite").is_some();
+        if !x.is_finite() && !unlimited {
             let message = format!("must be a finite number, found {text}");
             self.report(span, message, expected.description.map(first_sentence));
         }

@@ -2,10 +2,8 @@
 
 use super::model::Support;
 use super::run::Simulation;
-use super::summary::InterfaceSummary;
 use crate::contact::interface::Resultant;
-use crate::math::{add, norm};
-use crate::system::{Fields, Force, Tally};
+use crate::system::{Force, Tally};
 use crate::time::Trial;
 
 /// A row of the history: names and values.
@@ -83,6 +81,12 @@ pub(super) fn row(
             format!("{}.ALLFD", interface.name),
             interface.energy().dissipated,
         );
+        if let Some(wear) = interface.wear() {
+            let [own, other] = wear.depth;
+            row.push(format!("{}.CWEARMAX", interface.name), own.max(other));
+            let volume = wear.volume[0] + wear.volume[1];
+            row.push(format!("{}.CWEARVOL", interface.name), volume);
+        }
     }
     for support in &simulation.model.supports {
         push_reaction(&mut row, &support.name, simulation, support);
@@ -154,37 +158,4 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
             row.push(format!("{}.S{name}", probe.name), stress[k]);
         }
     }
-}
-
-/// Quality of the interfaces at the last accepted state.
-pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
-    simulation
-        .model
-        .interfaces
-        .iter()
-        .map(|interface| {
-            let quality = interface.quality();
-            let r = interface.resultant(&simulation.state.u);
-            let force = norm(r.normal);
-            let approach = 2.0 * simulation.summary.energy.strain / force.max(f64::MIN_POSITIVE);
-            let mut fields = Fields::default();
-            interface.fields(&simulation.state, &mut fields);
-            let mut sum = [0.0; 3];
-            if let Some(f) = fields.get("CFORCE").filter(|_| !interface.rigid()) {
-                for v in f.values.chunks(3) {
-                    sum = add(sum, [v[0], v[1], v[2]]);
-                }
-            }
-            InterfaceSummary {
-                name: interface.name.clone(),
-                quality,
-                relative_to_approach: if force > 0.0 && approach > 0.0 {
-                    quality.penetration / approach
-                } else {
-                    0.0
-                },
-                action_reaction: if force > 0.0 { norm(sum) / force } else { 0.0 },
-            }
-        })
-        .collect()
 }

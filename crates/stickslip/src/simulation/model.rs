@@ -1,6 +1,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::limits::Limits;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Interface;
@@ -54,6 +55,8 @@ pub struct Model {
     pub follow: bool,
     /// What a user should know of how it was made.
     pub notes: Vec<String>,
+    /// What counts as a good solution.
+    pub quality: Limits,
 }
 
 /// A body: a range of points and blocks of the mesh.

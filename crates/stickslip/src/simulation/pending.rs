@@ -115,6 +115,8 @@ impl Simulation {
             let row = history::row(self, pending.trial, effort, counts);
             let named = row.names.iter().cloned().zip(row.values.iter().copied());
             self.summary.last = named.collect();
+            let limits = self.model.quality;
+            self.judge_quality(&limits);
             for observer in observers.iter_mut() {
                 observer.see(self, Event::Increment(&row))?;
             }

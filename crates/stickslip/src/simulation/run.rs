@@ -10,7 +10,7 @@ use super::loose::Loose;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{FallbackSummary, Phases, Summary};
-use super::{diagnosis, history};
+use super::{diagnosis, history, quality};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
@@ -190,6 +190,8 @@ impl Simulation {
         simulation.summary.energy.strain = strain;
         simulation.summary.energy_quality.limit = simulation.model.energy_limit;
         simulation.summary.energy_quality.met = true;
+        simulation.summary.quality.gate = simulation.model.quality.gate;
+        simulation.summary.quality.met = true;
         simulation.summary.phases.assemble = started.elapsed().as_secs_f64();
         Ok(simulation)
     }
@@ -204,7 +206,9 @@ impl Simulation {
             outcome.as_ref().err(),
         );
         self.summary.artificial_energy = self.artificial_energy();
-        self.summary.interfaces = history::interfaces(self);
+        self.summary.interfaces = quality::interfaces(self);
+        let limits = self.model.quality;
+        self.judge_energy(&limits);
         for observer in observers.iter_mut() {
             observer.see(self, Event::End)?;
         }

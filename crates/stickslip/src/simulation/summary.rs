@@ -2,6 +2,7 @@ use serde::Serialize;
 
 use super::ledger::{EnergyLedger, EnergyQuality};
 use super::model::Model;
+use super::quality::Gate;
 use crate::contact::interface::Quality;
 use crate::error::Error;
 use crate::newton::{Fallback, Statistics};
@@ -66,6 +67,8 @@ pub struct Summary {
     pub energy: EnergyLedger,
     /// How well the balance of energies closes.
     pub energy_quality: EnergyQuality,
+    /// How good the solution is, and whether that is enough.
+    pub quality: Gate,
     /// Interfaces at the end.
     pub interfaces: Vec<InterfaceSummary>,
     /// Last row of the history.
@@ -138,8 +141,24 @@ pub struct InterfaceSummary {
     /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
     /// force.
     pub relative_to_approach: f64,
-    /// Largest out-of-balance between what the two sides receive, relative to the force.
+    /// Out-of-balance between what the two sides receive, relative to the force.
     pub action_reaction: f64,
+    /// Sum of the moments of what the two sides receive, relative to the force times the size of the interface.
+    pub moment: f64,
+    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
+    pub numerical_stiffness: Option<NumericalStiffness>,
+}
+
+/// How much a result depends on the numerical stiffness of an enforcement.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct NumericalStiffness {
+    /// The stiffness in use, the smallest of any point in contact, as a multiple of the bodies' own.
+    pub factor: f64,
+    /// By how much the force of the interface would rise, relative to what it is, if the stiffness became infinite and supports stayed where
+    /// they are. Bodies and the springs of the enforcement are in series: the violations `v` that are left are to the elastic
+    /// approach `2 U / F` as that rise is to the force, and so it is `Σ A (p |v_n| + |t| |v_t|) / 2 U` `[-]`.
+    pub independent_to: f64,
 }
 
 impl Summary {

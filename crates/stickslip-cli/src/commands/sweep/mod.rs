@@ -30,7 +30,8 @@ const MOST_RUNS: usize = 100_000;
 Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
 includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
 factorisations, seconds, and the last row of the history. All values are checked before the first run. A run that
-fails does not stop the others: its outcome says why, and the exit code is 1.
+fails does not stop the others: its outcome says why, and the exit code is 1. One that does not pass the quality gate says
+so too, and the exit code is 2 if none failed.
 
 Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
@@ -93,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
-    let mut failed = 0;
+    let (mut failed, mut poor) = (0, 0);
     for run in 0..plan.count() {
         let begun = Instant::now();
         let directory = arguments.results.as_ref();
@@ -116,7 +117,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
         failed += usize::from(ended.error.is_some());
         let values = plan.values(run);
-        let outcome = outcome(ended.error.as_ref());
+        let outcome = outcome(&ended);
+        poor += usize::from(ended.summary.as_ref().is_some_and(|s| s.quality.failed()));
         tell(&format!(
             "{:>width$}/{}  {}  {outcome}  {seconds:.3} s",
             run + 1,
@@ -142,6 +144,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         table.path.display()
     ));
     match failed {
+        0 if poor > 0 => Ok(ExitCode::from(crate::CHECK)),
         0 => Ok(ExitCode::SUCCESS),
         failed => Err(Failure::Runs {
             failed,
@@ -219,9 +222,15 @@ fn simulate(
     }
 }
 
-/// `done`, or why not in one line.
-fn outcome(error: Option<&Error>) -> String {
-    let text = error.map_or("done".into(), Error::to_string);
+/// `done`, what the quality gate found, or why not, in one line.
+fn outcome(ended: &Ended) -> String {
+    let quality = ended.summary.as_ref().map(|s| &s.quality);
+    let poor = quality.filter(|q| q.failed());
+    let text = match (&ended.error, poor.and_then(|q| q.violations().next())) {
+        (Some(error), _) => error.to_string(),
+        (None, Some(figure)) => format!("quality: {}", figure.brief()),
+        (None, None) => "done".into(),
+    };
     text.lines().next().unwrap_or_default().to_string()
 }
 

@@ -3,8 +3,11 @@
 mod evaluate;
 mod faces;
 mod meeting;
+mod oscillation;
+mod quality;
 mod reach;
 mod report;
+mod sides;
 mod springs;
 mod start;
 mod steady;
@@ -15,8 +18,11 @@ mod tests;
 use rayon::prelude::*;
 
 pub use meeting::Meeting;
+pub use oscillation::neighbours;
+pub use quality::{Balance, Quality};
 pub use reach::Reach;
-pub use report::{Quality, Resultant};
+pub use report::Resultant;
+pub use sides::WearReport;
 pub use start::{Initial, Start, TOLERANCE};
 
 use super::enforcement::Multipliers;
@@ -63,6 +69,8 @@ pub struct Interface {
     pub points: Vec<ContactPoint>,
     /// The secondary as faces, where gaps are weighted over them; `None` where they are those of the points themselves.
     pub mortar: Option<Mortar>,
+    /// For each of them the others beside it, see [`neighbours`]; empty where nobody asks how smooth the pressure is.
+    pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
@@ -108,6 +116,10 @@ pub struct Memory {
     /// Tied surfaces: distances that stay, NaN where nothing near lies opposite.
     glued: Vec<f64>,
     dissipated: f64,
+    /// Sum of area times `rubbed` over all points and increments `[N m]`.
+    rubbed: f64,
+    /// Dissipated energy and `rubbed` per area at the nodes of the primary, by node; empty before anything slid.
+    traces: Vec<[f64; 2]>,
     belt_work: f64,
     damped: f64,
     /// Largest velocity of slip below the limit over the last increment.
@@ -175,6 +187,10 @@ struct History {
     area: f64,
     /// The part of the pressure that damping added.
     damping: f64,
+    /// Energy that friction has dissipated here `[J/m²]`.
+    dissipated: f64,
+    /// Pressure times path of sliding, accumulated: `∫ p |ds|` `[Pa m]`.
+    rubbed: f64,
 }
 
 /// Multipliers of a contact point in the current attempt.
@@ -713,17 +729,22 @@ impl Force for Interface {
             for h in &mut memory.committed {
                 *h = History {
                     slip: h.slip,
+                    dissipated: h.dissipated,
+                    rubbed: h.rubbed,
                     ..History::default()
                 };
             }
             return;
         }
         memory.creep = 0.0;
-        let creeps = self.laws.friction.as_dyn().frictional() && !self.laws.slip.as_dyn().sticks();
-        for (i, (h, e)) in memory
+        let frictional = self.laws.friction.as_dyn().frictional();
+        let creeps = frictional && !self.laws.slip.as_dyn().sticks();
+        let mut traces = vec![[0.0; 2]; memory.committed.len()];
+        for (i, ((h, e), trace)) in memory
             .committed
             .iter_mut()
             .zip(&memory.last.points)
+            .zip(&mut traces)
             .enumerate()
         {
             let r = &e.response;
@@ -732,11 +753,15 @@ impl Force for Interface {
             let carried = e.carried;
             let mean = [0, 1].map(|i| 0.5 * (carried[i] + r.traction[i + 1]));
             let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
-            memory.dissipated += (-work * e.area).max(0.0);
-            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * e.area;
+            let area = e.area;
+            let rubbed = 0.5 * (h.pressure + r.traction[0]) * e.path(frictional);
+            *trace = [(-work).max(0.0), rubbed.max(0.0)];
+            memory.dissipated += (-work * area).max(0.0);
+            memory.rubbed += trace[1] * area;
+            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * area;
             // Overlap that is resolved drives the surfaces apart.
             let [before, now] = times.map(|t| initial.offset(i, t));
-            memory.belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * e.area;
+            memory.belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
             if creeps && r.status == Status::Stick {
                 memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
             }
@@ -747,7 +772,7 @@ impl Force for Interface {
                     h.gap - e.gap
                 };
                 let work = 0.5 * (h.damping + r.damping) * closed;
-                memory.damped += (work * e.area).max(0.0);
+                memory.damped += (work * area).max(0.0);
             }
             let slid = if r.status == Status::Open {
                 [0.0; 3]
@@ -764,8 +789,11 @@ impl Force for Interface {
                 facet: e.facet,
                 area: e.area,
                 damping: r.damping,
+                dissipated: h.dissipated + trace[0],
+                rubbed: h.rubbed + trace[1],
             };
         }
+        self.leave_traces(&traces);
     }
 
     fn energy(&self) -> Energy {
@@ -806,5 +834,19 @@ impl Evaluation {
     fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
         let t = self.response.traction;
         add_scaled(scale(t[1], frame[0]), t[2], frame[1])
+    }
+
+    /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
+    fn path(&self, frictional: bool) -> f64 {
+        let r = &self.response;
+        match (r.status, frictional) {
+            (Status::Open, _) => 0.0,
+            (_, true) => {
+                let [a, b] = r.sliding_path;
+                let [e, f] = self.frame_before;
+                crate::math::norm(add_scaled(scale(a, e), b, f))
+            }
+            (_, false) => crate::math::norm(self.moved),
+        }
     }
 }

@@ -1,9 +1,9 @@
-//! What an interface says of itself: energy, resultants, output fields, quality, culprits.
+//! What an interface says of itself: energy, resultants, output fields, culprits.
 
 use super::evaluate::Evaluation;
 use super::{Interface, Primary, Wants};
 use crate::contact::response::Status;
-use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale};
+use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, scale};
 use crate::system::{Culprit, Fields, Force, Location, Stage};
 
 /// Forces of an interface on its secondary.
@@ -21,21 +21,8 @@ pub struct Resultant {
     pub area: f64,
     /// Largest pressure `[Pa]`.
     pub peak: f64,
-}
-
-/// Figures by which a solution can be judged.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct Quality {
-    /// Largest penetration that the normal law did not ask for `[m]`.
-    pub penetration: f64,
-    /// The same relative to the height of the cell beneath `[-]`.
-    pub relative_to_size: f64,
-    /// Largest false slip of a sticking point over the last increment `[m]`.
-    pub false_slip: f64,
-    /// Largest velocity of slip at a point that carries less than its limit, over the last increment `[m/s]`: the creep of a regularised
-    /// slip rule, see [`creep`](crate::contact::law::slip::creep).
-    pub creep: f64,
+    /// Sum of the magnitudes of pressure forces, whatever their directions `[N]`.
+    pub total: f64,
 }
 
 /// Two output directions in a surface: the x axis (or y, z where the normal is along it) laid into it, and the one across.
@@ -70,82 +57,49 @@ impl Interface {
                 } else {
                     0.0
                 };
-                h.area * (own + spring)
+                self.area_of(i) * (own + spring)
             })
             .sum()
     }
 
-    /// Nodes that a point takes part with and their weights, positive on the secondary and negative on the primary (but for the corners of
-    /// quadratic faces), at the last evaluation; those of the point itself where nothing lies opposite.
-    pub(super) fn sides(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
-        let last = &self.memory.last;
-        let met = last.points.get(i).filter(|e| e.over);
-        let met = met.map_or(&[][..], |e| last.batch(i).sides(e));
-        let point = &self.points[i];
-        let own = point
-            .nodes
-            .iter()
-            .copied()
-            .zip(point.weights.iter().copied());
-        let alone = met.is_empty();
-        (met.iter().copied()).chain(own.filter(move |_| alone))
+    /// Recoverable energy of the normal law alone `[J]`.
+    pub fn law_energy(&self) -> f64 {
+        let law = self.laws.normal.as_dyn();
+        let committed = self.memory.committed.iter().enumerate();
+        committed
+            .map(|(i, h)| self.area_of(i) * law.energy(h.gap))
+            .sum()
     }
 
     /// Forces on the secondary at the last committed state `u`.
     pub fn resultant(&self, u: &[f64]) -> Resultant {
         let x = self.coordinates(u);
         let mut r = Resultant::default();
-        let mut total = 0.0;
-        for (p, h) in self.points.iter().zip(&self.memory.committed) {
+        for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
             if h.status == Status::Open {
                 continue;
             }
+            let area = self.area_of(i);
             let place = p.position(&x);
-            let normal = scale(h.pressure * h.area, h.normal);
-            let shear = scale(h.area, h.shear);
+            let normal = scale(h.pressure * area, h.normal);
+            let shear = scale(area, h.shear);
             r.normal = add(r.normal, normal);
             r.shear = add(r.shear, shear);
             r.moment = add(r.moment, cross(place, add(normal, shear)));
-            r.centre = add_scaled(r.centre, h.pressure * h.area, place);
-            total += h.pressure * h.area;
-            r.area += h.area;
+            r.centre = add_scaled(r.centre, h.pressure * area, place);
+            r.total += h.pressure * area;
+            r.area += area;
             r.peak = r.peak.max(h.pressure);
         }
-        if total > 0.0 {
-            r.centre = scale(1.0 / total, r.centre);
+        if r.total > 0.0 {
+            r.centre = scale(1.0 / r.total, r.centre);
         }
         r
     }
 
-    /// How well contact and stick hold at the last committed state.
-    pub fn quality(&self) -> Quality {
-        let mut q = Quality {
-            creep: self.memory.creep,
-            ..Quality::default()
-        };
-        let law = self.laws.normal.as_dyn();
-        let evaluations = self.memory.last.points.iter();
-        for ((p, h), e) in self
-            .points
-            .iter()
-            .zip(&self.memory.committed)
-            .zip(evaluations)
-        {
-            if h.pressure > 0.0 {
-                let wanted = law.gap(h.pressure).value;
-                let over = (wanted - h.gap).max(0.0);
-                q.penetration = q.penetration.max(over);
-                q.relative_to_size = q.relative_to_size.max(over / p.size);
-            }
-            if h.status == Status::Stick && self.laws.needs_tangential_stiffness() {
-                q.false_slip = q.false_slip.max(norm(e.moved));
-            }
-        }
-        q
-    }
-
-    /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, and the nodal contact
-    /// force CFORCE. Where no interface is the values are NaN, except for forces, which are zero.
+    /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, the nodal contact force CFORCE, and
+    /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
+    /// their areas there. Where no interface is the values are NaN, except for forces, which are zero.
     pub(super) fn add_fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let mut sums = vec![[0.0; 7]; self.nodes.len()];
@@ -173,11 +127,10 @@ impl Interface {
                 dot(h.slip, frame[0]),
                 dot(h.slip, frame[1]),
             ];
-            let force = scale(h.area, add_scaled(h.shear, h.pressure, h.normal));
-            let area = if h.area > 0.0 { h.area } else { p.area };
-            for (node, weight) in self.sides(i) {
-                let sign = if node < self.primary_nodes { -1.0 } else { 1.0 };
-                let share = area * (sign * weight).max(0.0);
+            let area = self.area_of(i);
+            let force = scale(area, add_scaled(h.shear, h.pressure, h.normal));
+            let mut give = |node: usize, weight: f64| {
+                let share = area * weight;
                 if values[3].is_finite() && share > 0.0 {
                     for (sum, v) in sums[node].iter_mut().zip(values) {
                         *sum += share * v;
@@ -187,7 +140,12 @@ impl Interface {
                         statuses[node] = (share, status);
                     }
                 }
-                forces[node] = add_scaled(forces[node], weight, force);
+            };
+            for (node, w) in self.own_weights(i).chain(self.facet_weights(i)) {
+                give(node, w.max(0.0));
+            }
+            for (node, w) in self.weights_of(i) {
+                forces[node] = add_scaled(forces[node], w, force);
             }
         }
         let names = ["CPRESS", "CSHEAR1", "CSHEAR2", "COPEN", "CSLIP1", "CSLIP2"];
@@ -214,21 +172,64 @@ impl Interface {
                 *total += f;
             }
         }
+        self.add_traces(out);
+    }
+
+    /// Adds what sliding has left: CDISS, the energy dissipated per area `[J/m²]`, where there is friction, and CWEAR, the depth worn off
+    /// `[m]`, where wear is followed.
+    fn add_traces(&self, out: &mut Fields) {
+        let points = self.dofs.points;
+        let mut sums = vec![[0.0; 3]; self.nodes.len()];
+        for (i, h) in self.memory.committed.iter().enumerate() {
+            let area = self.area_of(i);
+            for (node, w) in self.own_weights(i) {
+                let share = area * w.max(0.0);
+                sums[node][0] += share * h.dissipated;
+                sums[node][1] += share * h.rubbed;
+                sums[node][2] += share;
+            }
+        }
+        // energy and depth: factors of the two accumulated numbers on the secondary and on the primary
+        let friction = self.laws.friction.as_dyn().frictional();
+        let wear = self.laws.wear;
+        let wear = wear.map(|w| [w.coefficient, w.primary_coefficient]);
+        let kinds = [
+            ("CDISS", 0, friction.then_some([1.0; 2])),
+            ("CWEAR", 1, wear),
+        ];
+        for (name, k, factors) in kinds {
+            let Some([own, other]) = factors else {
+                continue;
+            };
+            let field = out.shared(name, Location::Point, 1, points, f64::NAN);
+            for (sum, &node) in sums.iter().zip(&self.nodes) {
+                if sum[2] > 0.0 {
+                    field.values[node] = own * sum[k] / sum[2];
+                }
+            }
+            for local in self.primary_nodes() {
+                let trace = self.memory.traces.get(local).map_or(0.0, |t| t[k]);
+                field.values[self.nodes[local]] = other * trace;
+            }
+        }
     }
 
     /// The table of the secondary: names of columns and the columns, one entry a point, for `interfaces/<name>.csv`.
     pub fn table(&self, u: &[f64]) -> (Vec<String>, Vec<Vec<f64>>) {
         let header = [
             "node", "x", "y", "z", "CPRESS", "CSHEAR1", "CSHEAR2", "COPEN", "CSLIP1", "CSLIP2",
-            "CSTATUS", "CNORMF", "CSHEARF1", "CSHEARF2", "U1", "U2", "U3",
+            "CSTATUS", "CNORMF", "CSHEARF1", "CSHEARF2", "U1", "U2", "U3", "CDISS", "CWEAR",
         ];
+        let wear = self.laws.wear.map_or(0.0, |w| w.coefficient);
         let dim = self.dofs.dim;
         let moved = self.coordinates(u);
         let rows: Vec<Vec<f64>> = self
             .points
             .iter()
             .zip(&self.memory.committed)
-            .map(|(p, h)| {
+            .enumerate()
+            .map(|(i, (p, h))| {
+                let area = self.area_of(i);
                 let x = p.position(&self.reference);
                 let now = p.position(&moved);
                 let normal = if h.normal == [0.0; 3] {
@@ -254,12 +255,14 @@ impl Interface {
                     dot(h.slip, frame[0]),
                     dot(h.slip, frame[1]),
                     f64::from(h.status as u8),
-                    h.pressure * h.area,
-                    shear[0] * h.area,
-                    shear[1] * h.area,
+                    h.pressure * area,
+                    shear[0] * area,
+                    shear[1] * area,
                     now[0] - x[0],
                     now[1] - x[1],
                     now[2] - x[2],
+                    h.dissipated,
+                    wear * h.rubbed,
                 ]
             })
             .collect();

@@ -69,7 +69,7 @@ impl Interface {
             if stiffness == 0.0 {
                 continue;
             }
-            for (node, w) in self.sides(i) {
+            for (node, w) in self.weights_of(i) {
                 rows[node] += stiffness * w.abs();
             }
         }

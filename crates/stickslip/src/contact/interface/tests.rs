@@ -10,7 +10,7 @@ use crate::shape::ElementKind;
 const CELLS: usize = 4;
 
 /// A wavy surface over the unit square, in facets of this kind, and points that lie in it or over it and beyond its edges.
-fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
+pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
     let step = kind.order();
     let line = step * CELLS + 1;
     let wavy = |x: f64, y: f64| [x, y + 0.02 * x, 0.1 * (5.0 * x).sin() * (4.0 * y).cos()];
@@ -74,6 +74,7 @@ fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
         primary_nodes: 0,
         points,
         mortar: None,
+        neighbours: Vec::new(),
         primary: Primary::Facets(facets),
         share: 1.0,
         laws: Laws {

@@ -1,9 +1,12 @@
 //! Laws of the interface: scalar physics, numbers in, numbers and derivatives out. No mesh, no matrix.
 //!
 //! *Normal* laws relate pressure and gap; *damping* adds pressure while surfaces approach; *friction* laws state the
-//! largest shear traction; *slip* rules turn limit and motion into traction.
+//! largest shear traction; *slip* rules turn limit and motion into traction; *wear* says what sliding takes away.
 
 pub mod damping;
 pub mod friction;
 pub mod normal;
 pub mod slip;
+mod wear;
+
+pub use wear::Wear;

@@ -9,7 +9,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Initial, Interface, Memory, Primary, TOLERANCE};
+use crate::contact::interface::{Initial, Interface, Memory, Primary, TOLERANCE, neighbours};
 use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -134,7 +134,9 @@ impl Make<'_> {
             )]));
         }
         let mesh = surfaces.mesh;
+        let beneath = surfaces.facets(&facets, &mut numbering);
         let nodes = numbering.nodes;
+        let reference: Vec<Vec3> = nodes.iter().map(|&n| mesh.points[n]).collect();
         Ok(Interface {
             name,
             dofs: Dofs {
@@ -142,7 +144,8 @@ impl Make<'_> {
                 points: mesh.points.len(),
             },
             node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
-            reference: nodes.iter().map(|&n| mesh.points[n]).collect(),
+            neighbours: neighbours(&points, &beneath, &reference),
+            reference,
             nodes,
             primary_nodes,
             points,
@@ -156,6 +159,7 @@ impl Make<'_> {
                 slip: table.slip.clone(),
                 enforcement: table.enforcement.clone(),
                 tied: table.tied,
+                wear: table.wear,
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),

@@ -243,6 +243,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
             slip: SlipModel::default(),
             initial: interface.initial,
             initial_tolerance: interface.initial_tolerance,
+            wear: None,
             primary_velocity: None,
             primary_velocity_table: None,
         };
@@ -253,6 +254,9 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
                 "remove normal, damping, friction, slip and primary-velocity, or `tied`",
             );
         }
+    }
+    if let Some(wear) = &interface.wear {
+        findings.faults(&["interface", name, "wear"], wear.faults());
     }
     let triangles = interface.kinematics.as_dyn().triangles();
     if triangles && interface.facets == Some(FacetShape::Bilinear) {

@@ -1,0 +1,165 @@
+//! Figures by which a solution can be judged: what is left of the conditions of contact, and whether the two sides balance.
+
+use std::collections::BTreeMap;
+
+use super::Interface;
+use crate::contact::enforcement::Multipliers;
+use crate::contact::response::Status;
+use crate::math::{Vec3, add, add_scaled, cross, norm, sub};
+
+/// Figures by which a solution can be judged.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Quality {
+    /// Largest penetration that the normal law did not ask for `[m]`.
+    pub penetration: f64,
+    /// The same relative to the height of the cell beneath `[-]`.
+    pub relative_to_size: f64,
+    /// Largest false slip of a sticking point over the last increment `[m]`.
+    pub false_slip: f64,
+    /// Largest velocity of slip at a point that carries less than its limit, over the last increment `[m/s]`: the creep of a regularised
+    /// slip rule, see [`creep`](crate::contact::law::slip::creep).
+    pub creep: f64,
+    /// Mean gap, beyond what the normal law asks for, that pressure bridges, relative to the height of the cell beneath:
+    /// `Σ A p max(0, g - h(p)) / Σ A p height` `[-]`.
+    pub complementarity: f64,
+    /// How much of the pressure goes up and down from point to point `[-]`; see [`Interface::oscillation`].
+    pub oscillation: f64,
+    /// Largest shear beyond the limit of friction, relative to the largest limit of the interface `[-]`.
+    pub excess_shear: f64,
+    /// Compression of one layer of cells under the largest pressure `[m]`: the least that the bodies have come nearer.
+    pub layer: f64,
+    /// Work of the tractions along what is left of the violations of gap and stick, `Σ A (p |v_n| + |t| |v_t|)` `[J]`.
+    pub violation_work: f64,
+}
+
+/// Sums of the forces and moments that the two sides receive.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Balance {
+    /// Sum of all forces; zero if action equals reaction `[N]`.
+    pub force: Vec3,
+    /// Sum of their moments `[N m]`.
+    pub moment: Vec3,
+    /// Sum of the magnitudes of the forces on one side `[N]`.
+    pub scale: f64,
+    /// Size of the interface `[m]`.
+    pub size: f64,
+}
+
+impl Interface {
+    /// Whether the interface acts through springs in place of its enforcement: in an explicit step.
+    pub fn on_springs(&self) -> bool {
+        self.memory.explicit
+    }
+
+    /// How well contact and stick hold at the last committed state.
+    pub fn quality(&self) -> Quality {
+        let mut q = Quality {
+            creep: self.memory.creep,
+            oscillation: self.oscillation(),
+            ..Quality::default()
+        };
+        let law = self.laws.normal.as_dyn();
+        let exact = self.laws.needs_normal_stiffness();
+        let sticks = self.laws.needs_tangential_stiffness();
+        let updated = matches!(
+            self.laws.enforcement.as_dyn().multipliers(),
+            Multipliers::Augmented { .. }
+        );
+        // What rounding of the coordinates may leave is no violation.
+        let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
+        let rounding = 16.0 * f64::EPSILON * reach;
+        let (mut bridged, mut pressed) = (0.0, 0.0);
+        let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
+        let committed = self.memory.committed.iter();
+        for (i, (h, e)) in committed.zip(&self.memory.last.points).enumerate() {
+            let (p, area) = (&self.points[i], self.area_of(i));
+            let shear = norm(h.shear);
+            if h.pressure > 0.0 {
+                let wanted = law.gap(h.pressure - h.damping).value;
+                let over = (wanted - h.gap - rounding).max(0.0);
+                let under = (h.gap - wanted - rounding).max(0.0);
+                q.penetration = q.penetration.max(over);
+                q.relative_to_size = q.relative_to_size.max(over / p.size);
+                q.layer = q.layer.max(h.pressure / p.stiffness);
+                bridged += area * h.pressure * under;
+                pressed += area * h.pressure * p.size;
+                if exact {
+                    q.violation_work += area * h.pressure * (over + under);
+                }
+            }
+            if h.status == Status::Stick && sticks {
+                let slid = norm(e.moved);
+                q.false_slip = q.false_slip.max(slid);
+                // Springs that nothing removes hold what all increments have put into them.
+                let left = match updated {
+                    true => slid,
+                    false => shear / e.tangential_stiffness,
+                };
+                q.violation_work += area * shear * left;
+            }
+            if h.status != Status::Open && self.laws.friction.as_dyn().frictional() {
+                most = most.max(e.response.limit);
+                over_limit = over_limit.max(shear - e.response.limit);
+            }
+        }
+        if pressed > 0.0 {
+            q.complementarity = bridged / pressed;
+        }
+        if most > 0.0 {
+            q.excess_shear = over_limit / most;
+        }
+        q
+    }
+
+    /// The smallest stiffness of the enforcement in use, as a multiple of the bodies' own; `None` where nothing numerical is between the
+    /// laws and the solution, or nothing is in contact.
+    pub fn numerical_factor(&self) -> Option<f64> {
+        let points = self.points.iter().zip(&self.memory.last.points);
+        let closed = points.filter(|(_, e)| e.response.status != Status::Open);
+        let ratio =
+            closed.map(|(p, e)| e.normal_stiffness.min(e.tangential_stiffness) / p.stiffness);
+        let least = ratio.fold(f64::INFINITY, f64::min);
+        (least.is_finite() && !self.memory.explicit).then_some(least)
+    }
+
+    /// Forces and moments on both sides in the last evaluation, at the displacements `u` of the mesh points. On an obstacle only one side
+    /// is known: nothing is summed.
+    pub fn balance(&self, u: &[f64]) -> Balance {
+        let mut b = Balance::default();
+        let last = &self.memory.last;
+        if self.rigid() || last.points.is_empty() {
+            return b;
+        }
+        let x = self.coordinates(u);
+        let nodes = self.nodes.iter().enumerate();
+        let local: BTreeMap<usize, usize> = nodes.map(|(i, &node)| (node, i)).collect();
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        let origin = x.first().copied().unwrap_or_default();
+        for (i, e) in last.points.iter().enumerate() {
+            let place = self.points[i].position(&x);
+            for c in 0..3 {
+                low[c] = low[c].min(place[c]);
+                high[c] = high[c].max(place[c]);
+            }
+            let batch = last.batch(i);
+            let Some(force) = batch.force(e) else {
+                continue;
+            };
+            let t = e.response.traction;
+            b.scale += self.area_of(i) * norm(t);
+            for (&dof, f) in batch.dofs(e).iter().zip(force) {
+                let (node, component) = self.dofs.locate(dof);
+                let mut v = [0.0; 3];
+                v[component] = *f;
+                b.force = add(b.force, v);
+                if let Some(&n) = local.get(&node) {
+                    b.moment = add_scaled(b.moment, 1.0, cross(sub(x[n], origin), v));
+                }
+            }
+        }
+        b.size = norm(sub(high, low));
+        b
+    }
+}

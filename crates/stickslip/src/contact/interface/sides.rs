@@ -1,0 +1,103 @@
+//! The two sides of an interface: which nodes a point hangs on, for what area it stands, and what sliding leaves on them.
+
+use super::{Interface, Primary};
+
+/// What sliding has worn off both surfaces.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WearReport {
+    /// Largest depth on the secondary and on the primary `[m]`.
+    pub depth: [f64; 2],
+    /// Volume lost by the secondary and by the primary `[m³]`.
+    pub volume: [f64; 2],
+}
+
+impl Interface {
+    /// Area that a point stands for `[m²]`, at the last committed state; what it would stand for with the whole primary opposite where
+    /// nothing is.
+    pub(super) fn area_of(&self, i: usize) -> f64 {
+        match self.memory.committed.get(i) {
+            Some(h) if h.area > 0.0 => h.area,
+            _ => self.points[i].area * self.share,
+        }
+    }
+
+    /// Nodes of the secondary that a point hangs on, with weights that add up to one.
+    pub(super) fn own_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let p = &self.points[i];
+        p.nodes.iter().copied().zip(p.weights.iter().copied())
+    }
+
+    /// Nodes that take part in a point and their weights at the last evaluation.
+    fn met(&self, i: usize) -> &[(usize, f64)] {
+        let last = &self.memory.last;
+        let e = last.points.get(i).filter(|e| e.over);
+        e.map_or(&[], |e| last.batch(i).sides(e))
+    }
+
+    /// Nodes of the primary that a point lies over and its weights there; nothing where it lies over none.
+    pub(super) fn facet_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let met = self.met(i).iter();
+        met.filter(|(node, _)| *node < self.primary_nodes)
+            .map(|&(node, w)| (node, -w))
+    }
+
+    /// Nodes of both sides with the share of the force of a point that each receives: positive on the secondary (but for corners of
+    /// quadratic faces), negative on the primary.
+    pub(super) fn weights_of(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let met = self.met(i);
+        let alone = met.is_empty();
+        let own = self.own_weights(i).filter(move |_| alone);
+        met.iter().copied().chain(own)
+    }
+
+    /// Nodes of the primary, each as often as it has facets.
+    pub(super) fn primary_nodes(&self) -> impl Iterator<Item = usize> {
+        let facets = match &self.primary {
+            Primary::Facets(facets) => facets.as_slice(),
+            Primary::Rigid(..) => &[],
+        };
+        facets.iter().flat_map(|f| f.nodes.iter().copied())
+    }
+
+    /// Adds what the last increment dissipated and rubbed per area at each point to the nodes of the primary that it met: the mean of the
+    /// points over a node, weighted by their areas there. What slides over the primary so leaves its trace where it was.
+    pub(super) fn leave_traces(&mut self, traces: &[[f64; 2]]) {
+        if self.rigid() || traces.iter().all(|t| *t == [0.0; 2]) {
+            return;
+        }
+        let mut sums = vec![[0.0; 3]; self.nodes.len()];
+        for (i, trace) in traces.iter().enumerate() {
+            let area = self.area_of(i);
+            for (node, w) in self.facet_weights(i) {
+                let share = area * w.max(0.0);
+                sums[node][0] += share * trace[0];
+                sums[node][1] += share * trace[1];
+                sums[node][2] += share;
+            }
+        }
+        let all = &mut self.memory.traces;
+        all.resize(self.nodes.len(), [0.0; 2]);
+        for (t, [dissipated, rubbed, share]) in all.iter_mut().zip(sums) {
+            if share > 0.0 {
+                t[0] += dissipated / share;
+                t[1] += rubbed / share;
+            }
+        }
+    }
+
+    /// Depth and volume of wear so far; `None` where it is not followed.
+    pub fn wear(&self) -> Option<WearReport> {
+        let wear = self.laws.wear?;
+        let secondary = self.memory.committed.iter().map(|h| h.rubbed);
+        let primary = self.memory.traces.iter().map(|t| t[1]);
+        let k = [wear.coefficient, wear.primary_coefficient];
+        let total = self.memory.rubbed;
+        Some(WearReport {
+            depth: [
+                k[0] * secondary.fold(0.0, f64::max),
+                k[1] * primary.fold(0.0, f64::max),
+            ],
+            volume: [k[0] * total, k[1] * total],
+        })
+    }
+}

@@ -1,0 +1,3 @@
+//! `[quality]` is the table of limits itself.
+
+pub use crate::simulation::Limits as Quality;

@@ -1,0 +1,85 @@
+//! What counts as a good solution: the `[quality]` table.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What becomes of a figure above its limit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GateMode {
+    /// The run ends with exit code 2 and a sentence for each; its results are kept.
+    #[default]
+    Error,
+    /// The sentences alone.
+    Warn,
+    /// Nothing is judged.
+    Off,
+}
+
+/// `[quality]`: the quality gate. Every accepted increment that gives a row of the history is judged by figures that have no dimension; the worst
+/// of each must not exceed its limit. `inf` switches a limit off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Limits {
+    /// What becomes of a figure above its limit.
+    pub gate: GateMode,
+    /// Penetration that the normal law did not ask for, `max(h(p) - g)` over the height of the cell beneath. Not judged in an explicit
+    /// step, which presses by springs.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub penetration_to_size: f64,
+    /// The same penetration over the elastic approach: `2 U / F` of the elastic energy of bodies and compliant interfaces and the force of
+    /// the interface, at least the compression of one layer of cells under the largest pressure. In motion the largest so far of both are
+    /// compared. Not judged in an explicit step.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub penetration_to_approach: f64,
+    /// False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
+    /// sticks.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub false_slip: f64,
+    /// Complementarity: mean gap that pressure bridges, `Σ A p max(0, g - h(p)) / Σ A p height`. Not judged in an explicit step.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub complementarity: f64,
+    /// Oscillation index of the pressure: the part of it that goes up and down from each point of the secondary to the next, over its mean;
+    /// 1 for a checkerboard of zero and twice the mean.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub oscillation: f64,
+    /// Shear beyond the limit of friction, over the largest limit of the interface.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub excess_shear: f64,
+    /// Action against reaction: sum of the forces on both sides, over the sum of the magnitudes of those on one.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub action_reaction: f64,
+    /// Sum of the moments of the forces on both sides, over the sum of their magnitudes on one times the size of the interface. What
+    /// faces each other across a gap, or slides where sliding is taken as small, has a moment.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub moment: f64,
+    /// Balance of each body: resultant force and moment of interfaces, loads, springs and supports (in motion also of inertia and damping),
+    /// over the largest of them (in motion: the largest so far). Moments are taken with the positions of the reference, as the bodies are linear. Not judged in an
+    /// explicit step, where accelerations are made to balance.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub equilibrium: f64,
+    /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit` where bodies are in motion; not
+    /// judged in quasi-static analyses, where work is summed by the trapezoidal rule and one large increment says nothing of the solution
+    /// at its end.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<f64>,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            gate: GateMode::Error,
+            penetration_to_size: 0.01,
+            penetration_to_approach: 0.01,
+            false_slip: 0.01,
+            complementarity: 1e-3,
+            oscillation: 0.25,
+            excess_shear: 1e-3,
+            action_reaction: 1e-9,
+            moment: 1e-2,
+            equilibrium: 1e-4,
+            energy: None,
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! The quality gate: what trips each limit, what passes, and whether the stated dependence on the numerical stiffness is the true one.
+
+mod support;
+
+use stickslip::simulation::{Figure, GateMode, Simulation};
+
+/// Two blocks with meshes that do not match; the top is moved down and aside.
+const BLOCKS: &str = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [1, 1], cells = [4, 4] }, material = "soft" }
+body.upper = { generate.rectangle = { from = [0.1, 1], to = [0.9, 2], cells = [3, 3] }, material = "soft" }
+material.soft.isotropic = { young = 1e3, poisson = 0.3 }
+interface.joint.secondary = "upper.bottom"
+interface.joint.primary = "lower.top"
+interface.joint.friction.coulomb.mu = 0.3
+support.base = { set = "lower.bottom", x = 0.0, y = 0.0 }
+support.top = { set = "upper.top", x = 1e-4, y = -1e-2 }
+step = [{ name = "press", increments = { fixed = 2 } }]
+"#;
+
+fn run(text: &str) -> Simulation {
+    let mut simulation = support::build(&support::problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    simulation
+}
+
+/// The case with a line more.
+fn with(line: &str) -> Simulation {
+    run(&format!("{BLOCKS}{line}\n"))
+}
+
+fn violated(simulation: &Simulation) -> Vec<&Figure> {
+    simulation.summary.quality.violations().collect()
+}
+
+/// Whether this figure alone, or with others, is above its limit.
+fn trips(simulation: &Simulation, figure: &str) {
+    let gate = &simulation.summary.quality;
+    let found = gate.violations().find(|f| f.figure == figure);
+    let found = found.unwrap_or_else(|| panic!("{figure} is not among {:#?}", gate.figures));
+    assert!(found.limit.is_some_and(|limit| found.value > limit));
+    assert!(found.sentence().contains(figure) && found.sentence().contains(&found.place));
+    assert!(gate.failed() && !gate.met);
+}
+
+#[test]
+fn a_good_solution_passes_and_every_figure_is_listed() {
+    let simulation = with("");
+    let gate = &simulation.summary.quality;
+    assert!(gate.met && !gate.failed(), "{:#?}", violated(&simulation));
+    for figure in [
+        "penetration-to-size",
+        "penetration-to-approach",
+        "false-slip",
+        "complementarity",
+        "oscillation",
+        "excess-shear",
+        "action-reaction",
+        "moment",
+        "equilibrium",
+        "energy",
+    ] {
+        let f = gate.figures.iter().find(|f| f.figure == figure);
+        let f = f.unwrap_or_else(|| panic!("{figure} is missing"));
+        assert!(f.value.is_finite() && f.met, "{f:?}");
+    }
+    let bodies = gate.figures.iter().filter(|f| f.figure == "equilibrium");
+    let places: Vec<&str> = bodies.map(|f| f.place.as_str()).collect();
+    assert_eq!(places, ["body lower", "body upper"]);
+}
+
+#[test]
+fn soft_springs_penetrate_too_far() {
+    let simulation =
+        with("interface.joint.enforcement.penalty.factor = 1\nquality.penetration-to-size = 1e-3");
+    trips(&simulation, "penetration-to-approach");
+    trips(&simulation, "penetration-to-size");
+}
+
+#[test]
+fn soft_springs_of_stick_slip_falsely() {
+    let simulation =
+        with("interface.joint.enforcement.penalty = { factor = 1e4, tangential-factor = 1e-3 }");
+    trips(&simulation, "false-slip");
+    let normal = simulation.summary.quality.figures.iter();
+    let mut normal = normal.filter(|f| f.figure == "penetration-to-approach");
+    assert!(normal.all(|f| f.met));
+}
+
+#[test]
+fn a_coarse_primary_under_a_fine_secondary_makes_the_pressure_oscillate() {
+    // The other way round nodes of the fine side fall between those of the coarse one and are pressed the more.
+    let text = BLOCKS
+        .replace("cells = [3, 3]", "cells = [16, 12]")
+        .replace("poisson = 0.3", "poisson = 0.0")
+        .replace("x = 1e-4, ", "");
+    let smooth = run(&text).summary.interfaces[0].quality.oscillation;
+    let simulation = run(&format!("{text}quality.oscillation = {}\n", 0.5 * smooth));
+    assert!(smooth > 1e-3, "{smooth}");
+    trips(&simulation, "oscillation");
+}
+
+#[test]
+fn loose_tolerances_leave_bodies_out_of_balance() {
+    let simulation =
+        with("solver = { tolerance = 0.1, method = \"sparse\" }\nquality.equilibrium = 1e-12");
+    trips(&simulation, "equilibrium");
+}
+
+#[test]
+fn surfaces_that_slide_far_with_small_sliding_lack_a_moment() {
+    let text = BLOCKS
+        .replace("x = 1e-4", "x = 0.09")
+        .replace("mu = 0.3", "mu = 0.01");
+    let line = "interface.joint.kinematics.small-sliding = {}\n";
+    let simulation = run(&format!("{text}{line}"));
+    trips(&simulation, "moment");
+    let right = run(&text);
+    let mut moments = right.summary.quality.figures.iter();
+    assert!(moments.all(|f| f.figure != "moment" || f.value < 1e-6));
+}
+
+#[test]
+fn an_energy_balance_that_is_open_is_found_where_it_is_asked_for() {
+    let simulation = with("quality.energy = 1e-9");
+    trips(&simulation, "energy");
+}
+
+#[test]
+fn limits_below_what_arithmetic_can_do_are_exceeded() {
+    let lines = [
+        "quality.penetration-to-size = 1e-300",
+        "quality.action-reaction = 1e-300",
+    ];
+    for line in lines {
+        let figure = &line["quality.".len()..line.len() - " = 1e-300".len()];
+        trips(&with(line), figure);
+    }
+}
+
+#[test]
+fn the_gate_can_warn_or_be_off() {
+    let soft = "interface.joint.enforcement.penalty.factor = 1\n";
+    let warned = with(&format!("{soft}quality.gate = \"warn\""));
+    let gate = &warned.summary.quality;
+    assert!(gate.gate == GateMode::Warn && !gate.met && !gate.failed());
+    let off = with(&format!("{soft}quality.gate = \"off\""));
+    assert!(off.summary.quality.met && off.summary.quality.figures.is_empty());
+    let unlimited = with(&format!(
+        "{soft}quality = {{ penetration-to-size = inf, penetration-to-approach = inf, false-slip = inf }}"
+    ));
+    assert!(unlimited.summary.quality.met, "{:?}", violated(&unlimited));
+}
+
+#[test]
+fn what_the_numerical_stiffness_does_is_estimated_within_a_factor_of_two() {
+    let press = |factor: f64| {
+        let text = BLOCKS.replace("x = 1e-4", "x = 0.0");
+        let text = text.replace("interface.joint.friction.coulomb.mu = 0.3\n", "");
+        let line = format!("interface.joint.enforcement.penalty.factor = {factor}\n");
+        let simulation = run(&format!("{text}{line}quality.gate = \"off\"\n"));
+        let force = simulation.summary.last["joint.CFN2"];
+        let stated = simulation.summary.interfaces[0].numerical_stiffness;
+        (force, stated.expect("a penalty has a stiffness"))
+    };
+    let (limit, stiff) = press(1e6);
+    assert!(stiff.independent_to < 1e-5, "{stiff:?}");
+    for factor in [3.0, 10.0, 100.0] {
+        let (force, stated) = press(factor);
+        let change = (limit - force) / force;
+        let ratio = stated.independent_to / change;
+        assert!(
+            change > 0.0 && (0.5..2.0).contains(&ratio),
+            "{factor}: {change} {stated:?}"
+        );
+        assert!((stated.factor / factor - 1.0).abs() < 1e-12, "{stated:?}");
+    }
+    let exact = with("").summary.interfaces[0].numerical_stiffness;
+    assert!(exact.is_some_and(|n| n.independent_to < 1e-4), "{exact:?}");
+}
