@@ -47,6 +47,11 @@ pub(super) struct Condensed {
 pub(super) const LEFT: f64 = 1e-7;
 
 impl Condensed {
+    /// The bodies without their interiors.
+    pub(super) fn condensation(&self) -> &Condensation {
+        &self.condensation
+    }
+
     pub(super) fn forget_direction(&mut self) {
         self.previous = None;
     }

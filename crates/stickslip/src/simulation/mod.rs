@@ -6,6 +6,7 @@ pub mod compare;
 mod condense;
 mod conditions;
 mod diagnosis;
+pub mod doctor;
 mod dynamic;
 mod explicit;
 mod files;

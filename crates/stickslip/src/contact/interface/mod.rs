@@ -4,6 +4,7 @@ mod evaluate;
 mod reach;
 mod report;
 mod springs;
+mod symptoms;
 
 #[cfg(test)]
 mod tests;
