@@ -268,8 +268,8 @@ const DEFECTS: &[Defect] = &[
     ),
     meshed(
         "a cell has collapsed",
-        &[("21 3 2 3 3 1 2 5 4", "21 3 2 3 3 1 2 2 4")],
-        Refused("cell 21 (quad4) has a collapsed"),
+        &[("5 0.02 0.02 0", "5 0.04 0.02 0")],
+        Refused("cell 22 (quad4) has a collapsed"),
     ),
     meshed(
         "a cell is there twice",
@@ -277,10 +277,10 @@ const DEFECTS: &[Defect] = &[
             ("$Elements\n6", "$Elements\n7"),
             (
                 "22 3 2 3 3 2 3 6 5",
-                "22 3 2 3 3 2 3 6 5\n23 3 2 3 3 2 3 6 5",
+                "22 3 2 3 3 2 3 6 5\n23 3 2 3 3 1 2 5 4",
             ),
         ],
-        Refused("22, 23"),
+        Refused("23 share one face"),
     ),
     meshed(
         "coincident nodes were not merged",
@@ -308,7 +308,7 @@ const DEFECTS: &[Defect] = &[
         &[
             (
                 "material.steel.isotropic = { young = 210e9, poisson = 0.3 }",
-                "material.steel.anisotropic = { stiffness = [[100e9, 20e9, 20e9, 30e9, 0, 0], [20e9, 100e9, 20e9, 60e9, 0, 0], [20e9, 20e9, 100e9, 0, 0, 0], [30e9, 60e9, 0, 55e9, 0, 0], [0, 0, 0, 0, 50e9, 0], [0, 0, 0, 0, 0, 50e9]] }",
+                "material.steel.anisotropic = { stiffness = [[30e9, 10e9, 10e9, 0, 0, 0], [10e9, 100e9, 10e9, 70e9, 0, 0], [10e9, 10e9, 100e9, 0, 0, 0], [0, 70e9, 0, 55e9, 0, 0], [0, 0, 0, 0, 50e9, 0], [0, 0, 0, 0, 0, 50e9]] }",
             ),
             ("mu = 0.3", "mu = 1.4"),
         ],

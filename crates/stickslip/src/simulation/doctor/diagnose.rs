@@ -1,15 +1,15 @@
 //! From an attempt that failed to a finding.
 
-use super::coupling;
 use super::finding::{DoctorCause, Finding, Guilty, Severity, What};
 use super::motions::{Loose, Row, loose, rows};
 use super::surfaces::Opposite;
 use super::{Chart, check};
-use crate::contact::interface::Interface;
+use super::{balance, coupling};
+use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
 use crate::error::RunError;
-use crate::math::Vec3;
+use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::simulation::run::Simulation;
 use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
@@ -129,14 +129,24 @@ fn contact_rows(simulation: &Simulation, t: f64) -> Vec<Row> {
 
 fn singular(simulation: &Simulation, trial: &Trial, failure: &StepFailure) -> Finding {
     let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+    let by_contact = loose(simulation, trial.to, &[]);
+    if !by_contact.is_empty()
+        && let Some(finding) = balance::unbalanced(simulation, trial.to)
+    {
+        return finding;
+    }
     if !free.is_empty() {
-        return free_mode(simulation, trial, &free);
+        return free_mode(simulation, trial, &free, "is held by nothing");
     }
     let model = &simulation.model;
     // A body in pieces is held only where its supports are.
-    match check::disconnected(model).into_iter().next() {
-        Some(finding) => finding,
-        None => near_singular(simulation, failure),
+    if let Some(finding) = check::disconnected(model).into_iter().next() {
+        return finding;
+    }
+    // The points that were in contact at the end may not be those with which the system was singular.
+    match by_contact.is_empty() {
+        true => near_singular(simulation, failure),
+        false => free_mode(simulation, trial, &by_contact, "is held by contact alone"),
     }
 }
 
@@ -177,14 +187,14 @@ fn node(simulation: &Simulation, point: usize, remark: String) -> Guilty {
 }
 
 /// Bodies that move as a whole, and how far they are from what might hold them.
-fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose]) -> Finding {
+fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) -> Finding {
     let mut finding = Finding::new(
         DoctorCause::FreeRigidMode,
         Severity::Warning,
         "a body is free to move as a rigid body",
     );
     for l in free {
-        let remark = format!("{} is held by nothing", l.motion);
+        let remark = format!("{} {how}", l.motion);
         finding = finding.blame(check::body(&simulation.model, &l.body, remark));
     }
     for interface in &simulation.model.interfaces {
@@ -214,7 +224,7 @@ fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
 fn linear(simulation: &Simulation, trial: &Trial) -> Finding {
     let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
     if !free.is_empty() {
-        return free_mode(simulation, trial, &free);
+        return free_mode(simulation, trial, &free, "is held by nothing");
     }
     let weak = loose(simulation, trial.to, &[]);
     if weak.is_empty() {
@@ -239,6 +249,11 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
     let dynamic = simulation.model.steps[simulation.step].dynamic.is_some();
     if !dynamic {
         let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+        if !free.is_empty()
+            && let Some(finding) = balance::unbalanced(simulation, trial.to)
+        {
+            return finding;
+        }
         if let Some(first) = free.first() {
             let mut finding = of(
                 DoctorCause::SlidesAway,
@@ -302,14 +317,14 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
         true => e.slip / e.facet,
         false => 0.0,
     };
-    if let Some((slip, e)) = worst(&slid).filter(|w| w.0 > FAR) {
+    let slipped = worst(&slid).map(|(slip, e)| (slip, e.interface.clone()));
+    let slipped = slipped.filter(|s| s.0 > FAR);
+    if let Some((slip, interface)) = slipped.or_else(|| prescribed_slip(simulation, trial)) {
         return of(
             DoctorCause::TooLargeSlip,
-            format!(
-                "points of interface {} slide over {slip:.2} facets in one increment",
-                e.interface
-            ),
+            format!("points of interface {interface} slide over {slip:.2} facets in one increment"),
         )
+        .blame(Guilty::interface(&interface, format!("{slip:.2} facets")))
         .advise(format!(
             "increments that are {} times smaller, so that a point slides over half a facet at most",
             (2.0 * slip).ceil()
@@ -328,6 +343,42 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
         .advise("a finer mesh at these points, or a compliant normal law");
     }
     of(DoctorCause::NotConverged, String::new())
+}
+
+/// The largest slip that supports prescribe over the increment, in facets, and its interface; `None` where it is small.
+fn prescribed_slip(simulation: &Simulation, trial: &Trial) -> Option<(f64, String)> {
+    let model = &simulation.model;
+    let constraints = simulation.constraints(trial.to);
+    let before = simulation.constraints(trial.from);
+    let moved = |local: usize, interface: &Interface| -> Option<Vec3> {
+        let point = interface.nodes[local];
+        let body = model.bodies.iter().find(|b| b.points.contains(&point))?;
+        // The mean over the supported points of its body.
+        let mut sum = [0.0; 3];
+        for (c, sum) in sum.iter_mut().enumerate().take(model.dofs.dim) {
+            let dofs = body.points.clone().map(|p| model.dofs.of(p, c));
+            let fixed = dofs.filter(|&d| constraints.fixed[d] && before.fixed[d]);
+            let changes: Vec<f64> = fixed
+                .map(|d| constraints.values[d] - before.values[d])
+                .collect();
+            *sum = changes.iter().sum::<f64>() / changes.len().max(1) as f64;
+        }
+        Some(sum)
+    };
+    let slips = model.interfaces.iter().filter_map(|interface| {
+        let Primary::Facets(facets) = &interface.primary else {
+            return None;
+        };
+        let (point, facet) = (interface.points.first()?, facets.first()?);
+        let ours = moved(*point.nodes.first()?, interface)?;
+        let theirs = moved(*facet.nodes.first()?, interface)?;
+        let slip = sub(ours, theirs);
+        let along = add_scaled(slip, -dot(slip, point.normal), point.normal);
+        let size = super::surfaces::spacing(interface, facet);
+        Some((norm(along) / size, interface.name.clone()))
+    });
+    let largest = slips.max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.filter(|s| s.0 > FAR)
 }
 
 /// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.

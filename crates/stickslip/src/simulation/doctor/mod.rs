@@ -7,6 +7,7 @@
 //!
 //! The doctor only looks: nothing here changes a result.
 
+mod balance;
 mod check;
 mod coupling;
 mod culprits;

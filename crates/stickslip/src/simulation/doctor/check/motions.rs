@@ -1,5 +1,6 @@
 //! Motions of bodies as a whole that even contact cannot hold, and gaps that a body under force has to close.
 
+use super::super::balance::unbalanced;
 use super::super::finding::{DoctorCause, Finding, Severity};
 use super::super::motions::{loose, rows};
 use super::super::surfaces::Opposite;
@@ -61,9 +62,13 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
                 .advise("friction holds a body along a surface, contact alone does not"),
         ];
     }
+    let statics = model.steps.iter().filter(|s| s.dynamic.is_none());
+    let mut out = Vec::new();
+    // Supports that come later may hold what is free now: the first step counts.
+    out.extend(statics.take(1).find_map(|s| unbalanced(simulation, s.end)));
     let waiting = loose(simulation, t, &touching);
     if waiting.is_empty() || !forced(model) {
-        return Vec::new();
+        return out;
     }
     // The nearest point of all interfaces of the bodies that wait.
     let mut nearest: Option<(usize, usize, f64)> = None;
@@ -75,7 +80,7 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
         }
     }
     let Some((k, i, gap)) = nearest else {
-        return Vec::new();
+        return out;
     };
     let interface = &model.interfaces[k];
     let severity = match gap > interface.points[i].size {
@@ -93,5 +98,6 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
         let remark = format!("{} is held by nothing that touches", l.motion);
         finding = finding.blame(body(model, &l.body, remark));
     }
-    vec![finding]
+    out.push(finding);
+    out
 }
