@@ -31,10 +31,10 @@ fn held(simulation: &Simulation, point: usize) -> Option<[[f64; 3]; 3]> {
     let model = &simulation.model;
     let dim = model.dofs.dim;
     let mut block = [[0.0; 3]; 3];
-    for i in 0..dim {
-        for j in 0..dim {
-            let (i_dof, j_dof) = (model.dofs.of(point, i), model.dofs.of(point, j));
-            block[i][j] = simulation.matrix.entry(i_dof, j_dof);
+    for (i, row) in block.iter_mut().enumerate().take(dim) {
+        for (j, entry) in row.iter_mut().enumerate().take(dim) {
+            let dofs = (model.dofs.of(point, i), model.dofs.of(point, j));
+            *entry = simulation.matrix.entry(dofs.0, dofs.1);
         }
     }
     (block[0][0] > 0.0).then_some(block)

@@ -15,7 +15,10 @@ use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
 
 /// Status changes of a point in one attempt that count as chatter.
-const CHATTER: usize = 4;
+const CHATTER: f64 = 4.0;
+
+/// How often a point has left the edge of the primary that has lost its projection.
+const LEFT: f64 = 2.0;
 
 /// Slip over an increment relative to the facet that is too large.
 const FAR: f64 = 0.5;
@@ -288,61 +291,87 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
         .advise("a dynamic step: inertia decides between solutions")
         .advise("a regularised slip rule (`slip.regularised`)");
     }
+    let signs = signs(evidence);
+    let told = signs
+        .as_ref()
+        .is_some_and(|f| f.cause != DoctorCause::Chatter);
+    let prescribed = match told {
+        true => None,
+        false => prescribed_slip(simulation, trial),
+    };
+    let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
+    prescribed
+        .or(signs)
+        .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
+}
+
+/// What the guilty points show by themselves, the rarest sign first.
+fn signs(evidence: &[&Evidence]) -> Option<Finding> {
     let worst = |measure: &dyn Fn(&Evidence) -> f64| {
         let all = evidence.iter().map(|e| (measure(e), *e));
         all.max_by(|a, b| a.0.total_cmp(&b.0))
     };
+    let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
     if let Some((kink, e)) = worst(&|e| e.kink).filter(|w| w.0 > 1.0) {
-        return of(
+        let finding = of(
             DoctorCause::LawTangentJump,
             format!(
                 "the normal law of interface {} has a kink where points are: its slope changes by a factor {kink:.1}",
                 e.interface
             ),
-        )
-        .advise("smooth the table of the law by more rows, or take smaller increments");
+        );
+        return Some(
+            finding.advise("smooth the table of the law by more rows, or take smaller increments"),
+        );
     }
-    if let Some((left, e)) = worst(&|e| e.left as f64).filter(|w| w.0 >= 2.0) {
-        return of(
+    if let Some((left, e)) = worst(&|e| e.left as f64).filter(|w| w.0 >= LEFT) {
+        let finding = of(
             DoctorCause::LostProjection,
             format!(
                 "points of interface {} leave the outer edge of the primary and come back, up to {left} times",
                 e.interface
             ),
-        )
-        .advise("let the primary surface reach farther than the secondary, or swap the two sides")
-        .advise("smaller increments");
+        );
+        return Some(
+            finding
+                .advise("let the primary surface reach farther than the secondary, or swap the two sides")
+                .advise("smaller increments"),
+        );
     }
     let slid = |e: &Evidence| match e.facet > 0.0 {
         true => e.slip / e.facet,
         false => 0.0,
     };
-    let slipped = worst(&slid).map(|(slip, e)| (slip, e.interface.clone()));
-    let slipped = slipped.filter(|s| s.0 > FAR);
-    if let Some((slip, interface)) = slipped.or_else(|| prescribed_slip(simulation, trial)) {
-        return of(
-            DoctorCause::TooLargeSlip,
-            format!("points of interface {interface} slide over {slip:.2} facets in one increment"),
-        )
-        .blame(Guilty::interface(&interface, format!("{slip:.2} facets")))
-        .advise(format!(
-            "increments that are {} times smaller, so that a point slides over half a facet at most",
-            (2.0 * slip).ceil()
-        ));
+    if let Some((slip, e)) = worst(&slid).filter(|w| w.0 > FAR) {
+        return Some(too_large_slip(slip, &e.interface));
     }
-    if let Some((flips, e)) = worst(&|e| e.flips as f64).filter(|w| w.0 >= CHATTER as f64) {
-        return of(
-            DoctorCause::Chatter,
-            format!(
-                "points of interface {} go to and fro, the worst with {flips} changes of status ({})",
-                e.interface,
-                e.course.join(" → ")
-            ),
-        )
-        .advise("smaller increments")
-        .advise("a finer mesh at these points, or a compliant normal law");
-    }
-    of(DoctorCause::NotConverged, String::new())
+    let (flips, e) = worst(&|e| e.flips as f64).filter(|w| w.0 >= CHATTER)?;
+    let finding = of(
+        DoctorCause::Chatter,
+        format!(
+            "points of interface {} go to and fro, the worst with {flips} changes of status ({})",
+            e.interface,
+            e.course.join(" → ")
+        ),
+    );
+    Some(
+        finding
+            .advise("smaller increments")
+            .advise("a finer mesh at these points, or a compliant normal law"),
+    )
+}
+
+fn too_large_slip(slip: f64, interface: &str) -> Finding {
+    Finding::new(
+        DoctorCause::TooLargeSlip,
+        Severity::Warning,
+        format!("points of interface {interface} slide over {slip:.2} facets in one increment"),
+    )
+    .blame(Guilty::interface(interface, format!("{slip:.2} facets")))
+    .advise(format!(
+        "increments that are {} times smaller, so that a point slides over half a facet at most",
+        (2.0 * slip).ceil()
+    ))
 }
 
 /// The largest slip that supports prescribe over the increment, in facets, and its interface; `None` where it is small.
@@ -422,4 +451,50 @@ pub(super) fn friction_coefficient(interface: &Interface) -> Option<f64> {
         sticking: true,
     });
     (pressure > 0.0).then(|| limit.value / pressure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_points_tell_what_went_wrong() {
+        let quiet = Evidence {
+            interface: "base".into(),
+            facet: 1e-3,
+            kink: 1.0,
+            ..Evidence::default()
+        };
+        let cause = |e: Evidence| signs(&[&quiet, &e]).map(|f| (f.cause, f.message));
+        assert_eq!(cause(quiet.clone()), None);
+        let flips = Evidence {
+            flips: 7,
+            course: vec!["open", "stick", "open", "stick"],
+            ..quiet.clone()
+        };
+        let (found, message) = cause(flips.clone()).expect("a sign");
+        assert_eq!(found, DoctorCause::Chatter);
+        assert!(
+            message.contains("7 changes of status (open → stick → open → stick)"),
+            "{message}"
+        );
+        let slid = Evidence {
+            slip: 2.5e-3,
+            ..flips.clone()
+        };
+        assert_eq!(cause(slid).expect("a sign").0, DoctorCause::TooLargeSlip);
+        let lost = Evidence {
+            left: 2,
+            ..flips.clone()
+        };
+        assert_eq!(cause(lost).expect("a sign").0, DoctorCause::LostProjection);
+        let kinked = Evidence {
+            kink: 50.0,
+            ..flips
+        };
+        assert_eq!(
+            cause(kinked).expect("a sign").0,
+            DoctorCause::LawTangentJump
+        );
+    }
 }
