@@ -178,6 +178,7 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::contact::law::normal::{Linear, NormalModel, PowerLaw, Tabular};
+    use crate::registry::Family;
 
     #[test]
     fn a_kink_is_told_from_a_steep_curve() {

@@ -14,6 +14,7 @@ mod culprits;
 mod diagnose;
 mod finding;
 mod motions;
+mod signs;
 mod surfaces;
 
 pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
