@@ -473,11 +473,11 @@ fn changed(text: &str, changes: &[(&str, &str)]) -> String {
     })
 }
 
+/// Findings before and of a run, and how it ended.
+type Examined = (Vec<Finding>, Vec<Finding>, Option<Error>);
+
 /// What is said of a model: the error that refuses it, or the findings before and of the run.
-fn examined(
-    text: &str,
-    folder: &Path,
-) -> Result<(Vec<Finding>, Vec<Finding>, Option<Error>), Error> {
+fn examined(text: &str, folder: &Path) -> Result<Examined, Error> {
     let document = Document::new(text, None);
     let model = document.problem()?.build(folder)?;
     let before = Simulation::new(model)?.check().findings;
