@@ -132,3 +132,18 @@ fn schema_is_json() {
     assert_eq!(schema["title"], "stickslip problem file");
     assert!(!text(&output.stdout).contains("crate::"));
 }
+
+#[test]
+fn check_prints_findings_for_programs() {
+    let path = file(
+        "smells.toml",
+        &SOUND.replace("point = [0, 0]", "point = [0, 0.5]"),
+    );
+    let output = stickslip(&["check", "--json", &path.display().to_string()]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["findings"][0]["cause"], "normals-not-opposed");
+    assert_eq!(report["interfaces"][0]["name"], "base");
+    let output = stickslip(&["check", &path.display().to_string()]);
+    assert!(text(&output.stdout).contains("warning (normals-not-opposed)"));
+}

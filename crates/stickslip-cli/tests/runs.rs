@@ -330,3 +330,76 @@ fn a_sweep_says_which_runs_are_poor() {
     );
     assert!(rows[2].contains("done"), "{table}");
 }
+
+#[test]
+fn explain_tells_how_a_run_went() {
+    let place = Place::new("explain");
+    let out = place.path("out");
+    let output = stickslip(&["run", &place.path("case.toml"), "-q", "-o", &out]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let output = stickslip(&["explain", &out]);
+    assert_eq!(code(&output), Some(0));
+    let said = text(&output.stdout);
+    assert!(said.contains("The run finished."), "{said}");
+    assert!(said.contains("Nothing went wrong."), "{said}");
+    assert!(!Path::new(&out).join("culprits.vtu").exists());
+
+    // Nothing holds the block sideways.
+    place.write(
+        "loose.toml",
+        &CASE
+            .replace("x = 0.0, ", "")
+            .replace("friction.coulomb = { mu = 0.3 }", "friction.none = {}"),
+    );
+    let output = stickslip(&["run", &place.path("loose.toml"), "-q", "-o", &out]);
+    assert_eq!(code(&output), Some(3), "{}", text(&output.stderr));
+    let output = stickslip(&["explain", &out]);
+    assert_eq!(code(&output), Some(0));
+    let said = text(&output.stdout);
+    for part in [
+        "The run stopped",
+        "error: free-rigid-mode",
+        "body block",
+        "translation x",
+        "try",
+        "tried",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in:\n{said}");
+    }
+    let output = stickslip(&["explain", "--json", &out]);
+    let findings: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let last = findings
+        .as_array()
+        .and_then(|all| all.last())
+        .expect("a finding");
+    assert_eq!(last["cause"], "free-rigid-mode");
+    assert_eq!(last["severity"], "error");
+    assert_eq!(last["guilty"][0]["what"], "body");
+    assert!(last["guilty"][0]["position"].is_array());
+    let places = std::fs::read(Path::new(&out).join("culprits.vtu")).expect("places");
+    assert!(String::from_utf8_lossy(&places).contains("Name=\"CAUSE\""));
+}
+
+#[test]
+fn explain_refuses_what_is_no_result() {
+    let place = Place::new("no-result");
+    let output = stickslip(&["explain", &place.path("nowhere")]);
+    assert_eq!(code(&output), Some(1));
+    assert!(
+        text(&output.stderr).contains("cannot be read"),
+        "{}",
+        text(&output.stderr)
+    );
+    for content in [
+        "{\"title\": ",
+        "[]",
+        "{}",
+        "{\"findings\": [{\"cause\": \"gremlins\"}]}",
+    ] {
+        place.write("summary.json", content);
+        let output = stickslip(&["explain", &place.path("")]);
+        assert_eq!(code(&output), Some(1), "{content}");
+        let said = text(&output.stderr);
+        assert!(said.contains("is damaged"), "{content}: {said}");
+    }
+}

@@ -14,18 +14,31 @@ pub struct Arguments {
     /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
+    /// Print the report as JSON: bodies, interfaces with their gaps, free motions, findings.
+    #[arg(long)]
+    json: bool,
 }
 
 /// Checks the file.
 pub fn run(arguments: &Arguments) -> Outcome {
     let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
     let problem = document.problem()?;
-    print::out(&summary(&problem))?;
+    if !arguments.json {
+        print::out(&summary(&problem))?;
+    }
     let model = problem
         .build(&document.folder())
         .map_err(|e| super::located(&document, e))?;
     let mut simulation = stickslip::simulation::Simulation::new(model)?;
-    print::out(&simulation.check().to_string())?;
+    let report = simulation.check();
+    let text = match arguments.json {
+        false => report.to_string(),
+        true => {
+            let text = serde_json::to_string_pretty(&report).map_err(std::io::Error::other)?;
+            text + "\n"
+        }
+    };
+    print::out(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod compare;
 pub mod curve;
+pub mod explain;
 pub mod models;
 pub mod run;
 pub mod schema;

@@ -442,11 +442,7 @@ impl Newton {
             } else {
                 settings.line_search
             };
-            let step = if halvings >= tried {
-                chosen
-            } else {
-                step
-            };
+            let step = if halvings >= tried { chosen } else { step };
             out.tentative = false;
             if halvings == 0 {
                 for force in &mut system.contact {

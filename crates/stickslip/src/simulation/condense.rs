@@ -50,6 +50,11 @@ pub(super) const LEFT: f64 = 1e-7;
 const NOTHING: f64 = 1e-12;
 
 impl Condensed {
+    /// The bodies without their interiors.
+    pub(super) fn condensation(&self) -> &Condensation {
+        &self.condensation
+    }
+
     pub(super) fn forget_direction(&mut self) {
         self.previous = None;
     }

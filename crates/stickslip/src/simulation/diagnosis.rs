@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::doctor::{self, Finding};
 use super::model::Model;
 use super::run::Simulation;
 use crate::body::{RigidMode, rigid_modes};
@@ -11,7 +12,8 @@ use crate::math::{Vec3, symmetric_eigen};
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct FreeMode {
     /// The body.
     pub body: String,
@@ -20,7 +22,8 @@ pub struct FreeMode {
 }
 
 /// What `stickslip check` says.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct CheckReport {
     /// The bodies.
     pub bodies: Vec<BodyReport>,
@@ -30,10 +33,13 @@ pub struct CheckReport {
     pub free: Vec<FreeMode>,
     /// Steps, in words.
     pub steps: Vec<String>,
+    /// What the doctor found, worst first.
+    pub findings: Vec<Finding>,
 }
 
 /// A body in numbers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct BodyReport {
     /// Name.
     pub name: String,
@@ -54,7 +60,8 @@ pub struct BodyReport {
 }
 
 /// An interface in numbers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct InterfaceReport {
     /// Name.
     pub name: String,
@@ -64,10 +71,16 @@ pub struct InterfaceReport {
     pub area: f64,
     /// Points with something opposite.
     pub paired: usize,
-    /// Smallest gap.
+    /// Smallest gap `[m]`; infinite without a paired point.
     pub smallest: f64,
-    /// Largest gap of paired points.
+    /// The middle one of the gaps of paired points `[m]`.
+    pub median: f64,
+    /// Largest gap of paired points `[m]`.
     pub largest: f64,
+    /// User's number of the node with the smallest gap, where the point is one.
+    pub nearest_node: Option<u64>,
+    /// Its reference coordinates `[m]`.
+    pub nearest_at: Option<[f64; 3]>,
     /// Points that overlap at the start.
     pub overlapping: usize,
     /// Its laws in words.
@@ -205,7 +218,7 @@ fn axis(motion: &str) -> Option<usize> {
 }
 
 /// The motions of a rigid body over all dofs, hidden ones and those of its points.
-fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
+pub(super) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
     let motions = model.links.all()[link].motions(model.dofs);
     motions
         .into_iter()
@@ -304,12 +317,11 @@ impl Simulation {
             dt: end.t - start.t,
             rate: None,
         };
-        let interfaces = self
-            .model
-            .interfaces
-            .iter_mut()
-            .map(|i| inspect(i, &stage))
-            .collect();
+        let interfaces = self.model.interfaces.iter_mut();
+        let gaps: Vec<Vec<f64>> = interfaces.map(|i| i.gaps_at(&stage)).collect();
+        let findings = doctor::examine(self, &gaps);
+        let interfaces = self.model.interfaces.iter().zip(&gaps);
+        let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
         let mesh = &self.model.mesh;
         let bodies = self
             .model
@@ -359,21 +371,31 @@ impl Simulation {
                 .iter()
                 .map(|s| format!("{}: {} to {}", s.name, s.start, s.end))
                 .collect(),
+            findings,
         }
     }
 }
 
-fn inspect(interface: &mut Interface, stage: &Stage) -> InterfaceReport {
-    let gaps = interface.gaps_at(stage);
-    let finite: Vec<f64> = gaps.iter().copied().filter(|g| g.is_finite()).collect();
+fn inspect(interface: &Interface, gaps: &[f64]) -> InterfaceReport {
+    let mut finite: Vec<(f64, usize)> = gaps.iter().copied().zip(0..).collect();
+    finite.retain(|(gap, _)| gap.is_finite());
+    finite.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let nearest = finite.first().map(|&(_, i)| &interface.points[i]);
+    let gap = |at: Option<&(f64, usize)>, none: f64| at.map_or(none, |&(gap, _)| gap);
     InterfaceReport {
         name: interface.name.clone(),
         points: interface.points.len(),
         area: interface.points.iter().map(|p| p.area).sum(),
         paired: finite.len(),
-        smallest: finite.iter().copied().fold(f64::INFINITY, f64::min),
-        largest: finite.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        overlapping: finite.iter().filter(|&&g| g < 0.0).count(),
+        smallest: gap(finite.first(), f64::INFINITY),
+        median: gap(finite.get(finite.len() / 2), f64::INFINITY),
+        largest: gap(finite.last(), f64::NEG_INFINITY),
+        nearest_node: nearest.and_then(|p| match p.nodes.as_slice() {
+            [one] => Some(interface.node_ids[*one]),
+            _ => None,
+        }),
+        nearest_at: nearest.map(|p| p.position(&interface.reference)),
+        overlapping: finite.iter().filter(|(gap, _)| *gap < 0.0).count(),
         laws: interface.laws.describe(),
     }
 }
@@ -416,9 +438,20 @@ impl fmt::Display for CheckReport {
             } else {
                 writeln!(
                     f,
-                    "    gaps {:.6e} to {:.6e}, {} of {} points have something opposite, {} overlap",
-                    i.smallest, i.largest, i.paired, i.points, i.overlapping
+                    "    gaps {:.6e} to {:.6e}, median {:.6e}, {} of {} points have something opposite, {} overlap",
+                    i.smallest, i.largest, i.median, i.paired, i.points, i.overlapping
                 )?;
+                if let Some([x, y, z]) = i.nearest_at {
+                    let what = match i.smallest < 0.0 {
+                        true => "deepest overlap",
+                        false => "smallest gap",
+                    };
+                    let node = match i.nearest_node {
+                        Some(id) => format!("node {id} "),
+                        None => String::new(),
+                    };
+                    writeln!(f, "    {what} at {node}({x:.6e}, {y:.6e}, {z:.6e})")?;
+                }
             }
         }
         writeln!(f, "free rigid-body modes (held by contact alone)")?;
@@ -431,6 +464,13 @@ impl fmt::Display for CheckReport {
         writeln!(f, "steps")?;
         for s in &self.steps {
             writeln!(f, "  {s}")?;
+        }
+        writeln!(f, "findings")?;
+        if self.findings.is_empty() {
+            writeln!(f, "  none")?;
+        }
+        for finding in &self.findings {
+            writeln!(f, "  {}", finding.to_string().replace('\n', "\n  "))?;
         }
         Ok(())
     }

@@ -1,7 +1,9 @@
-//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`.
+//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`, and
+//! `culprits.vtu` where the doctor found something.
 
 use std::path::{Path, PathBuf};
 
+use super::doctor;
 use super::run::{Event, Observer, Simulation};
 use crate::error::Error;
 use crate::io::{csv, pvd, vtu, write_atomically};
@@ -57,7 +59,17 @@ impl ResultFiles {
     fn end(&mut self, simulation: &Simulation) -> Result<(), Error> {
         let text = serde_json::to_string_pretty(&simulation.summary)
             .map_err(|e| Error::io(&self.directory, std::io::Error::other(e)))?;
-        write_atomically(&self.directory.join("summary.json"), text.as_bytes())
+        write_atomically(&self.directory.join("summary.json"), text.as_bytes())?;
+        let places = self.directory.join("culprits.vtu");
+        let findings = &simulation.summary.findings;
+        if findings.iter().all(|f| f.guilty.is_empty()) {
+            // Those of an earlier run would mislead.
+            return match std::fs::remove_file(&places) {
+                Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io(&places, e)),
+                _ => Ok(()),
+            };
+        }
+        doctor::write_culprits(&places, findings)
     }
 }
 

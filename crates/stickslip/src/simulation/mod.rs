@@ -7,6 +7,7 @@ pub mod compare;
 mod condense;
 mod conditions;
 mod diagnosis;
+pub mod doctor;
 mod dynamic;
 mod equilibrium;
 mod explicit;

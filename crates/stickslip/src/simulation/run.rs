@@ -10,7 +10,7 @@ use super::loose::Loose;
 use super::model::{Dynamic, Model, Solution, Step};
 use super::pending::Pending;
 use super::summary::{FallbackSummary, Phases, Summary};
-use super::{diagnosis, history, quality};
+use super::{diagnosis, doctor, history, quality};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
@@ -200,6 +200,9 @@ impl Simulation {
     pub fn run(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         self.started = Instant::now();
         let outcome = self.run_steps(observers);
+        if let Err(Error::Run(error)) = &outcome {
+            self.conclude(error);
+        }
         self.summary.finish(
             &self.newton.statistics,
             self.started.elapsed().as_secs_f64(),
@@ -283,6 +286,7 @@ impl Simulation {
             if step.dynamic.is_none() {
                 self.meet(trial, observers)?;
             }
+            let chart = doctor::Chart::of(&self.newton.statistics);
             let outcome = match step.dynamic {
                 None => self.attempt_static(trial, observers),
                 Some(
@@ -344,6 +348,7 @@ impl Simulation {
                     self.flush(observers)?;
                     let seen = std::mem::take(&mut self.seen);
                     self.tell(&seen, observers);
+                    self.examine(&trial, (attempt, chart), &failure);
                     attempt += 1;
                     self.reject(&step, &trial, &failure);
                     if !stepper.reject(trial) {
@@ -362,7 +367,11 @@ impl Simulation {
     fn note_fallbacks(&mut self, step: &Step, trial: &Trial) {
         let summary = &mut self.summary;
         for tried in self.newton.fallbacks.drain(..) {
-            let outcome = if tried.converged { "converged" } else { "failed" };
+            let outcome = if tried.converged {
+                "converged"
+            } else {
+                "failed"
+            };
             // Once of each kind is enough for people; the list has them all.
             if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
                 self.notes.push(format!(
@@ -378,6 +387,31 @@ impl Simulation {
                     tried,
                 });
             }
+        }
+    }
+
+    /// Lets the doctor look at an attempt that failed.
+    fn examine(
+        &mut self,
+        trial: &Trial,
+        (attempt, chart): (usize, doctor::Chart),
+        failure: &StepFailure,
+    ) {
+        if failure.cause != Cause::Event {
+            let finding = doctor::diagnose(self, (trial, attempt, chart), failure);
+            doctor::note(&mut self.summary.findings, finding);
+        }
+    }
+
+    /// Sees to it that there is a finding about what ended the run.
+    fn conclude(&mut self, error: &RunError) {
+        let findings = &self.summary.findings;
+        if findings
+            .iter()
+            .all(|f| f.severity < doctor::Severity::Error)
+        {
+            let finding = doctor::stopped(self, error);
+            doctor::note(&mut self.summary.findings, finding);
         }
     }
 
@@ -399,7 +433,10 @@ impl Simulation {
         }
     }
 
-    fn give_up(&self, failure: StepFailure) -> RunError {
+    fn give_up(&mut self, failure: StepFailure) -> RunError {
+        if let Some(finding) = self.summary.findings.last_mut() {
+            finding.severity = doctor::Severity::Error;
+        }
         if failure.cause == Cause::Singular {
             let modes = diagnosis::free_modes(self, self.model.steps[self.step].end);
             return diagnosis::explain_singular(self, &failure, &modes);

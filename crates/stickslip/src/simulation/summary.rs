@@ -1,5 +1,6 @@
 use serde::Serialize;
 
+use super::doctor::Finding;
 use super::ledger::{EnergyLedger, EnergyQuality};
 use super::model::Model;
 use super::quality::Gate;
@@ -19,6 +20,8 @@ pub struct Summary {
     pub outcome: String,
     /// Whether the run reached its end.
     pub completed: bool,
+    /// What the doctor found, in the order in which it happened; 200 at most.
+    pub findings: Vec<Finding>,
     /// How the systems of equations were solved.
     pub method: String,
     /// Why so.

@@ -28,6 +28,45 @@ pub struct Culprit {
     pub place: String,
     /// What it did: `open → slip → open, gap 1.2e-6, force 3.1`.
     pub what: String,
+    /// The same in numbers, where it is a point of an interface.
+    pub evidence: Option<Box<Evidence>>,
+}
+
+/// What a point of an interface did in an attempt that failed, in numbers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Evidence {
+    /// The interface.
+    pub interface: String,
+    /// User's number of the node, where the point is one.
+    pub node: Option<u64>,
+    /// Points of the mesh that the point hangs on.
+    pub points: Vec<usize>,
+    /// Reference coordinates `[m]`.
+    pub position: [f64; 3],
+    /// Unit normal of the contact, out of the primary.
+    pub normal: [f64; 3],
+    /// Status changes in the attempt.
+    pub flips: usize,
+    /// Last statuses, oldest first: `open`, `stick`, `slip`.
+    pub course: Vec<&'static str>,
+    /// How often it has left the outer edge of the primary.
+    pub left: usize,
+    /// Relative slip over the increment `[m]`.
+    pub slip: f64,
+    /// Size of the facet it lies on `[m]`; zero where there is none.
+    pub facet: f64,
+    /// User's number of the cell behind that facet.
+    pub cell: Option<u64>,
+    /// Gap `[m]`.
+    pub gap: f64,
+    /// Pressure `[Pa]`.
+    pub pressure: f64,
+    /// Shear traction `[Pa]`.
+    pub shear: f64,
+    /// Largest shear traction that the interface carries there `[Pa]`.
+    pub limit: f64,
+    /// Ratio of the slopes of the normal law on both sides of a kink that lies between the last two evaluations; 1 where there is none.
+    pub kink: f64,
 }
 
 impl fmt::Display for Culprit {

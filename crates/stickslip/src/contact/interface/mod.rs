@@ -11,6 +11,7 @@ mod sides;
 mod springs;
 mod start;
 mod steady;
+mod symptoms;
 
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,10 @@
-//! What an interface says of itself: energy, resultants, output fields, culprits.
+//! What an interface says of itself: energy, resultants, output fields.
 
 use super::evaluate::Evaluation;
 use super::{Interface, Primary, Wants};
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, scale};
-use crate::system::{Culprit, Fields, Force, Location, Stage};
+use crate::system::{Fields, Force, Location, Stage};
 
 /// Forces of an interface on its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -275,47 +275,6 @@ impl Interface {
     /// Gaps of all points in the reference configuration; NaN or infinite where there is nothing opposite.
     pub fn initial_gaps(&self) -> Vec<f64> {
         self.memory.committed.iter().map(|h| h.gap).collect()
-    }
-
-    /// The points that changed status most often in this attempt, then those farthest from what they should be.
-    pub(super) fn culprits(&self) -> Vec<Culprit> {
-        let mut order: Vec<usize> = (0..self.memory.last.points.len()).collect();
-        order.sort_by_key(|&i| (std::cmp::Reverse(self.memory.flips[i].count), i));
-        order
-            .into_iter()
-            .take(10)
-            .filter(|&i| self.memory.flips[i].count > 0)
-            .map(|i| {
-                let (p, e, f) = (&self.points[i], &self.memory.last.points[i], &self.memory.flips[i]);
-                let x = p.position(&self.reference);
-                let who = match p.nodes.as_slice() {
-                    [one] => format!("node {}", self.node_ids[*one]),
-                    _ => format!("point {i}"),
-                };
-                let history: Vec<String> = f
-                    .last
-                    .iter()
-                    .rev()
-                    .flatten()
-                    .map(|s| format!("{s:?}").to_lowercase())
-                    .collect();
-                Culprit {
-                    place: format!(
-                        "interface {}, {who} at ({:.4e}, {:.4e}, {:.4e})",
-                        self.name, x[0], x[1], x[2]
-                    ),
-                    what: format!(
-                        "changed status {} times ({}), gap {:.3e}, pressure {:.3e}, shear {:.3e} of {:.3e}",
-                        f.count,
-                        history.join(" → "),
-                        e.gap,
-                        e.response.traction[0],
-                        e.response.traction[1].hypot(e.response.traction[2]),
-                        e.response.limit
-                    ),
-                }
-            })
-            .collect()
     }
 
     /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.

@@ -18,6 +18,6 @@ mod xml;
 mod tests;
 
 pub use read::{PointArray, PointFields, read};
-pub use write::write;
+pub use write::{write, write_vertices};
 
 pub(super) use write::escape;

@@ -24,8 +24,29 @@ pub fn write(
     fields: &Fields,
     bodies: Option<&[usize]>,
 ) -> Result<(), Error> {
+    put(path, mesh, fields, bodies, false)
+}
+
+/// Writes the points of a mesh as vertices, with the fields on them; cells are left out.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_vertices(path: &Path, mesh: &Mesh, fields: &Fields) -> Result<(), Error> {
+    put(path, mesh, fields, None, true)
+}
+
+fn put(
+    path: &Path,
+    mesh: &Mesh,
+    fields: &Fields,
+    bodies: Option<&[usize]>,
+    vertices: bool,
+) -> Result<(), Error> {
     let points = mesh.points.len();
-    let cells: usize = mesh.blocks.iter().map(|block| block.cell_ids.len()).sum();
+    let cells: usize = match vertices {
+        true => points,
+        false => mesh.blocks.iter().map(|block| block.cell_ids.len()).sum(),
+    };
     let mut file = Writer::default();
     let fits = |name: &str, found: usize, wanted: usize| {
         if found == wanted {
@@ -51,6 +72,7 @@ pub fn write(
                 file.integers("NODE_ID", mesh.point_ids.iter().map(|&id| id as i64));
                 points
             }
+            Location::Cell if vertices => points,
             Location::Cell => {
                 let ids = mesh.blocks.iter().flat_map(|block| &block.cell_ids);
                 file.integers("ELEMENT_ID", ids.map(|&id| id as i64));
@@ -71,7 +93,10 @@ pub fn write(
     file.text += "<Points>\n";
     file.floats("Points", 3, mesh.points.as_flattened());
     file.text += "</Points>\n<Cells>\n";
-    file.cells(mesh);
+    match vertices {
+        true => file.vertices(points),
+        false => file.cells(mesh),
+    }
     file.text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
     let mut bytes = file.text.into_bytes();
@@ -115,6 +140,12 @@ impl Writer {
             self.appended.len()
         );
         compress(&bytes, &mut self.appended);
+    }
+
+    fn vertices(&mut self, points: usize) {
+        self.integers("connectivity", 0..points as i64);
+        self.integers("offsets", 1..=points as i64);
+        self.array("UInt8", "types", 1, vec![1; points]);
     }
 
     fn cells(&mut self, mesh: &Mesh) {
@@ -301,6 +332,23 @@ mod tests {
         let error = write(&path, &mesh, &fields, None).unwrap_err();
         assert!(error.to_string().contains("field S has 11"), "{error}");
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn points_are_written_as_vertices() {
+        let path = std::env::temp_dir().join(format!("stickslip-v-{}.vtu", std::process::id()));
+        let (mut mesh, mut fields) = (mesh(), fields());
+        mesh.points.truncate(3);
+        mesh.point_ids.truncate(3);
+        fields.all.truncate(1);
+        fields.all[0].values.truncate(9);
+        write_vertices(&path, &mesh, &fields).unwrap();
+        let file = std::fs::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(array(&file, "types").1, [1, 1, 1]);
+        assert_eq!(floats(&array(&file, "offsets").1), [1, 2, 3]);
+        assert_eq!(floats(&array(&file, "connectivity").1), [0, 1, 2]);
+        assert_eq!(floats(&array(&file, "NODE_ID").1), mesh.point_ids);
     }
 
     #[test]

@@ -1,0 +1,201 @@
+//! What points of an interface did in an attempt that failed.
+
+use super::{Interface, Primary};
+use crate::contact::law::normal::NormalLaw;
+use crate::contact::response::Status;
+use crate::math::{distance, norm};
+use crate::system::{Culprit, Evidence};
+
+/// Most culprits of one interface.
+const MOST: usize = 10;
+
+/// Slip over an increment, relative to the facet, from which a point is a culprit although it keeps its status.
+const FAR: f64 = 0.5;
+
+/// Halvings by which a kink of the normal law is looked for.
+const HALVINGS: usize = 40;
+
+/// Ratio of slopes that counts as a kink.
+const KINK: f64 = 4.0;
+
+impl Status {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Open => "open",
+            Status::Stick => "stick",
+            Status::Slip => "slip",
+        }
+    }
+}
+
+impl Interface {
+    /// What a point did in the present attempt.
+    pub fn evidence(&self, i: usize) -> Evidence {
+        let point = &self.points[i];
+        let memory = &self.memory;
+        let mut evidence = Evidence {
+            interface: self.name.clone(),
+            node: match point.nodes.as_slice() {
+                [one] => Some(self.node_ids[*one]),
+                _ => None,
+            },
+            points: point.nodes.iter().map(|&n| self.nodes[n]).collect(),
+            position: point.position(&self.reference),
+            normal: point.normal.map(|c| -c),
+            kink: 1.0,
+            ..Evidence::default()
+        };
+        if let Some(flips) = memory.flips.get(i) {
+            evidence.flips = flips.count;
+            evidence.left = flips.left;
+            let course = flips.last.iter().rev().flatten();
+            evidence.course = course.map(|s| s.word()).collect();
+        }
+        let Some(e) = memory.last.points.get(i) else {
+            return evidence;
+        };
+        if e.normal != [0.0; 3] {
+            evidence.normal = e.normal;
+        }
+        evidence.gap = e.gap;
+        evidence.pressure = e.response.traction[0];
+        evidence.shear = e.response.traction[1].hypot(e.response.traction[2]);
+        evidence.limit = e.response.limit;
+        evidence.slip = norm(e.moved);
+        if let (Primary::Facets(facets), Some(f)) = (&self.primary, e.facet) {
+            let x = |k: usize| self.reference[facets[f].nodes[k]];
+            evidence.facet = distance(x(0), x(1));
+            evidence.cell = Some(facets[f].cell);
+        }
+        if let Some(before) = memory.trial.points.get(i) {
+            evidence.kink = kink(self.laws.normal.as_dyn(), before.gap, e.gap);
+        }
+        evidence
+    }
+
+    /// The points that changed status most often in this attempt, then those that slid farthest or lie at a kink of the normal law.
+    pub(super) fn culprits(&self) -> Vec<Culprit> {
+        let mut all: Vec<Evidence> = (0..self.memory.last.points.len())
+            .map(|i| self.evidence(i))
+            .filter(|e| {
+                let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
+                e.flips > 0 || e.left > 0 || e.kink > KINK || slid
+            })
+            .collect();
+        // The sort is stable: points of equal guilt keep their order.
+        all.sort_by(|a, b| {
+            let slid = |e: &Evidence| e.slip / e.facet.max(f64::MIN_POSITIVE);
+            let flips = b.flips.cmp(&a.flips);
+            flips.then_with(|| slid(b).total_cmp(&slid(a)))
+        });
+        all.truncate(MOST);
+        all.into_iter().map(culprit).collect()
+    }
+
+    /// Statuses at the last evaluation, or at the last accepted state where there is none.
+    pub fn statuses(&self) -> Vec<Status> {
+        let memory = &self.memory;
+        match memory.last.points.is_empty() {
+            true => memory.committed.iter().map(|h| h.status).collect(),
+            false => {
+                let points = memory.last.points.iter();
+                points.map(|e| e.response.status).collect()
+            }
+        }
+    }
+}
+
+/// Evidence with its prose.
+fn culprit(e: Evidence) -> Culprit {
+    let who = match e.node {
+        Some(id) => format!("node {id}"),
+        None => "point".to_string(),
+    };
+    let x = e.position;
+    let mut what = Vec::new();
+    if e.flips > 0 {
+        let course = e.course.join(" → ");
+        what.push(format!("changed status {} times ({course})", e.flips));
+    }
+    if e.left > 0 {
+        what.push(format!("left the edge of the primary {} times", e.left));
+    }
+    if e.facet > 0.0 && e.slip > FAR * e.facet {
+        what.push(format!(
+            "slid over {:.2} facets in one increment",
+            e.slip / e.facet
+        ));
+    }
+    if e.kink > KINK {
+        what.push(format!(
+            "lies at a kink of the normal law, slopes 1 to {:.1}",
+            e.kink
+        ));
+    }
+    what.push(format!(
+        "gap {:.3e}, pressure {:.3e}, shear {:.3e} of {:.3e}",
+        e.gap, e.pressure, e.shear, e.limit
+    ));
+    Culprit {
+        place: format!(
+            "interface {}, {who} at ({:.4e}, {:.4e}, {:.4e})",
+            e.interface, x[0], x[1], x[2]
+        ),
+        what: what.join(", "),
+        evidence: Some(Box::new(e)),
+    }
+}
+
+/// The ratio of the slopes on both sides of the sharpest kink of a compliant law between two gaps; 1 where it is smooth. Where contact begins is
+/// no kink.
+fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
+    let slope = |gap: f64| law.pressure(gap).map_or(0.0, |p| -p.slope);
+    let ratio = |a: f64, b: f64| {
+        let (low, high) = (slope(a).min(slope(b)), slope(a).max(slope(b)));
+        if low > 0.0 { high / low } else { 1.0 }
+    };
+    let (mut a, mut b) = (a, b);
+    if !(a.is_finite() && b.is_finite()) || ratio(a, b) <= KINK {
+        return 1.0;
+    }
+    // A smooth law has less and less of it in ever smaller intervals; a kink keeps all of it.
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (a + b);
+        if ratio(a, middle) > ratio(middle, b) {
+            b = middle;
+        } else {
+            a = middle;
+        }
+    }
+    match ratio(a, b) {
+        kept if kept > KINK => kept,
+        _ => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::law::normal::{Linear, NormalModel, PowerLaw, Tabular};
+    use crate::registry::Family;
+
+    #[test]
+    fn a_kink_is_told_from_a_steep_curve() {
+        let table = vec![[0.0, 0.0], [1e-6, 1e3], [2e-6, 1e6]];
+        let kinked = NormalModel::Tabular(Tabular { table });
+        let found = kink(kinked.as_dyn(), -0.2e-6, -1.9e-6);
+        assert!((found / 999.0 - 1.0).abs() < 1e-6, "{found}");
+        assert_eq!(kink(kinked.as_dyn(), -0.2e-6, -0.9e-6), 1.0);
+        let samples = NormalModel::samples();
+        for law in samples.iter().filter(|l| {
+            matches!(
+                l,
+                NormalModel::PowerLaw(PowerLaw { .. }) | NormalModel::Linear(Linear { .. })
+            )
+        }) {
+            assert_eq!(kink(law.as_dyn(), -1e-9, -1e-5), 1.0, "{law:?}");
+            assert_eq!(kink(law.as_dyn(), 1e-5, -1e-5), 1.0, "{law:?}");
+        }
+    }
+}

@@ -1,0 +1,341 @@
+//! From an attempt that failed to a finding.
+
+use super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::motions::{Loose, Row, loose, rows};
+use super::signs::{prescribed_slip, signs, too_large_slip};
+use super::surfaces::Opposite;
+use super::{Chart, check};
+use super::{balance, coupling};
+use crate::contact::interface::Interface;
+use crate::contact::law::friction::FrictionPoint;
+use crate::contact::response::Status;
+use crate::error::RunError;
+use crate::math::Vec3;
+use crate::simulation::run::Simulation;
+use crate::system::{Cause, Evidence, StepFailure};
+use crate::time::Trial;
+
+/// Guilty points whose stiffness is looked at.
+const LOOKED_AT: usize = 5;
+
+/// A finding about an attempt that failed, the `attempt`-th of its increment.
+pub(in crate::simulation) fn diagnose(
+    simulation: &Simulation,
+    (trial, attempt, chart): (&Trial, usize, Chart),
+    failure: &StepFailure,
+) -> Finding {
+    let evidence: Vec<&Evidence> = failure
+        .culprits
+        .iter()
+        .filter_map(|c| c.evidence.as_deref())
+        .collect();
+    let mut finding = match failure.cause {
+        Cause::Singular => singular(simulation, trial, failure),
+        Cause::LinearSolver => linear(simulation, trial),
+        Cause::NotConverged => not_converged(simulation, trial, &evidence),
+        Cause::NotFinite => Finding::new(DoctorCause::NotFinite, Severity::Warning, "")
+            .advise("smaller increments; look for a stiffness or a load that is far too large"),
+        Cause::CollapsedCell => Finding::new(DoctorCause::CollapsedCell, Severity::Warning, "")
+            .advise("repair the mesh there, or take smaller increments"),
+        Cause::TooFar => Finding::new(DoctorCause::TooFar, Severity::Note, ""),
+        Cause::Reach => Finding::new(DoctorCause::BeyondReach, Severity::Note, ""),
+        Cause::Event => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
+    };
+    if finding.message.is_empty() {
+        finding.message = failure.message.clone();
+    } else {
+        finding.message = format!("{}: {}", finding.message, failure.message);
+    }
+    for (culprit, e) in failure.culprits.iter().zip(&evidence) {
+        finding = finding.blame(point(e, culprit.what.clone()));
+    }
+    finding.advice.extend(failure.help.clone());
+    finding.tried = tried(simulation, trial, attempt, chart);
+    finding.step = Some(simulation.step_name().to_string());
+    finding.time = Some(trial.from);
+    finding
+}
+
+/// A run that ended for a reason of which there is no finding yet.
+pub(in crate::simulation) fn stopped(simulation: &Simulation, error: &RunError) -> Finding {
+    let mut finding = Finding::new(DoctorCause::Stopped, Severity::Error, error.message.clone());
+    for culprit in &error.culprits {
+        finding = finding.blame(Guilty::key("", culprit.clone()));
+    }
+    finding.advice.extend(error.help.clone());
+    finding.step = Some(simulation.step_name().to_string());
+    finding.time = Some(error.time);
+    finding
+}
+
+/// The evidence as a place.
+fn point(e: &Evidence, remark: String) -> Guilty {
+    Guilty {
+        what: What::Node,
+        name: e.interface.clone(),
+        id: e.node,
+        interface: Some(e.interface.clone()),
+        body: None,
+        position: None,
+        remark,
+    }
+    .at(e.position)
+}
+
+fn tried(simulation: &Simulation, trial: &Trial, attempt: usize, chart: Chart) -> Vec<String> {
+    let now = &simulation.newton.statistics;
+    let count = |now: usize, then: usize| now.saturating_sub(then);
+    let mut tried = vec![format!(
+        "increment {:.6e} to {:.6e}, attempt {attempt}: {} Newton iterations with line search",
+        trial.from,
+        trial.to,
+        count(now.iterations, chart.iterations)
+    )];
+    match count(now.augmentations, chart.augmentations) {
+        0 => {}
+        n => tried.push(format!("{n} updates of the multipliers")),
+    }
+    match count(now.continuations, chart.continuations) {
+        0 => {}
+        n => tried.push(format!(
+            "{n} continuations from soft stick to the law itself"
+        )),
+    }
+    tried
+}
+
+/// What contact holds in the state of the last evaluation.
+fn contact_rows(simulation: &Simulation, t: f64) -> Vec<Row> {
+    let mut out = Vec::new();
+    for interface in &simulation.model.interfaces {
+        if !interface.schedule.active(t) {
+            continue;
+        }
+        let mut opposite = Opposite::new(interface, t);
+        for (i, status) in interface.statuses().into_iter().enumerate() {
+            if status != Status::Open {
+                let normal = interface.evidence(i).normal;
+                rows(interface, &mut opposite, (i, normal, status), &mut out);
+            }
+        }
+    }
+    out
+}
+
+fn singular(simulation: &Simulation, trial: &Trial, failure: &StepFailure) -> Finding {
+    let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+    let by_contact = loose(simulation, trial.to, &[]);
+    if !by_contact.is_empty()
+        && let Some(finding) = balance::unbalanced(simulation, trial.to)
+    {
+        return finding;
+    }
+    if !free.is_empty() {
+        return free_mode(simulation, trial, &free, "is held by nothing");
+    }
+    let model = &simulation.model;
+    // A body in pieces is held only where its supports are.
+    if let Some(finding) = check::disconnected(model).into_iter().next() {
+        return finding;
+    }
+    // The points that were in contact at the end may not be those with which the system was singular.
+    match by_contact.is_empty() {
+        true => near_singular(simulation, failure),
+        false => free_mode(simulation, trial, &by_contact, "is held by contact alone"),
+    }
+}
+
+fn near_singular(simulation: &Simulation, failure: &StepFailure) -> Finding {
+    let model = &simulation.model;
+    let mut finding = Finding::new(
+        DoctorCause::NearSingularOperator,
+        Severity::Warning,
+        "the system is singular although every body is held",
+    )
+    .advise(
+        "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness",
+    );
+    if let Some(dof) = failure.dof {
+        let (point, component) = model.dofs.locate(dof);
+        if point < model.mesh.points.len() {
+            let direction = ["x", "y", "z"][component];
+            finding = finding.blame(node(simulation, point, format!("direction {direction}")));
+        }
+    }
+    finding
+}
+
+/// A point of the mesh.
+fn node(simulation: &Simulation, point: usize, remark: String) -> Guilty {
+    let model = &simulation.model;
+    let body = model.bodies.iter().find(|b| b.points.contains(&point));
+    let name = body.map_or(String::new(), |b| b.name.clone());
+    Guilty {
+        what: What::Node,
+        id: Some(model.mesh.point_ids[point]),
+        body: Some(name.clone()),
+        name,
+        remark,
+        ..Guilty::default()
+    }
+    .at(model.mesh.points[point])
+}
+
+/// Bodies that move as a whole, and how far they are from what might hold them.
+fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) -> Finding {
+    let mut finding = Finding::new(
+        DoctorCause::FreeRigidMode,
+        Severity::Warning,
+        "a body is free to move as a rigid body",
+    );
+    for l in free {
+        let remark = format!("{} {how}", l.motion);
+        finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+    }
+    for interface in &simulation.model.interfaces {
+        let Some((i, gap)) = smallest_gap(interface, trial.from) else {
+            continue;
+        };
+        let e = interface.evidence(i);
+        if gap > 0.0 {
+            finding = finding.blame(point(&e, format!("gap {gap:.3e}, the smallest")));
+        }
+    }
+    finding
+        .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)")
+        .advise("move the bodies until they touch, or prescribe a displacement instead of a force")
+}
+
+/// The point nearest to the primary in the reference configuration, and its gap.
+fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
+    let mut opposite = Opposite::new(interface, t);
+    let gaps = interface.points.iter().enumerate().filter_map(|(i, p)| {
+        let nearest = opposite.nearest(p.position(&interface.reference))?;
+        Some((i, nearest.gap))
+    });
+    gaps.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+fn linear(simulation: &Simulation, trial: &Trial) -> Finding {
+    let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+    if !free.is_empty() {
+        return free_mode(simulation, trial, &free, "is held by nothing");
+    }
+    let weak = loose(simulation, trial.to, &[]);
+    if weak.is_empty() {
+        return Finding::new(DoctorCause::LinearSolver, Severity::Warning, "")
+            .advise("set `solver.method = \"sparse\"`");
+    }
+    let mut finding = Finding::new(
+        DoctorCause::NearSingularOperator,
+        Severity::Warning,
+        "bodies are held by contact alone, and hardly by that",
+    )
+    .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)");
+    for l in weak {
+        let remark = format!("{} is held by contact alone", l.motion);
+        finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+    }
+    finding
+}
+
+fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence]) -> Finding {
+    let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
+    let dynamic = simulation.model.steps[simulation.step].dynamic.is_some();
+    if !dynamic {
+        let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+        if !free.is_empty()
+            && let Some(finding) = balance::unbalanced(simulation, trial.to)
+        {
+            return finding;
+        }
+        if let Some(first) = free.first() {
+            let mut finding = of(
+                DoctorCause::SlidesAway,
+                format!(
+                    "body {} slides or tips off as a whole ({}): contact and friction do not balance the loads",
+                    first.body, first.motion
+                ),
+            )
+            .advise("no equilibrium exists: lower the load, raise friction or support the motion")
+            .advise("make the step dynamic if the body is meant to take off");
+            for l in &free {
+                let remark = format!("{} is not resisted any more", l.motion);
+                finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+            }
+            return finding;
+        }
+    }
+    if let Some((mu, limit, e)) = beyond_coupling(simulation, evidence) {
+        return of(
+            DoctorCause::CoulombNonUniqueness,
+            format!(
+                "the coefficient of friction, {mu:.3}, is above the coupling limit {limit:.3} of interface {}: there may be several \
+                 solutions, or none",
+                e.interface
+            ),
+        )
+        .blame(point(
+            e,
+            format!("k_t / |k_tn| = {limit:.3}, friction {mu:.3}"),
+        ))
+        .advise(format!("a coefficient of friction below {limit:.3}"))
+        .advise("a dynamic step: inertia decides between solutions")
+        .advise("a regularised slip rule (`slip.regularised`)");
+    }
+    let signs = signs(evidence);
+    let told = signs
+        .as_ref()
+        .is_some_and(|f| f.cause != DoctorCause::Chatter);
+    let prescribed = match told {
+        true => None,
+        false => prescribed_slip(simulation, trial),
+    };
+    let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
+    prescribed
+        .or(signs)
+        .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
+}
+
+/// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.
+fn beyond_coupling<'a>(
+    simulation: &Simulation,
+    evidence: &[&'a Evidence],
+) -> Option<(f64, f64, &'a Evidence)> {
+    let found = evidence.iter().take(LOOKED_AT).filter_map(|e| {
+        let interfaces = &simulation.model.interfaces;
+        let interface = interfaces.iter().find(|i| i.name == e.interface)?;
+        let own = friction_coefficient(interface)?;
+        let now = if e.pressure > 0.0 {
+            e.limit / e.pressure
+        } else {
+            0.0
+        };
+        let mu = own.max(now);
+        let &[point] = e.points.as_slice() else {
+            return None;
+        };
+        let normal: Vec3 = e.normal;
+        let limit = coupling::limit(simulation, point, normal)?;
+        (mu >= limit).then_some((mu, limit, *e))
+    });
+    found.min_by(|a, b| (a.1).total_cmp(&b.1))
+}
+
+/// The coefficient of friction of an interface at rest, under a pressure that strains the cells beneath by a thousandth; `None` where the limit
+/// does not depend on pressure.
+pub(super) fn friction_coefficient(interface: &Interface) -> Option<f64> {
+    let law = interface.laws.friction.as_dyn();
+    if !law.frictional() || law.needs_penetration() {
+        return None;
+    }
+    let point = interface.points.first()?;
+    let pressure = 1e-3 * point.stiffness * point.size;
+    let limit = law.limit(&FrictionPoint {
+        pressure,
+        penetration: 0.0,
+        speed: 0.0,
+        sticking: true,
+    });
+    (pressure > 0.0).then(|| limit.value / pressure)
+}
