@@ -7,10 +7,13 @@ use stickslip::simulation::{Simulation, fields};
 const PRESSURE: f64 = 40.0;
 const SLIP: f64 = 0.05;
 const MU: f64 = 0.25;
+/// Slip of the step in which sliding begins, in two increments; over the first the shear rises to its limit and its mean is half of that.
+const BEGIN: f64 = 1e-3;
+const PATH: f64 = BEGIN + SLIP;
+const RUBBED: f64 = 0.75 * BEGIN + SLIP;
 
 /// A block that is pressed on another, held across and with a mesh of its own, whose surface moves by `SLIP` in the last step: the pressure
-/// is that of the load everywhere, and the shear `MU` times that. It begins to slide in the step before, as the work of a shear that sets in
-/// within an increment is that of its mean.
+/// is that of the load everywhere, and the shear `MU` times that. It begins to slide in the step before.
 fn belt(dim: usize, element: &str) -> Simulation {
     let block = |from: &str, to: &str, cells: &str, element: &str| match dim {
         2 => format!(
@@ -27,7 +30,7 @@ fn belt(dim: usize, element: &str) -> Simulation {
             block("0, 1", "1, 2", "3, 2", element),
             "x = 0.0",
             format!(
-                "[1, 0, 0], [1.5, 1e-9, 0], [2, 0, 0], [2.5, {}, 0], [3, 0, 0]",
+                "[1, 0, 0], [1.5, 2e-3, 0], [2, 0, 0], [2.5, {}, 0], [3, 0, 0]",
                 2.0 * SLIP
             ),
         ),
@@ -37,7 +40,7 @@ fn belt(dim: usize, element: &str) -> Simulation {
             block("0, 0, 1", "1, 1, 2", "3, 3, 1", element),
             "x = 0.0, y = 0.0",
             format!(
-                "[1, 0, 0, 0], [1.5, 1e-9, 0, 0], [2, 0, 0, 0], [2.5, {}, 0, 0], [3, 0, 0, 0]",
+                "[1, 0, 0, 0], [1.5, 2e-3, 0, 0], [2, 0, 0, 0], [2.5, {}, 0, 0], [3, 0, 0, 0]",
                 2.0 * SLIP
             ),
         ),
@@ -56,11 +59,12 @@ material.soft.isotropic = {{ young = 1e4, poisson = 0.3 }}
 support.lower = {{ set = "lower", {fixed} }}
 support.upper = {{ set = "upper", {across} }}
 load.press = {{ set = "upper.top", pressure.value = {PRESSURE} }}
-step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "begin" }}, {{ name = "slide", increments = {{ fixed = 4 }} }}]
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "begin", increments = {{ fixed = 1 }} }}, {{ name = "slide", increments = {{ fixed = 4 }} }}]
 [interface.joint]
 secondary = "upper.bottom"
 primary = "lower.top"
 friction.coulomb = {{ mu = {MU} }}
+enforcement.augmented-lagrangian = {{ error = 1e-9 }}
 wear = {{ coefficient = 1e-6, primary-coefficient = 3e-6 }}
 primary-velocity-table = [{belt}]
 "#
@@ -83,7 +87,7 @@ fn uniform(values: &[f64], expected: f64, what: &str) {
     assert!(values.len() > 2, "{what}: {values:?}");
     for v in values {
         assert!(
-            (v / expected - 1.0).abs() < 1e-6,
+            (v / expected - 1.0).abs() < 1e-4,
             "{what}: {v} for {expected}"
         );
     }
@@ -103,21 +107,25 @@ fn a_block_that_slides_under_pressure_wears_and_dissipates_as_the_laws_say_on_bo
         for body in 0..2 {
             let what = format!("{what}, body {body}");
             uniform(&on(&simulation, body, "CPRESS"), PRESSURE, &what);
-            uniform(&on(&simulation, body, "CDISS"), MU * PRESSURE * SLIP, &what);
+            uniform(
+                &on(&simulation, body, "CDISS"),
+                MU * PRESSURE * RUBBED,
+                &what,
+            );
             let k = [3e-6, 1e-6][body];
-            uniform(&on(&simulation, body, "CWEAR"), k * PRESSURE * SLIP, &what);
+            uniform(&on(&simulation, body, "CWEAR"), k * PRESSURE * PATH, &what);
         }
         let last = &simulation.summary.last;
         let close = |name: &str, expected: f64| {
             let value = last[name];
             assert!(
-                (value / expected - 1.0).abs() < 1e-6,
+                (value / expected - 1.0).abs() < 1e-4,
                 "{what}: {name} {value} for {expected}"
             );
         };
-        close("joint.CWEARMAX", 3e-6 * PRESSURE * SLIP);
-        close("joint.CWEARVOL", 4e-6 * PRESSURE * SLIP);
-        close("joint.ALLFD", MU * PRESSURE * SLIP);
+        close("joint.CWEARMAX", 3e-6 * PRESSURE * PATH);
+        close("joint.CWEARVOL", 4e-6 * PRESSURE * PATH);
+        close("joint.ALLFD", MU * PRESSURE * RUBBED);
         close("joint.CAREA", 1.0);
         close("joint.XN1", 0.5);
         close("joint.XN2", if dim == 2 { 1.0 } else { 0.5 });
