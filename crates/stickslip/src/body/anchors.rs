@@ -49,8 +49,12 @@ pub struct Hold {
 const WEAK: f64 = 1e-3;
 const WEAKEST: f64 = 1e-6;
 
+/// Part of the way of a round that the load may move a body in the first, before anything is known of what resists: the points that touch
+/// first must not be pressed in so deep that others seem to touch, too.
+const FIRST: f64 = 0.02;
+
 /// Largest ratio by which anchors get weaker from one round to the next.
-const RELIEF: f64 = 100.0;
+const RELIEF: f64 = 10.0;
 
 /// Rounds in which a body has to come to rest.
 const MOST_ROUNDS: usize = 100;
@@ -69,7 +73,7 @@ impl Anchors {
     pub fn hold(&mut self, points: Vec<usize>, u: &[f64], hold: Hold) {
         let here: Vec<Vec3> = points.iter().map(|&p| self.dofs.vector(u, p)).collect();
         let count = points.len().max(1) as f64;
-        let first = (WEAK * hold.spring).max(hold.force / (count * hold.reach));
+        let first = (WEAK * hold.spring).max(hold.force / (FIRST * count * hold.reach));
         self.groups.push(Group {
             points,
             stiffness: first,
