@@ -16,6 +16,8 @@ pub struct Anchors {
     dofs: Dofs,
     groups: Vec<Group>,
     rounds: usize,
+    /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
+    adrift: bool,
 }
 
 /// The anchors of one body.
@@ -66,6 +68,7 @@ impl Anchors {
             dofs,
             groups: Vec::new(),
             rounds: 0,
+            adrift: false,
         }
     }
 
@@ -110,6 +113,7 @@ impl Anchors {
 
     /// The next increment starts from where the bodies have come.
     pub fn rest(&mut self) {
+        self.adrift = false;
         for g in &mut self.groups {
             g.start.clone_from(&g.now);
             g.at.clone_from(&g.now);
@@ -118,7 +122,7 @@ impl Anchors {
 
     /// Whether the bodies were still on their way when the last attempt ended.
     pub fn adrift(&self) -> bool {
-        self.rounds >= MOST_ROUNDS
+        self.adrift
     }
 
     /// Energy left in the springs `[J]`.
@@ -206,6 +210,7 @@ impl Force for Anchors {
             return Augmentation::Done;
         }
         self.rounds += 1;
+        self.adrift |= self.rounds >= MOST_ROUNDS;
         Augmentation::Again(worst)
     }
 
