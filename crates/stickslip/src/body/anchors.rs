@@ -16,6 +16,8 @@ pub struct Anchors {
     dofs: Dofs,
     groups: Vec<Group>,
     rounds: usize,
+    /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
+    adrift: bool,
 }
 
 /// The anchors of one body.
@@ -49,8 +51,12 @@ pub struct Hold {
 const WEAK: f64 = 1e-3;
 const WEAKEST: f64 = 1e-6;
 
+/// Part of the way of a round that the load may move a body in the first, before anything is known of what resists: the points that touch
+/// first must not be pressed in so deep that others seem to touch, too.
+const FIRST: f64 = 0.02;
+
 /// Largest ratio by which anchors get weaker from one round to the next.
-const RELIEF: f64 = 100.0;
+const RELIEF: f64 = 10.0;
 
 /// Rounds in which a body has to come to rest.
 const MOST_ROUNDS: usize = 100;
@@ -62,6 +68,7 @@ impl Anchors {
             dofs,
             groups: Vec::new(),
             rounds: 0,
+            adrift: false,
         }
     }
 
@@ -69,7 +76,7 @@ impl Anchors {
     pub fn hold(&mut self, points: Vec<usize>, u: &[f64], hold: Hold) {
         let here: Vec<Vec3> = points.iter().map(|&p| self.dofs.vector(u, p)).collect();
         let count = points.len().max(1) as f64;
-        let first = (WEAK * hold.spring).max(hold.force / (count * hold.reach));
+        let first = (WEAK * hold.spring).max(hold.force / (FIRST * count * hold.reach));
         self.groups.push(Group {
             points,
             stiffness: first,
@@ -106,6 +113,7 @@ impl Anchors {
 
     /// The next increment starts from where the bodies have come.
     pub fn rest(&mut self) {
+        self.adrift = false;
         for g in &mut self.groups {
             g.start.clone_from(&g.now);
             g.at.clone_from(&g.now);
@@ -114,7 +122,7 @@ impl Anchors {
 
     /// Whether the bodies were still on their way when the last attempt ended.
     pub fn adrift(&self) -> bool {
-        self.rounds >= MOST_ROUNDS
+        self.adrift
     }
 
     /// Energy left in the springs `[J]`.
@@ -202,6 +210,7 @@ impl Force for Anchors {
             return Augmentation::Done;
         }
         self.rounds += 1;
+        self.adrift |= self.rounds >= MOST_ROUNDS;
         Augmentation::Again(worst)
     }
 

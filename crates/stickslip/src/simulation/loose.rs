@@ -255,7 +255,12 @@ impl Simulation {
                 self.loose.anchors = None;
                 self.loose.put = 0;
                 if !adrift {
-                    return Err(failure);
+                    // Smaller increments may help; anchors once more would not.
+                    let cause = match failure.cause {
+                        Cause::Singular | Cause::LinearSolver => Cause::NotConverged,
+                        other => other,
+                    };
+                    return Err(StepFailure { cause, ..failure });
                 }
                 self.loose.vain = true;
                 Err(StepFailure {

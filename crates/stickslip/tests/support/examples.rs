@@ -14,6 +14,7 @@ macro_rules! every_example {
             block_limits = "block-limits",
             bouncing_bar = "bouncing-bar",
             braking_block = "braking-block",
+            closing_gaps = "closing-gaps",
             compliance_bar = "compliance-bar",
             compliance_impact = "compliance-impact",
             flat_punch = "flat-punch",
@@ -31,6 +32,7 @@ macro_rules! every_example {
             press_and_slide = "press-and-slide",
             shear_column = "shear-column",
             shear_lag = "shear-lag",
+            shrink_fit = "shrink-fit",
             steel_bar = "steel-bar",
             two_bars = "two-bars",
         }
