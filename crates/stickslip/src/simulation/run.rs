@@ -341,7 +341,11 @@ impl Simulation {
     fn note_fallbacks(&mut self, step: &Step, trial: &Trial) {
         let summary = &mut self.summary;
         for tried in self.newton.fallbacks.drain(..) {
-            let outcome = if tried.converged { "converged" } else { "failed" };
+            let outcome = if tried.converged {
+                "converged"
+            } else {
+                "failed"
+            };
             // Once of each kind is enough for people; the list has them all.
             if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
                 self.notes.push(format!(

@@ -111,7 +111,11 @@ impl Evaluation {
     /// Shear traction in space, as components along the frame of the last accepted state.
     fn along_before(&self) -> Vec3 {
         let t = self.response.traction;
-        add_scaled(scale(t[1], self.frame_before[0]), t[2], self.frame_before[1])
+        add_scaled(
+            scale(t[1], self.frame_before[0]),
+            t[2],
+            self.frame_before[1],
+        )
     }
 }
 
@@ -160,9 +164,7 @@ impl Interface {
                 }
                 _ if r.traction[0] <= 0.0 && set_valued => Some(Choice::Open),
                 Choice::Stick => (size > r.limit).then(|| Choice::Slip(scale(1.0 / size, shear))),
-                Choice::Slip(direction) => {
-                    (dot(direction, e.moved) > 0.0).then_some(Choice::Stick)
-                }
+                Choice::Slip(direction) => (dot(direction, e.moved) > 0.0).then_some(Choice::Stick),
             };
             refused.extend(wanted.map(|wanted| (i, wanted)));
         }
@@ -174,7 +176,11 @@ impl Interface {
             steady.idle += 1;
         }
         let all = steady.idle <= MOST_IDLE;
-        let first = if all { 0 } else { refused.len().saturating_sub(1) };
+        let first = if all {
+            0
+        } else {
+            refused.len().saturating_sub(1)
+        };
         for &(i, wanted) in &refused[first..] {
             let p = &mut steady.points[i];
             p.closed += u32::from(p.held == Some(Choice::Open));
