@@ -69,6 +69,8 @@ pub(super) struct Evaluation {
     /// Relative slip since the last accepted state, in space, belt included.
     pub moved: Vec3,
     pub facet: Option<usize>,
+    /// It stays off the outer edge of the primary, but lies beneath its surface.
+    pub stranded: bool,
     /// Weights of its nodes, for output on the primary side.
     pub facet_weights: [f64; FACET_NODES],
     pub normal_stiffness: f64,
@@ -391,9 +393,15 @@ impl Interface {
             self.closest(i, scene.x, scene.boxes, previous, near)
         };
         // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
-        // off until the next increment.
+        // off until the rest has settled, and if it leaves twice again until the next increment.
         let found = match found {
-            Ok((_, p)) if self.memory.flips[i].left >= 2 => Err(norm(sub(position, p.x))),
+            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
+                let away = sub(position, p.x);
+                return Evaluation {
+                    stranded: dot(away, p.normal) < 0.0,
+                    ..Evaluation::open(norm(away))
+                };
+            }
             found => found,
         };
         let (f, foot) = match found {
