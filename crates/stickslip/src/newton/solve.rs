@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use super::bulk::Bulk;
-use super::course::{Course, Fallback, PARTS, WINDOW};
+use super::course::{Course, Fallback, WINDOW, hold, restart};
 use super::settings::{Progress, Settings, Statistics};
 use crate::system::{
     Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
@@ -135,113 +135,8 @@ impl Newton {
         Err(failure)
     }
 
-    /// Tries one way; `None` if it does not apply.
-    fn follow(
-        &mut self,
-        course: Course,
-        system: &mut System,
-        from: &State,
-        at: &mut State,
-        guess: &[f64],
-        log: &mut dyn FnMut(&Progress),
-    ) -> Option<Result<Converged, StepFailure>> {
-        match course {
-            Course::Plain => None,
-            Course::StatusMemory => {
-                // It goes on from where the points went to and fro; if that is no good place, it starts again with those points sticking.
-                if hold(system, true) == 0 {
-                    hold(system, false);
-                    return None;
-                }
-                let mut outcome = self.rounds(system, from, at, log);
-                if outcome.is_err() {
-                    restart(system, at, guess);
-                    outcome = self.rounds(system, from, at, log);
-                }
-                hold(system, false);
-                Some(outcome)
-            }
-            Course::LineSearch => {
-                restart(system, at, guess);
-                Some(self.rounds(system, from, at, log))
-            }
-            Course::SofterStick => {
-                // What holds a body may be far softer than the body itself: then so must stick be.
-                let mut last = None;
-                for first in [1.0, 1e-3, 1e-6, 1e-9] {
-                    restart(system, at, guess);
-                    if !soften(system, Some(first)) {
-                        return None;
-                    }
-                    self.statistics.continuations += 1;
-                    let outcome = self.continuation(first, system, from, at, log);
-                    soften(system, None);
-                    let done = outcome.is_ok();
-                    last = Some(outcome);
-                    if done {
-                        break;
-                    }
-                }
-                last
-            }
-            Course::PartialFriction => {
-                restart(system, at, guess);
-                if !mobilise(system, Some(PARTS[0])) {
-                    return None;
-                }
-                let outcome = self.mobilisation(system, from, at, log);
-                mobilise(system, None);
-                Some(outcome)
-            }
-        }
-    }
-
-    /// Equilibria under ever more friction, each from the one before.
-    fn mobilisation(
-        &mut self,
-        system: &mut System,
-        from: &State,
-        at: &mut State,
-        log: &mut dyn FnMut(&Progress),
-    ) -> Result<Converged, StepFailure> {
-        let mut iterations = 0;
-        for part in PARTS {
-            mobilise(system, Some(part));
-            iterations += self.equilibrium(system, from, at, 0, log)?.iterations;
-        }
-        mobilise(system, None);
-        let mut converged = self.rounds(system, from, at, log)?;
-        converged.iterations += iterations;
-        Ok(converged)
-    }
-
-    fn continuation(
-        &mut self,
-        first: f64,
-        system: &mut System,
-        from: &State,
-        at: &mut State,
-        log: &mut dyn FnMut(&Progress),
-    ) -> Result<Converged, StepFailure> {
-        let mut iterations = 0;
-        let last = 3e4;
-        for k in 0.. {
-            // 1, 3, 10, 30, …
-            let factor = first * 10_f64.powi(k / 2) * if k % 2 == 0 { 1.0 } else { 3.0 };
-            if factor > last {
-                break;
-            }
-            soften(system, Some(factor));
-            iterations += self.equilibrium(system, from, at, 0, log)?.iterations;
-        }
-        soften(system, None);
-        let mut converged = self.rounds(system, from, at, log)?;
-        converged.iterations += iterations;
-        Ok(converged)
-    }
-
     /// Equilibrium, then multiplier updates until they settle.
-    fn rounds(
+    pub(super) fn rounds(
         &mut self,
         system: &mut System,
         from: &State,
@@ -300,7 +195,7 @@ impl Newton {
         }
     }
 
-    fn equilibrium(
+    pub(super) fn equilibrium(
         &mut self,
         system: &mut System,
         from: &State,
@@ -578,15 +473,6 @@ fn transfer(links: &Links, out: &mut Assembler) {
     }
 }
 
-/// Starts an attempt at the guess.
-fn restart(system: &mut System, at: &mut State, guess: &[f64]) {
-    at.u.copy_from_slice(guess);
-    for force in &mut system.contact {
-        force.begin();
-    }
-    system.bulk.begin();
-}
-
 /// Whether the last iterations have not brought the residual down by an order of magnitude.
 fn stalled(residuals: &[f64]) -> bool {
     let Some(split) = residuals.len().checked_sub(STALL) else {
@@ -595,23 +481,6 @@ fn stalled(residuals: &[f64]) -> bool {
     let (before, after) = residuals.split_at(split);
     let least = |r: &[f64]| r.iter().copied().fold(f64::INFINITY, f64::min);
     before.len() >= STALL && least(after) > 0.1 * least(before)
-}
-
-/// Holds points that keep changing status from now on, or no more; returns how many there are.
-fn hold(system: &mut System, on: bool) -> usize {
-    system.contact.iter_mut().map(|f| f.steady(on)).sum()
-}
-
-/// Softens stick; `false` if there is none.
-fn soften(system: &mut System, factor: Option<f64>) -> bool {
-    let forces = system.contact.iter_mut();
-    forces.fold(false, |any, f| f.soften(factor) || any)
-}
-
-/// Lets a part of friction act; `false` if there is none.
-fn mobilise(system: &mut System, part: Option<f64>) -> bool {
-    let forces = system.contact.iter_mut();
-    forces.fold(false, |any, f| f.mobilise(part) || any)
 }
 
 fn tally(system: &System) -> Tally {

@@ -31,6 +31,9 @@ const FLAT: f64 = 1e-5;
 /// Part of the area of a point of a mortar that has to have something opposite for it to take part.
 const LEAST_AREA: f64 = 1e-6;
 
+/// Roundings of the largest coordinate that a gap of a mortar may be off.
+const ROUNDING: f64 = 32.0;
+
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 pub(super) const TOUCHING: f64 = 1e-6;
 
@@ -81,6 +84,8 @@ pub(super) struct Evaluation {
     /// Relative slip since the last accepted state, in space, belt included.
     pub moved: Vec3,
     pub facet: Option<usize>,
+    /// It stays off the outer edge of the primary, but lies beneath its surface.
+    pub stranded: bool,
     /// Whether something lies opposite.
     pub over: bool,
     /// Area that the point stands for.
@@ -424,9 +429,15 @@ impl Interface {
             self.closest(i, scene.x, scene.boxes, previous, near)
         };
         // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
-        // off until the next increment.
+        // off until the rest has settled, and if it leaves twice again until the next increment.
         let found = match found {
-            Ok((_, p)) if self.memory.flips[i].left >= 2 => Err(norm(sub(position, p.x))),
+            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
+                let away = sub(position, p.x);
+                return Evaluation {
+                    stranded: dot(away, p.normal) < 0.0,
+                    ..Evaluation::open(norm(away))
+                };
+            }
             found => found,
         };
         let (f, foot) = match found {
@@ -629,6 +640,11 @@ impl Interface {
         }
         if dim == 2 {
             stencil.slip[1] = 0.0;
+        }
+        // Surfaces that just touch must not be in contact or apart by the rounding of the integrals.
+        let rounding = ROUNDING * f64::EPSILON * reach.sqrt();
+        if self.memory.untouched && gap.abs() <= rounding {
+            gap = 0.0;
         }
         stencil.gap = gap;
         stencil.normal = normal;

@@ -215,6 +215,8 @@ struct Flips {
     /// Whether it lay over the primary, and how often it has slid off its outer edge.
     over: bool,
     left: usize,
+    /// It has been put back onto the primary.
+    returned: bool,
 }
 
 /// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.

@@ -140,6 +140,14 @@ impl Interface {
         let set_valued = self.laws.normal.as_dyn().pressure(0.0).is_none();
         let mut held = 0;
         let mut refused = Vec::new();
+        // Points that left the outer edge on the way, but lie over the surface and in it where the way has ended, get another chance.
+        for (flips, e) in memory.flips.iter_mut().zip(&memory.last.points) {
+            if e.stranded && !flips.returned {
+                flips.left = 0;
+                flips.returned = true;
+                held += 1;
+            }
+        }
         for (i, (p, e)) in (memory.steady.points.iter_mut().zip(&memory.last.points)).enumerate() {
             let Some(choice) = p.held else {
                 continue;
