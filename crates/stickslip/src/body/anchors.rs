@@ -34,6 +34,8 @@ struct Group {
     stiffness: f64,
     first: f64,
     least: f64,
+    /// Largest force that pushes bodies `[N]`.
+    force: f64,
     /// How far the body may move in one round, about `[m]`.
     reach: f64,
     /// Displacements of the points at the start, those of the anchors, and those of the points at the last evaluation.
@@ -82,6 +84,11 @@ const STIFFER: f64 = 3.0;
 /// Rounds from which the place of the anchors is extrapolated.
 const MEMORY: usize = 6;
 
+/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere; and from where on
+/// that blurs how the bodies go on.
+const NEGLIGIBLE: f64 = 1e-8;
+const BLURRED: f64 = 3e-8;
+
 /// Part of a change between rounds below which it says nothing new.
 const NOTHING_NEW: f64 = 1e-6;
 
@@ -116,6 +123,7 @@ impl Anchors {
             stiffness: first,
             first,
             least: (WEAKEST * hold.spring).max(rolling),
+            force: hold.force,
             reach: hold.reach,
             start: here.clone(),
             at: here.clone(),
@@ -169,6 +177,19 @@ impl Anchors {
     }
 }
 
+impl Group {
+    /// Force in the springs relative to that on the body.
+    fn carried(&self) -> f64 {
+        let pairs = self.now.iter().zip(&self.at);
+        let away: f64 = pairs.map(|(&a, &b)| distance(a, b)).sum();
+        if away == 0.0 {
+            0.0
+        } else {
+            self.stiffness * away / self.force
+        }
+    }
+}
+
 impl Anchors {
     /// Where the anchors are to be next: where the bodies would come to rest if what they did in the last rounds went on in the same way
     /// (Anderson's mixing); where they are now if nothing is known of that. Never further than the reach from where they are.
@@ -180,7 +201,9 @@ impl Anchors {
         let (at, now) = (flat(|g| &g.at), flat(|g| &g.now));
         let mut next = now.clone();
         if !self.near {
-            mix(&self.past, &at, &now, &mut next);
+            let blur = (self.groups.iter()).map(|g| NEGLIGIBLE * g.force / g.stiffness);
+            let blur = blur.fold(0.0, f64::max);
+            mix(&self.past, &at, &now, blur, &mut next);
         }
         if self.past.len() == MEMORY {
             self.past.remove(0);
@@ -207,8 +230,9 @@ impl Anchors {
     }
 }
 
-/// Takes from `next`, which is `now`, what makes the residual `now - at` least, as far as the past tells.
-fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], next: &mut [f64]) {
+/// Takes from `next`, which is `now`, what makes the residual `now - at` least, as far as the past tells; changes below `blur` tell
+/// nothing.
+fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], blur: f64, next: &mut [f64]) {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let minus =
         |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a - b).collect() };
@@ -226,7 +250,7 @@ fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], next: &mut [f64]) {
             }
         }
         let size = dot(&change, &change).sqrt();
-        if size <= NOTHING_NEW * whole {
+        if size <= blur.max(NOTHING_NEW * whole) {
             continue;
         }
         change.iter_mut().for_each(|c| *c /= size);
@@ -304,7 +328,11 @@ impl Force for Anchors {
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         let mut worst: f64 = 0.0;
         let effort = std::mem::take(&mut self.evaluations);
-        self.near |= effort <= 1;
+        let carried = self.groups.iter().map(Group::carried).fold(0.0, f64::max);
+        if carried <= NEGLIGIBLE {
+            return Augmentation::Done;
+        }
+        self.near |= effort <= 1 || carried <= BLURRED;
         let next = self.extrapolate();
         let mut changed = false;
         for (g, next) in self.groups.iter_mut().zip(next) {
