@@ -16,6 +16,12 @@ pub struct Anchors {
     dofs: Dofs,
     groups: Vec<Group>,
     rounds: usize,
+    /// Evaluations since the last round.
+    evaluations: usize,
+    /// The last rounds with anchors as stiff as now: where these were, and where the bodies came.
+    past: Vec<[Vec<f64>; 2]>,
+    /// An equilibrium took no iteration: what is left is too small to tell where the bodies go.
+    near: bool,
     /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
     adrift: bool,
 }
@@ -28,6 +34,8 @@ struct Group {
     stiffness: f64,
     first: f64,
     least: f64,
+    /// Largest force that pushes bodies `[N]`.
+    force: f64,
     /// How far the body may move in one round, about `[m]`.
     reach: f64,
     /// Displacements of the points at the start, those of the anchors, and those of the points at the last evaluation.
@@ -45,6 +53,10 @@ pub struct Hold {
     pub force: f64,
     /// How far the body may move in one round, about `[m]`.
     pub reach: f64,
+    /// Size of the cells at its surface `[m]`.
+    pub size: f64,
+    /// How often anchors proved too weak so far.
+    pub firmness: usize,
 }
 
 /// Stiffness of an anchor relative to the bodies' own, to start with and at least.
@@ -58,6 +70,28 @@ const FIRST: f64 = 0.02;
 /// Largest ratio by which anchors get weaker from one round to the next.
 const RELIEF: f64 = 10.0;
 
+/// Least stiffness of all anchors of a body, over the force on it and the size of a cell, and by how much more it is each time it proves too
+/// weak. A body that is pressed into a seat or onto other bodies can roll there. What resists is the force over a radius, and the tangent
+/// leaves that out: Newton's method contracts only if the anchors are stiffer.
+const ROLLING: f64 = 2.0;
+const FIRMER: f64 = 8.0;
+
+/// Evaluations in a round up to which anchors may get weaker, and those from which on they have to get stiffer, by this much.
+const EASY: usize = 7;
+const HARD: usize = 14;
+const STIFFER: f64 = 3.0;
+
+/// Rounds from which the place of the anchors is extrapolated.
+const MEMORY: usize = 6;
+
+/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere; and from where on
+/// that blurs how the bodies go on.
+const NEGLIGIBLE: f64 = 1e-8;
+const BLURRED: f64 = 3e-8;
+
+/// Part of a change between rounds below which it says nothing new.
+const NOTHING_NEW: f64 = 1e-6;
+
 /// Rounds in which a body has to come to rest.
 const MOST_ROUNDS: usize = 100;
 
@@ -68,6 +102,9 @@ impl Anchors {
             dofs,
             groups: Vec::new(),
             rounds: 0,
+            evaluations: 0,
+            past: Vec::new(),
+            near: false,
             adrift: false,
         }
     }
@@ -76,12 +113,17 @@ impl Anchors {
     pub fn hold(&mut self, points: Vec<usize>, u: &[f64], hold: Hold) {
         let here: Vec<Vec3> = points.iter().map(|&p| self.dofs.vector(u, p)).collect();
         let count = points.len().max(1) as f64;
-        let first = (WEAK * hold.spring).max(hold.force / (FIRST * count * hold.reach));
+        let rolling =
+            ROLLING * FIRMER.powi(hold.firmness as i32) * hold.force / (count * hold.size);
+        let first = (WEAK * hold.spring)
+            .max(hold.force / (FIRST * count * hold.reach))
+            .max(rolling);
         self.groups.push(Group {
             points,
             stiffness: first,
             first,
-            least: WEAKEST * hold.spring,
+            least: (WEAKEST * hold.spring).max(rolling),
+            force: hold.force,
             reach: hold.reach,
             start: here.clone(),
             at: here.clone(),
@@ -135,6 +177,93 @@ impl Anchors {
     }
 }
 
+impl Group {
+    /// Force in the springs relative to that on the body.
+    fn carried(&self) -> f64 {
+        let pairs = self.now.iter().zip(&self.at);
+        let away: f64 = pairs.map(|(&a, &b)| distance(a, b)).sum();
+        if away == 0.0 {
+            0.0
+        } else {
+            self.stiffness * away / self.force
+        }
+    }
+}
+
+impl Anchors {
+    /// Where the anchors are to be next: where the bodies would come to rest if what they did in the last rounds went on in the same way
+    /// (Anderson's mixing); where they are now if nothing is known of that. Never further than the reach from where they are.
+    fn extrapolate(&mut self) -> Vec<Vec<Vec3>> {
+        let flat = |part: fn(&Group) -> &[Vec3]| -> Vec<f64> {
+            let all = self.groups.iter().flat_map(|g| part(g).iter().flatten());
+            all.copied().collect()
+        };
+        let (at, now) = (flat(|g| &g.at), flat(|g| &g.now));
+        let mut next = now.clone();
+        if !self.near {
+            let blur = (self.groups.iter()).map(|g| NEGLIGIBLE * g.force / g.stiffness);
+            let blur = blur.fold(0.0, f64::max);
+            mix(&self.past, &at, &now, blur, &mut next);
+        }
+        if self.past.len() == MEMORY {
+            self.past.remove(0);
+        }
+        self.past.push([at, now]);
+        let mut rest = next.chunks_exact(3);
+        let mut out = Vec::new();
+        for g in &self.groups {
+            let steps = g.now.iter().map(|&now| match rest.next() {
+                Some(&[x, y, z]) => sub([x, y, z], now),
+                _ => [0.0; 3],
+            });
+            let steps: Vec<Vec3> = steps.collect();
+            let longest = steps.iter().map(|&s| norm(s)).fold(0.0, f64::max);
+            let part = if longest > g.reach {
+                g.reach / longest
+            } else {
+                1.0
+            };
+            let moved = g.now.iter().zip(&steps);
+            out.push(moved.map(|(&x, &s)| add_scaled(x, part, s)).collect());
+        }
+        out
+    }
+}
+
+/// Takes from `next`, which is `now`, what makes the residual `now - at` least, as far as the past tells; changes below `blur` tell
+/// nothing.
+fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], blur: f64, next: &mut [f64]) {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let minus =
+        |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a - b).collect() };
+    let mut left = minus(now, at);
+    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    for [at_then, now_then] in past.iter().rev() {
+        let mut change = minus(&minus(now, at), &minus(now_then, at_then));
+        let mut image = minus(now, now_then);
+        let whole = dot(&change, &change).sqrt();
+        for _ in 0..2 {
+            for (q, moved) in &basis {
+                let s = dot(q, &change);
+                change.iter_mut().zip(q).for_each(|(c, q)| *c -= s * q);
+                image.iter_mut().zip(moved).for_each(|(i, m)| *i -= s * m);
+            }
+        }
+        let size = dot(&change, &change).sqrt();
+        if size <= blur.max(NOTHING_NEW * whole) {
+            continue;
+        }
+        change.iter_mut().for_each(|c| *c /= size);
+        image.iter_mut().for_each(|i| *i /= size);
+        basis.push((change, image));
+    }
+    for (q, moved) in &basis {
+        let s = dot(q, &left);
+        left.iter_mut().zip(q).for_each(|(l, q)| *l -= s * q);
+        next.iter_mut().zip(moved).for_each(|(n, m)| *n -= s * m);
+    }
+}
+
 impl Force for Anchors {
     fn name(&self) -> &str {
         "anchors"
@@ -146,6 +275,9 @@ impl Force for Anchors {
 
     fn begin(&mut self) {
         self.rounds = 0;
+        self.evaluations = 0;
+        self.past.clear();
+        self.near = false;
         for g in &mut self.groups {
             g.stiffness = g.first;
             g.at.clone_from(&g.start);
@@ -154,6 +286,7 @@ impl Force for Anchors {
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
+        self.evaluations += 1;
         let dim = self.dofs.dim;
         let mut unit = vec![0.0; 3 * dim];
         let mut square = vec![0.0; dim * dim];
@@ -194,17 +327,35 @@ impl Force for Anchors {
 
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         let mut worst: f64 = 0.0;
-        for g in &mut self.groups {
+        let effort = std::mem::take(&mut self.evaluations);
+        let carried = self.groups.iter().map(Group::carried).fold(0.0, f64::max);
+        if carried <= NEGLIGIBLE {
+            return Augmentation::Done;
+        }
+        self.near |= effort <= 1 || carried <= BLURRED;
+        let next = self.extrapolate();
+        let mut changed = false;
+        for (g, next) in self.groups.iter_mut().zip(next) {
             let pairs = g.now.iter().zip(&g.at);
             let away = pairs.map(|(&a, &b)| distance(a, b)).fold(0.0, f64::max);
-            if away == 0.0 {
+            worst = worst.max(away / g.reach);
+            g.at = next;
+            if away == 0.0 || self.near {
                 continue;
             }
-            worst = worst.max(away / g.reach);
-            g.at.clone_from(&g.now);
             // What is left of the force may move the body as far in the next round as all of it in the first.
-            let relief = (g.reach / away).clamp(1.0, RELIEF);
-            g.stiffness = (g.stiffness / relief).max(g.least.min(g.stiffness));
+            let relief = match effort {
+                ..=EASY => (g.reach / away).clamp(1.0, RELIEF),
+                HARD.. => 1.0 / STIFFER,
+                _ => 1.0,
+            };
+            let before = g.stiffness;
+            g.stiffness = (before / relief).max(g.least.min(before));
+            changed |= g.stiffness != before;
+        }
+        if changed {
+            // It was another map from anchors to bodies.
+            self.past.clear();
         }
         if worst == 0.0 {
             return Augmentation::Done;

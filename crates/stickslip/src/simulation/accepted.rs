@@ -37,6 +37,8 @@ pub(super) struct Accepted {
     pub rounds: usize,
     pub residual: f64,
     pub tally: Tally,
+    /// Bodies were followed to where contact holds them.
+    pub followed: bool,
     /// The increment must not grow.
     pub hard: bool,
 }
@@ -82,6 +84,10 @@ impl Simulation {
     /// Makes an accepted attempt the last state, and enters it into the ledger.
     pub(super) fn book(&mut self, accepted: Accepted) -> history::Effort {
         let effort = accepted.summary();
+        let contact_work = match accepted.followed {
+            true => self.contact_work(&accepted),
+            false => 0.0,
+        };
         self.state = accepted.state;
         self.forces = accepted.forces;
         self.contact = accepted.contact;
@@ -103,10 +109,26 @@ impl Simulation {
             .strain
             .unwrap_or_else(|| strain_energy(&self.matrix, &self.state.u));
         let contact: Vec<_> = self.model.interfaces.iter().map(|i| i.energy()).collect();
+        let before = summary.energy.of_interfaces();
         summary
             .energy
             .enter(accepted.flow, kinetic, strain, &contact);
+        if accepted.followed {
+            // Less what the interfaces have entered of it.
+            let entered = summary.energy.of_interfaces() - before;
+            summary.energy.lose(contact_work - entered);
+        }
         summary.energy_quality.note(&summary.energy);
         effort
+    }
+
+    /// Work that contact took over an increment by the trapezoidal rule, as that of loads is entered.
+    fn contact_work(&self, accepted: &Accepted) -> f64 {
+        let mut work = 0.0;
+        for (i, after) in accepted.contact.iter().enumerate() {
+            let before = self.contact.get(i).copied().unwrap_or(0.0);
+            work += 0.5 * (before + after) * (accepted.state.u[i] - self.state.u[i]);
+        }
+        work
     }
 }

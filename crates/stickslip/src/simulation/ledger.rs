@@ -23,6 +23,10 @@ pub struct EnergyLedger {
     pub rayleigh_damping: f64,
     /// Dissipated by the scheme that integrates the motion; negative if it fed energy in.
     pub numerical: f64,
+    /// Work that loads did on bodies on their way to where contact holds them, and that is lost there: the rule by which work is summed
+    /// up lets contact act over all of an increment, also over the part in which it was open. Negative if bodies came out of a
+    /// penetration.
+    pub artificial: f64,
     /// Work of loads and supports.
     pub external_work: f64,
     /// Work of moving primary surfaces.
@@ -65,6 +69,17 @@ impl EnergyLedger {
         self.close();
     }
 
+    /// What the interfaces have entered: stored, dissipated and fed in.
+    pub(super) fn of_interfaces(&self) -> f64 {
+        self.contact + self.friction + self.contact_damping - self.belt_work
+    }
+
+    /// Enters work lost on the way of bodies that were followed.
+    pub(super) fn lose(&mut self, work: f64) {
+        self.artificial += work;
+        self.close();
+    }
+
     /// Works out the residual.
     pub(super) fn close(&mut self) {
         self.residual = self.initial + self.external_work + self.belt_work
@@ -74,7 +89,8 @@ impl EnergyLedger {
             - self.friction
             - self.contact_damping
             - self.rayleigh_damping
-            - self.numerical;
+            - self.numerical
+            - self.artificial;
     }
 
     /// Everything stored and dissipated.

@@ -23,6 +23,12 @@ pub(super) struct Loose {
     vain: bool,
     /// How often the bodies were put elsewhere in this increment.
     put: usize,
+    /// How often anchors proved too weak in this step.
+    firmness: usize,
+    /// Anchors have failed, and bodies were not adrift.
+    weak: bool,
+    /// The anchors were laid in the increment at hand.
+    fresh: bool,
     /// Energy left in the anchors.
     left: f64,
 }
@@ -32,6 +38,9 @@ const LONG: f64 = 0.5;
 
 /// How often bodies are put elsewhere in one increment.
 const MOST_PUT: usize = 6;
+
+/// How often anchors are laid anew, firmer.
+const MOST_FIRMER: usize = 2;
 
 /// Part of a cell that a body may move in a round.
 const REACH: f64 = 0.25;
@@ -226,6 +235,8 @@ impl Simulation {
                 spring,
                 force,
                 reach: REACH * size,
+                size,
+                firmness: self.loose.firmness,
             };
             let points = spread(&model.mesh, body.points.clone(), model.dofs.dim + 1);
             anchors.hold(points, &self.state.u, hold);
@@ -237,6 +248,7 @@ impl Simulation {
             names.join("; ")
         ));
         self.loose.anchors = Some(anchors);
+        self.loose.fresh = true;
         self.provide(observers, false)
     }
 
@@ -254,6 +266,7 @@ impl Simulation {
                 let adrift = anchors.adrift();
                 self.loose.anchors = None;
                 self.loose.put = 0;
+                self.loose.weak = !adrift;
                 if !adrift {
                     // Smaller increments may help; anchors once more would not.
                     let cause = match failure.cause {
@@ -269,8 +282,29 @@ impl Simulation {
                     ..failure
                 })
             }
-            accepted => accepted,
+            Ok(accepted) => Ok(Accepted {
+                followed: self.loose.fresh,
+                ..accepted
+            }),
         }
+    }
+
+    /// Whether an increment that failed is to be computed again with firmer anchors.
+    pub(super) fn firmer(
+        &mut self,
+        trial: Trial,
+        failure: &StepFailure,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let loose = &mut self.loose;
+        if !loose.weak || failure.cause == Cause::Reach || loose.firmness >= MOST_FIRMER {
+            return Ok(false);
+        }
+        loose.weak = false;
+        loose.firmness += 1;
+        self.forget_direction();
+        self.anchor(trial, observers)?;
+        Ok(true)
     }
 
     /// Whether an increment is to be computed again, as the bodies went so far that it should start where they have come.
@@ -286,6 +320,7 @@ impl Simulation {
         if anchors.travel() <= LONG || self.loose.put >= MOST_PUT {
             self.loose.put = 0;
             self.loose.left = anchors.left();
+            self.loose.fresh = false;
             self.summary.followed += 1;
             if self.loose.stay {
                 let mut anchors = anchors;

@@ -341,6 +341,7 @@ impl Simulation {
                     attempt = 1;
                 }
                 Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
+                Err(failure) if self.firmer(trial, &failure, observers)? => {}
                 Err(failure) if self.may_follow(&step, &failure) => {
                     self.follow(trial, observers)?
                 }
