@@ -11,7 +11,8 @@ pub struct ContactBlock {
     pub rows: Vec<f64>,
     /// How the force along each row changes, multipliers eliminated, shape `(3, n)`.
     pub change: Vec<f64>,
-    /// What the curvature of gap and slip adds to the tangent, symmetric, row by row, shape `(n, n)`; empty where there is none.
+    /// What the curvature of gap and slip adds to the tangent, row by row, shape `(n, n)`; empty where there is none. Symmetric but for shear that is carried
+    /// along a facet.
     pub hessian: Vec<f64>,
     /// Symmetric positive semi-definite approximation of the tangent, shape `(n, n)`; empty unless it was asked for.
     pub surrogate: Vec<f64>,

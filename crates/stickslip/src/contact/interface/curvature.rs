@@ -6,7 +6,7 @@ use super::evaluate::Evaluation;
 use super::{Evaluations, Interface, Primary};
 use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
 use crate::contact::mortar::FACE_NODES;
-use crate::contact::pairing::evaluate;
+use crate::contact::pairing::{evaluate, invert2};
 use crate::math::{Vec3, add_scaled, dot};
 use crate::system::{Assembler, Tangent};
 
@@ -18,6 +18,52 @@ const CHUNK: usize = 8;
 struct Block {
     dofs: Vec<usize>,
     hessian: Vec<f64>,
+}
+
+/// Adds how the shear forces of a piece change that carries the shear `t`: its place on the facet moves, and it turns with the facet.
+///
+/// The residual of a node of weight σ is `-σ t`. `δσ_k = -N_k,α δξ^α` with `δξ^α = a^α·(δx_s - δx̄)`, and
+/// `δt = n (t·a^β) (n·δa_β)`, as shear stays in the facet and keeps its size.
+fn add_shear(pair: &Pair, t: Vec3, out: &mut [f64]) {
+    let foot = pair.foot;
+    let d = pair.kind.dim();
+    let metric: [[f64; 2]; 2] =
+        std::array::from_fn(|i| std::array::from_fn(|j| dot(foot.a[i], foot.a[j])));
+    let Some(inverse) = invert2(&metric) else {
+        return;
+    };
+    let dual: [Vec3; 2] = std::array::from_fn(|i| {
+        let first = foot.a[0].map(|x| inverse[i][0] * x);
+        add_scaled(first, inverse[i][1], foot.a[1])
+    });
+    let own = pair.weights.len();
+    let nodes = own + pair.facet.len();
+    let sigma = |k: usize| match k.checked_sub(own) {
+        None => pair.weights[k],
+        Some(j) => -foot.n[j],
+    };
+    let n = nodes * pair.dim;
+    for i in 0..nodes {
+        for j in 0..nodes {
+            let theirs = (i.checked_sub(own), j.checked_sub(own));
+            let mut left = [0.0; 3];
+            let mut turn = 0.0;
+            for beta in 0..d {
+                if let Some(i) = theirs.0 {
+                    left = add_scaled(left, foot.dn[beta][i] * sigma(j), dual[beta]);
+                }
+                if let Some(j) = theirs.1 {
+                    turn -= sigma(i) * foot.dn[beta][j] * dot(t, dual[beta]);
+                }
+            }
+            for c in 0..pair.dim {
+                for e in 0..pair.dim {
+                    out[(i * pair.dim + c) * n + j * pair.dim + e] +=
+                        t[c] * left[e] + turn * foot.normal[c] * foot.normal[e];
+                }
+            }
+        }
+    }
 }
 
 impl Interface {
@@ -109,15 +155,11 @@ impl Interface {
                         let mut stencil = Stencil::default();
                         let convective = Convective {};
                         convective.stencil(&pair, &mut stencil);
-                        let along = stencil.frame_before.map(|e| -dot(e, shear));
                         room.clear();
                         room.resize(pair.dofs() * pair.dofs(), 0.0);
-                        convective.add_hessian(
-                            &pair,
-                            &stencil,
-                            [-pressure, along[0], along[1]],
-                            &mut room,
-                        );
+                        let weights = [-pressure, 0.0, 0.0];
+                        convective.add_hessian(&pair, &stencil, weights, &mut room);
+                        add_shear(&pair, shear, &mut room);
                         // where the nodes of the pair stand in the block
                         let theirs = facet.nodes.iter().filter_map(|node| {
                             let k = integral.nodes.iter().position(|n| n == node)?;
