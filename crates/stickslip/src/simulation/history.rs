@@ -71,6 +71,7 @@ pub(super) fn row(
         row.push("ALLVD", e.rayleigh_damping);
         row.push("ALLCD", e.contact_damping);
         row.push("ALLND", e.numerical);
+        row.push("ALLAE", e.artificial);
         row.push("EINITIAL", e.initial);
     }
     let dim = simulation.model.dofs.dim;
