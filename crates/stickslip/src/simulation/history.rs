@@ -65,13 +65,13 @@ pub(super) fn row(
     row.push("ALLCE", e.contact);
     row.push("ALLFD", e.friction);
     row.push("ALLWK", e.external_work + e.belt_work);
+    row.push("ALLAE", e.artificial);
     row.push("ERESIDUAL", e.residual);
     if simulation.model.moves() {
         row.push("ALLKE", e.kinetic);
         row.push("ALLVD", e.rayleigh_damping);
         row.push("ALLCD", e.contact_damping);
         row.push("ALLND", e.numerical);
-        row.push("ALLAE", e.artificial);
         row.push("EINITIAL", e.initial);
     }
     let dim = simulation.model.dofs.dim;
