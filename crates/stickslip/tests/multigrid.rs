@@ -17,6 +17,7 @@ material.steel.isotropic = { young = 210e9, poisson = 0.3 }
 secondary = "upper.bottom"
 primary = "lower.top"
 friction.coulomb.mu = 0.3
+discretisation.node-to-facet = {}
 ENFORCEMENT
 
 [support]
@@ -91,6 +92,8 @@ fn cubes_stick_and_slip() {
                 .replace("SLIDE", slide);
             let counts = same(&format!("{enforcement} {slide}"), &text, 30);
             assert_eq!(counts.setups, 1, "{counts:?}");
+            let surfaces = text.replace("discretisation.node-to-facet = {}", "");
+            same(&format!("mortar {enforcement} {slide}"), &surfaces, 45);
         }
     }
 }

@@ -15,7 +15,7 @@ fn balls(lower: &str, upper: &str) -> (f64, usize) {
         body.lower = {{ generate.half-ball = {{ centre = [0, 0, -10], direction = [0, 0, 1], radius = 10, size = 5, element = "{lower}" }}, material = "steel" }}
         body.upper = {{ generate.half-ball = {{ centre = [0, 0, 10], radius = 10, size = 5, element = "{upper}" }}, material = "steel" }}
         material.steel.isotropic = {{ young = 1e5, poisson = 0.3 }}
-        interface.joint = {{ secondary = "lower.arc", primary = "upper.arc" }}
+        interface.joint = {{ secondary = "lower.arc", primary = "upper.arc", discretisation.node-to-facet = {{}} }}
         support.base = {{ set = "lower.flat", x = 0, y = 0, z = 0 }}
         support.top = {{ set = "upper.flat", x = 0, y = 0, z = -0.1 }}
         step = [{{}}]

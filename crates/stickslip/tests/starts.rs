@@ -145,7 +145,7 @@ fn an_explicit_step_knows_the_start_as_well() {
         .replace("support.top", "#support.top")
         .replace(
             "step = [{ increments.fixed = 4 }]",
-            "initial.fall = { set = \"upper\", velocity = [0, -0.1] }\nstep = [{ duration = 0.01, dynamic = { scheme.central-difference = {} } }]",
+            "initial.fall = { set = \"upper\", velocity = [0, -0.1] }\nstep = [{ duration = 0.001, dynamic = { scheme.central-difference = {} } }]",
         );
     assert!(force(&text) > 0.0);
 }

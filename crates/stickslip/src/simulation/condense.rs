@@ -47,7 +47,7 @@ pub(super) struct Condensed {
 pub(super) const LEFT: f64 = 1e-7;
 
 /// Forces that are none, relative to the largest there were in the analysis.
-const NOTHING: f64 = 1e-12;
+const NOTHING: f64 = 1e-10;
 
 impl Condensed {
     /// The bodies without their interiors.

@@ -17,6 +17,9 @@ struct Torsor {
 /// Forces smaller than this part of the largest of the model are as good as none.
 const LEAST: f64 = 1e-3;
 
+/// Roundings of stiffness times displacement that sums of forces may be off.
+const ROUNDINGS: f64 = 1e3;
+
 /// What acts on a body.
 #[derive(Debug, Clone, Copy, Default)]
 struct Acting {
@@ -51,6 +54,10 @@ impl Simulation {
         if most == 0.0 {
             return;
         }
+        // Before anything touches there may be nothing but what rounding of the displacements leaves.
+        let stiff = self.diagonal.iter().zip(&self.state.u);
+        let rounding = stiff.map(|(k, u)| (k * u).powi(2)).sum::<f64>().sqrt();
+        let rounding = ROUNDINGS * f64::EPSILON * rounding;
         for (body, a) in self.model.bodies.iter().zip(&acting) {
             let scale = a.scale.max(LEAST * most);
             let moment = if a.arm > 0.0 {
@@ -58,7 +65,7 @@ impl Simulation {
             } else {
                 0.0
             };
-            let left = norm(a.left.force).max(moment);
+            let left = (norm(a.left.force).max(moment) - rounding).max(0.0);
             let place = format!("body {}", body.name);
             let (figure, limit, t) = ("equilibrium", limits.equilibrium, self.state.t);
             match self.motion.is_some() {

@@ -91,7 +91,7 @@ impl Figure {
             ),
             "moment" => (
                 "the moments of the forces on the two sides differ by this part",
-                "surfaces that slide far need kinematics other than small-sliding",
+                "surfaces that slide far need kinematics other than small-sliding, and curved ones cells that are small beside the area in contact",
             ),
             "equilibrium" => (
                 "forces and moments on the body are out of balance by this part",

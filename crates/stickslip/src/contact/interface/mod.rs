@@ -1,5 +1,6 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
+mod curvature;
 mod evaluate;
 mod faces;
 mod meeting;
@@ -592,6 +593,7 @@ impl Force for Interface {
                 out.add_tangent(dofs, tangent);
             }
         }
+        self.add_curvature(&evaluations, out);
         let memory = &mut self.memory;
         memory.pending = out.wants_tangent && out.tentative;
         // The multiplier rows of the last iterate are needed until the step has been taken.

@@ -56,6 +56,10 @@ pub struct Piece {
     pub shares: [f64; FACE_NODES],
     /// `∫ d` of the direction of the gap's gradient.
     pub direction: Vec3,
+    /// `∫ N_b` over it by node of the face.
+    pub own: [f64; FACE_NODES],
+    /// `∫ ξ` of the reference coordinates of the facet.
+    pub place: [f64; 2],
 }
 
 /// Integrals over a face, to be divided by the area of the whole contact point.
@@ -98,6 +102,7 @@ struct Sample {
     /// Index of the piece, and the shape functions of its facet.
     piece: usize,
     opposite: [f64; FACE_NODES],
+    place: Point,
     gap: f64,
     /// Gradient of the gap with respect to the place on the secondary.
     direction: Vec3,
@@ -266,6 +271,7 @@ impl View<'_> {
             positive: positives,
             piece,
             opposite: p.n,
+            place: *start,
             gap,
             direction: m.map(|m| m / facing),
         });
@@ -329,6 +335,8 @@ fn piece(facet: usize, out: &mut FaceIntegral) -> usize {
         sums: [0.0; FACE_NODES],
         shares: [0.0; FACE_NODES],
         direction: [0.0; 3],
+        own: [0.0; FACE_NODES],
+        place: [0.0; 2],
     });
     out.pieces.len() - 1
 }
@@ -565,6 +573,12 @@ fn sum(face: &Face, sides: &Sides, scratch: &Scratch, out: &mut FaceIntegral) {
         let at = &places[s.piece][..count];
         piece.area += s.w;
         piece.direction = add_scaled(piece.direction, s.w, s.direction);
+        for (sum, x) in piece.place.iter_mut().zip(s.place) {
+            *sum += s.w * x;
+        }
+        for (sum, n) in piece.own[..n].iter_mut().zip(&s.n) {
+            *sum += s.w * n;
+        }
         for (sum, n) in piece.sums.iter_mut().zip(&s.opposite[..count]) {
             *sum += s.w * n;
         }

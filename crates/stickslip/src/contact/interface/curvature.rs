@@ -1,0 +1,159 @@
+//! How the directions and places of a mortar's forces change: what its tangent has beside the gradients of gaps and slips.
+
+use rayon::prelude::*;
+
+use super::evaluate::Evaluation;
+use super::{Evaluations, Interface, Primary};
+use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
+use crate::contact::mortar::FACE_NODES;
+use crate::contact::pairing::evaluate;
+use crate::math::{Vec3, add_scaled, dot};
+use crate::system::{Assembler, Tangent};
+
+/// Faces handled by one task.
+const CHUNK: usize = 8;
+
+/// The second derivatives over one face.
+#[derive(Debug, Default)]
+struct Block {
+    dofs: Vec<usize>,
+    hessian: Vec<f64>,
+}
+
+impl Interface {
+    /// Adds the curvature of the gaps and slips that carry something, face by face: of the contact element of each piece at its middle, weighted by what
+    /// the piece carries.
+    pub(super) fn add_curvature(&self, evaluations: &Evaluations, out: &mut Assembler) {
+        let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
+            return;
+        };
+        if !out.wants_tangent || self.kinematics.as_dyn().frozen() {
+            return;
+        }
+        let unknown = self.unknown();
+        // Pressure and shear in space of the point at a node of a face, over its share of the area.
+        let carried = |point: usize| -> Option<(f64, Vec3)> {
+            let e: &Evaluation = evaluations.points.get(point)?;
+            let t = if unknown {
+                e.multiplier
+            } else {
+                e.response.traction
+            };
+            (t != [0.0; 3]).then(|| {
+                let shear = add_scaled(
+                    e.frame[0].map(|x| self.share * t[1] * x),
+                    self.share * t[2],
+                    e.frame[1],
+                );
+                (self.share * t[0], shear)
+            })
+        };
+        let x = &self.memory.x;
+        let dim = self.dofs.dim;
+        let faces = mortar.faces.par_chunks(CHUNK);
+        let blocks: Vec<Vec<Block>> = faces
+            .zip(self.memory.integrals.par_chunks(CHUNK))
+            .map(|(faces, integrals)| {
+                let mut room = Vec::new();
+                let mut made = Vec::new();
+                for (face, integral) in faces.iter().zip(integrals) {
+                    let own: Vec<_> = face.points.iter().map(|&p| carried(p)).collect();
+                    if own.iter().all(Option::is_none) || integral.pieces.is_empty() {
+                        continue;
+                    }
+                    let nodes: Vec<usize> = (face.nodes.iter())
+                        .chain(&integral.nodes)
+                        .copied()
+                        .collect();
+                    let n = nodes.len() * dim;
+                    let mut block = Block {
+                        dofs: (nodes.iter())
+                            .flat_map(|&node| (0..dim).map(move |c| (node, c)))
+                            .map(|(node, c)| self.dofs.of(self.nodes[node], c))
+                            .collect(),
+                        hessian: vec![0.0; n * n],
+                    };
+                    for piece in &integral.pieces {
+                        let (mut pressure, mut shear) = (0.0, [0.0; 3]);
+                        for (own, share) in own.iter().zip(piece.shares) {
+                            if let Some((p, t)) = own {
+                                pressure += share * p;
+                                shear = add_scaled(shear, share, *t);
+                            }
+                        }
+                        if piece.area <= 0.0 || (pressure == 0.0 && shear == [0.0; 3]) {
+                            continue;
+                        }
+                        let facet = &facets[piece.facet];
+                        let mut corners = [[0.0; 3]; FACE_NODES];
+                        for (c, &node) in corners.iter_mut().zip(&facet.nodes) {
+                            *c = x[node];
+                        }
+                        let corners = &corners[..facet.nodes.len()];
+                        let place = piece.place.map(|p| p / piece.area);
+                        let foot = evaluate(facet.kind, corners, place);
+                        let weights = piece.own.map(|w| w / piece.area);
+                        let weights = &weights[..face.nodes.len()];
+                        let point = (face.nodes.iter().zip(weights))
+                            .fold([0.0; 3], |s, (&node, &w)| add_scaled(s, w, x[node]));
+                        let pair = Pair {
+                            dim,
+                            weights,
+                            point,
+                            kind: facet.kind,
+                            facet: corners,
+                            foot: &foot,
+                            anchor: &foot,
+                            point_before: point,
+                        };
+                        let mut stencil = Stencil::default();
+                        let convective = Convective {};
+                        convective.stencil(&pair, &mut stencil);
+                        let along = stencil.frame_before.map(|e| -dot(e, shear));
+                        room.clear();
+                        room.resize(pair.dofs() * pair.dofs(), 0.0);
+                        convective.add_hessian(
+                            &pair,
+                            &stencil,
+                            [-pressure, along[0], along[1]],
+                            &mut room,
+                        );
+                        // where the nodes of the pair stand in the block
+                        let theirs = facet.nodes.iter().filter_map(|node| {
+                            let k = integral.nodes.iter().position(|n| n == node)?;
+                            Some(face.nodes.len() + k)
+                        });
+                        let at: Vec<usize> = (0..face.nodes.len()).chain(theirs).collect();
+                        let m = pair.dofs();
+                        for (i, &a) in at.iter().enumerate() {
+                            for (j, &b) in at.iter().enumerate() {
+                                for c in 0..dim {
+                                    for d in 0..dim {
+                                        block.hessian[(a * dim + c) * n + b * dim + d] +=
+                                            room[(i * dim + c) * m + j * dim + d];
+                                    }
+                                }
+                            }
+                        }
+                    }
+                    made.push(block);
+                }
+                made
+            })
+            .collect();
+        let mut zeros = Vec::new();
+        for block in blocks.iter().flatten() {
+            let n = block.dofs.len();
+            zeros.resize(zeros.len().max(n * n).max(3 * n), 0.0);
+            let wanted = if out.wants_surrogate { n * n } else { 0 };
+            let tangent = Tangent {
+                rows: &zeros[..3 * n],
+                change: &zeros[..3 * n],
+                area: 1.0,
+                hessian: &block.hessian,
+                surrogate: &zeros[..wanted],
+            };
+            out.add_tangent(&block.dofs, tangent);
+        }
+    }
+}
