@@ -137,7 +137,7 @@ fn quantity(name: &str, u: Units) -> (&'static str, f64) {
     let component = last.trim_end_matches(|c: char| c.is_ascii_digit());
     match component {
         "S" | "CPRESSMAX" => ("stress", u.stress),
-        "ALLSE" | "ALLCE" | "ALLFD" | "ALLWK" | "ALLKE" | "ALLVD" | "ALLCD" | "ALLND"
+        "ALLSE" | "ALLCE" | "ALLFD" | "ALLWK" | "ALLKE" | "ALLVD" | "ALLCD" | "ALLND" | "ALLAE"
         | "EINITIAL" => ("energy", force * u.length),
         "CFN" | "CFS" | "RF" => ("force", force),
         "CAREA" => ("area", u.length * u.length),

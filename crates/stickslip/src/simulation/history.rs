@@ -65,6 +65,7 @@ pub(super) fn row(
     row.push("ALLCE", e.contact);
     row.push("ALLFD", e.friction);
     row.push("ALLWK", e.external_work + e.belt_work);
+    row.push("ALLAE", e.artificial);
     row.push("ERESIDUAL", e.residual);
     if simulation.model.moves() {
         row.push("ALLKE", e.kinetic);

@@ -17,6 +17,8 @@ pub(super) struct Loose {
     anchors: Option<Anchors>,
     /// The step for which bodies were looked at, and those that interfaces may hold.
     known: Option<(usize, Vec<FreeBody>)>,
+    /// Where they may be anchored, body by body.
+    places: Vec<Vec<usize>>,
     /// Contact alone was found not to be enough in this step: the anchors stay.
     stay: bool,
     /// Nothing holds the bodies: they have been followed in vain.
@@ -57,16 +59,19 @@ impl Loose {
         forces
     }
 
-    /// Points of the mesh that are anchored.
+    /// Points of the mesh that are anchored, or may be. Without them a body that touches nothing has no point that is kept, and cannot be
+    /// condensed.
     pub fn points(&self) -> Vec<usize> {
-        let anchors = self.anchors.iter();
-        anchors.flat_map(|a| a.points()).collect()
+        match &self.anchors {
+            Some(anchors) => anchors.points().collect(),
+            None => self.places.concat(),
+        }
     }
 }
 
 impl Simulation {
     /// Finds the bodies that supports leave free and interfaces may hold.
-    fn know(&mut self) {
+    pub(super) fn know(&mut self) {
         if matches!(self.loose.known, Some((step, _)) if step == self.step) {
             return;
         }
@@ -98,7 +103,12 @@ impl Simulation {
         if !resisted {
             bodies.clear();
         }
+        let place = |free: &FreeBody| {
+            let points = self.model.bodies[free.body].points.clone();
+            spread(&self.model.mesh, points, dofs.dim + 1)
+        };
         self.loose = Loose {
+            places: bodies.iter().map(place).collect(),
             known: Some((self.step, bodies)),
             left: self.loose.left,
             ..Loose::default()
@@ -221,7 +231,7 @@ impl Simulation {
         let mut anchors = Anchors::new(model.dofs);
         let mut names = Vec::new();
         let bodies = self.loose.known.iter().flat_map(|(_, bodies)| bodies);
-        for free in bodies {
+        for (free, points) in bodies.zip(&self.loose.places) {
             let body = &model.bodies[free.body];
             let (mut spring, mut size) = (0.0_f64, f64::INFINITY);
             for interface in &model.interfaces {
@@ -238,8 +248,7 @@ impl Simulation {
                 size,
                 firmness: self.loose.firmness,
             };
-            let points = spread(&model.mesh, body.points.clone(), model.dofs.dim + 1);
-            anchors.hold(points, &self.state.u, hold);
+            anchors.hold(points.clone(), &self.state.u, hold);
             let motions: Vec<&str> = free.motions.iter().map(|(name, _)| name.as_str()).collect();
             names.push(format!("{} ({})", body.name, motions.join(", ")));
         }

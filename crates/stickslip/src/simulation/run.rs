@@ -243,6 +243,7 @@ impl Simulation {
                 }
                 None => {
                     self.rest();
+                    self.know();
                     self.choose_candidates();
                     self.condense()?;
                 }
