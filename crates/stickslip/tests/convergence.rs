@@ -1,5 +1,5 @@
 //! Newton's iteration converges quadratically for every normal law × friction law × slip rule × enforcement × kinematics of contact elements; between
-//! whole surfaces it gains a factor a step that pressure over modulus says (`tests/mortar.rs`).
+//! whole surfaces it gains a factor a step that pressure over modulus says (`mortar.rs`).
 //!
 //! Soft bodies (strains of per cent) slide over each other by a good part of a facet, so that a wrong or missing derivative shows: in
 //! the laws, in the frame, or in the second derivatives of gap and slip.
