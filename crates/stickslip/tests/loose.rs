@@ -233,9 +233,10 @@ fn a_pin_falls_into_its_seat() {
 
 #[test]
 fn a_ball_falls_onto_three() {
-    for friction in FRICTION {
+    // without friction the ball has to find out how it comes to rest, which takes long
+    for (friction, every) in FRICTION.into_iter().zip([3, 1]) {
         let mut first = None;
-        for gap in GAPS {
+        for gap in GAPS.into_iter().step_by(every) {
             let what = format!("gap {gap:e}, {friction}");
             let outcome = run(&what, &balls(gap, friction));
             let reaction: f64 = ["a.RF3", "b.RF3", "c.RF3"]
