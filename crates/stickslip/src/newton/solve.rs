@@ -257,13 +257,17 @@ impl Newton {
             } else {
                 0.1 * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
             };
-            let krylov = system.bulk.solve(
-                &out,
-                &b,
-                wanted.clamp(1e-13, loose.max(1e-13)),
-                &mut du,
-                (&settings, &mut self.statistics),
-            )?;
+            let wanted = wanted.clamp(1e-13, loose.max(1e-13));
+            let counts = &mut self.statistics;
+            let solved = (system.bulk).solve(&out, &b, wanted, &mut du, (&settings, counts));
+            let krylov = match solved {
+                // Preconditioners know nothing of the curvature. Where it is so large that they fail, slower iterations are better than none.
+                Err(failure) if failure.cause == Cause::LinearSolver && out.drop_curvature() => {
+                    let counts = &mut self.statistics;
+                    (system.bulk).solve(&out, &b, wanted, &mut du, (&settings, counts))?
+                }
+                solved => solved?,
+            };
             system.links.impose(&mut du);
             self.statistics.iterations += 1;
             let before = balance.norm.max(multipliers);

@@ -107,6 +107,9 @@ pub struct Assembler {
     /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
+    /// Whether the curvature of whole surfaces is wanted in the tangent: it speeds up the last iterations, and linear systems can be solved without.
+    /// Stays as it is from one evaluation to the next; `true` to begin with.
+    pub wants_curvature: bool,
     /// The state of evaluation may be given up again: forces keep what they remember of the last iterate, from which the step was taken,
     /// until they are told to [`settle`](super::Force::settle). `false` to begin with.
     pub tentative: bool,
@@ -136,6 +139,7 @@ impl Assembler {
             wants_tangent: false,
             wants_pairs: false,
             wants_surrogate: true,
+            wants_curvature: true,
             tentative: false,
             spare_blocks: Vec::new(),
             spare_couplings: Vec::new(),
@@ -153,6 +157,14 @@ impl Assembler {
         self.spare_couplings.append(&mut self.couplings);
         self.pairs.clear();
         self.wants_tangent = wants_tangent;
+    }
+
+    /// Takes away blocks that hold nothing but curvature, now and for all evaluations to come; `false` if there are none.
+    pub fn drop_curvature(&mut self) -> bool {
+        self.wants_curvature = false;
+        let before = self.blocks.len();
+        self.blocks.retain(|b| b.rows.iter().any(|r| *r != 0.0));
+        self.blocks.len() < before
     }
 
     /// Adds the residual of one point.
