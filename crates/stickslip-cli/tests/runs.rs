@@ -275,12 +275,18 @@ fn curve_tabulates_the_laws_of_an_interface() {
 }
 
 /// Springs as soft as the block itself: it sinks into the floor.
-const SOFT: &str = "[interface.base.enforcement.penalty]\nfactor = 1\n";
+fn soft() -> String {
+    let friction = "friction.coulomb = { mu = 0.3 }";
+    CASE.replace(
+        friction,
+        &format!("{friction}, enforcement.penalty = {{ factor = 1 }}"),
+    )
+}
 
 #[test]
 fn a_poor_result_is_kept_and_ends_with_code_2_and_a_sentence() {
     let place = Place::new("quality");
-    place.write("case.toml", &format!("{CASE}{SOFT}"));
+    place.write("case.toml", &soft());
     let (case, out) = (place.path("case.toml"), place.path("out"));
     let output = stickslip(&["run", &case, "-o", &out, "--quiet"]);
     let said = text(&output.stderr);
@@ -318,7 +324,7 @@ fn a_poor_result_is_kept_and_ends_with_code_2_and_a_sentence() {
 fn a_sweep_says_which_runs_are_poor() {
     let place = Place::new("quality-sweep");
     let case = place.path("case.toml");
-    place.write("case.toml", &format!("{CASE}{SOFT}"));
+    place.write("case.toml", &soft());
     let axis = "interface.base.enforcement.penalty.factor=1,1e4";
     let output = stickslip(&["sweep", &case, "--set", axis, "-q"]);
     assert_eq!(code(&output), Some(2), "{}", text(&output.stderr));

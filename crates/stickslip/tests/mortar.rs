@@ -175,6 +175,8 @@ fn deviation(folder: &Path, text: &str, pressure: f64, shear: Option<f64>) -> f6
 
 /// Runs `text` for every pair of cell kinds, the meshes 2 × 3 against 3 × 2 and 3 × 3 against 4 × 5.
 fn every_pair(name: &str, text: &str, pressure: f64, shear: Option<f64>) {
+    // Multipliers that supports share with the interface leave their rounding in the others.
+    let most = if shear.is_some() { 1e-10 } else { 1e-9 };
     for (cells, others) in [([2, 3], [3, 2]), ([3, 3], [4, 5])] {
         for low in &KINDS {
             for up in &KINDS {
@@ -185,7 +187,7 @@ fn every_pair(name: &str, text: &str, pressure: f64, shear: Option<f64>) {
                 std::fs::write(folder.join("up.msh"), above).expect("a file");
                 let worst = deviation(&folder, text, pressure, shear);
                 assert!(
-                    worst <= 1e-10,
+                    worst <= most,
                     "{name}, {} under {}, {cells:?} under {others:?}: {worst:e}",
                     low.name,
                     up.name
@@ -314,7 +316,11 @@ solver.linear.tolerance = 1e-12
         for (iterations, _) in &record.increments {
             for pair in iterations.windows(2) {
                 let settled = pair.iter().all(|p| p.tally.changed == 0 && p.step == 1.0);
-                if settled && pair[1].residual > 1e-10 && pair[1].round == pair[0].round {
+                if settled
+                    && pair[0].residual < 0.1
+                    && pair[1].residual > 1e-10
+                    && pair[1].round == pair[0].round
+                {
                     judged += 1;
                     let gain = pair[1].residual / pair[0].residual;
                     assert!(gain < 0.05, "mu {mu}: {gain:e} at {:e}", pair[0].residual);

@@ -208,6 +208,8 @@ impl Newton {
         let mut out = Assembler::new(n);
         out.wants_surrogate = system.bulk.wants_surrogates();
         out.wants_pairs = system.bulk.wants_pairs();
+        // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel without it.
+        out.wants_curvature = system.contact.iter().all(|f| f.patience() == 0);
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();

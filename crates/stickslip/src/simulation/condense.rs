@@ -44,10 +44,10 @@ pub(super) struct Condensed {
 }
 
 /// Out-of-balance force relative to the forces in play that rounding may leave in the interior.
-pub(super) const LEFT: f64 = 1e-7;
+pub(super) const LEFT: f64 = 1e-6;
 
 /// Forces that are none, relative to the largest there were in the analysis.
-const NOTHING: f64 = 1e-10;
+const NOTHING: f64 = 1e-8;
 
 impl Condensed {
     /// The bodies without their interiors.
