@@ -180,11 +180,20 @@ pub(super) fn hold(system: &mut System, on: bool) -> usize {
 /// Softens stick; `false` if there is none.
 fn soften(system: &mut System, factor: Option<f64>) -> bool {
     let forces = system.contact.iter_mut();
-    forces.fold(false, |any, f| f.soften(factor) || any)
+    // every force has to hear of it
+    forces
+        .map(|f| f.soften(factor))
+        .filter(|&soft| soft)
+        .count()
+        > 0
 }
 
 /// Lets a part of friction act; `false` if there is none.
 fn mobilise(system: &mut System, part: Option<f64>) -> bool {
     let forces = system.contact.iter_mut();
-    forces.fold(false, |any, f| f.mobilise(part) || any)
+    forces
+        .map(|f| f.mobilise(part))
+        .filter(|&part| part)
+        .count()
+        > 0
 }

@@ -48,12 +48,12 @@ fn add_shear(pair: &Pair, t: Vec3, out: &mut [f64]) {
             let theirs = (i.checked_sub(own), j.checked_sub(own));
             let mut left = [0.0; 3];
             let mut turn = 0.0;
-            for beta in 0..d {
+            for (beta, dual) in dual.iter().enumerate().take(d) {
                 if let Some(i) = theirs.0 {
-                    left = add_scaled(left, foot.dn[beta][i] * sigma(j), dual[beta]);
+                    left = add_scaled(left, foot.dn[beta][i] * sigma(j), *dual);
                 }
                 if let Some(j) = theirs.1 {
-                    turn -= sigma(i) * foot.dn[beta][j] * dot(t, dual[beta]);
+                    turn -= sigma(i) * foot.dn[beta][j] * dot(t, *dual);
                 }
             }
             for c in 0..pair.dim {

@@ -243,13 +243,13 @@ fn along_ray(
             continue;
         }
         let hit = add_scaled(position, s, v);
-        let inside = match corners.as_slice() {
-            &[a, b] => {
+        let inside = match *corners.as_slice() {
+            [a, b] => {
                 let along = sub(b, a);
                 let at = dot(sub(hit, a), along) / dot(along, along);
                 (-EDGE..=1.0 + EDGE).contains(&at)
             }
-            &[a, b, c] => {
+            [a, b, c] => {
                 let part = |p: Vec3, q: Vec3| dot(cross(sub(p, hit), sub(q, hit)), normal);
                 let least = part(a, b).min(part(b, c)).min(part(c, a));
                 least >= -EDGE * size * size

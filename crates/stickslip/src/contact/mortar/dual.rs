@@ -78,9 +78,8 @@ pub fn dual(m: &Matrix, n: usize) -> Option<Matrix> {
     for i in 0..n {
         for j in 0..=i {
             let mut sum = m[i][j] * scale[i] * scale[j];
-            for k in 0..j {
-                sum -= l[i][k] * l[j][k];
-            }
+            let known = l[i][..j].iter().zip(&l[j][..j]);
+            sum -= known.map(|(a, b)| a * b).sum::<f64>();
             if i == j {
                 if sum < 1e-13 {
                     return None;
@@ -149,10 +148,10 @@ mod tests {
                 let phi = |i: usize| (0..n).map(|k| a[i][k] * v[k]).sum::<f64>();
                 assert!(((0..n).map(phi).sum::<f64>() - 1.0).abs() < 1e-12, "{kind}");
             }
-            for i in 0..n {
+            for (i, row) in a.iter().enumerate().take(n) {
                 assert!(area(i) > 0.0, "{kind}");
                 for j in 0..n {
-                    let product: f64 = (0..n).map(|k| a[i][k] * m[k][j]).sum();
+                    let product: f64 = row.iter().zip(&m).take(n).map(|(a, m)| a * m[j]).sum();
                     let expected = if i == j { area(i) } else { 0.0 };
                     assert!((product - expected).abs() < 1e-12, "{kind} {i} {j}");
                 }

@@ -542,9 +542,9 @@ fn sum(face: &Face, sides: &Sides, scratch: &Scratch, out: &mut FaceIntegral) {
     let n = face.nodes.len();
     let mut m = Matrix::default();
     for s in &scratch.samples {
-        for i in 0..n {
-            for j in 0..n {
-                m[i][j] += s.w * s.positive[i] * s.positive[j];
+        for (row, a) in m.iter_mut().zip(&s.positive[..n]) {
+            for (m, b) in row.iter_mut().zip(&s.positive[..n]) {
+                *m += s.w * a * b;
             }
         }
     }
