@@ -30,7 +30,7 @@ pub fn write(
 /// Writes the points of a mesh as vertices, with the fields on them; cells are left out.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_vertices(path: &Path, mesh: &Mesh, fields: &Fields) -> Result<(), Error> {
     put(path, mesh, fields, None, true)
 }

@@ -1,6 +1,6 @@
 //! The doctor: what is wrong with a model or a run, who is guilty, and what to try.
 //!
-//! Before the run [`examine`] looks at the model: motions that nothing can hold, gaps and overlaps, surfaces that do not face each other, meshes
+//! Before the run `examine` looks at the model: motions that nothing can hold, gaps and overlaps, surfaces that do not face each other, meshes
 //! that do not go together, numbers in mixed units. In the run every attempt that fails is turned into a [`Finding`]: the cause is read from what
 //! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from motions that nothing holds, and from the stiffness at the guilty
 //! points. Findings of both kinds are the same type; they go into `summary.json`, and their places into `culprits.vtu`.
