@@ -18,7 +18,8 @@ pub struct MortarContact {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub smooth_angle: Option<f64>,
     /// Both surfaces are secondary, each for one half of the pressure: the result does not depend on which is called primary. Costs twice as
-    /// much. Default: false.
+    /// much, and needs `enforcement.penalty` or a compliant normal law without friction: multipliers of both sides would not be determined. Results of the
+    /// second half stand under `NAME-reverse`. Default: false.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub two_sided: bool,
 }

@@ -271,6 +271,17 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
     }
     let set_valued = normal.as_dyn().pressure(0.0).is_none();
     let multipliers = enforcement.as_dyn().multipliers() != Multipliers::None;
+    // Two conditions for one gap: each alone would close it, and multipliers cannot share what they do.
+    if interface.discretisation().as_dyn().two_sided()
+        && multipliers
+        && (set_valued || friction.as_dyn().frictional())
+    {
+        findings.add(
+            &["interface", name, "discretisation"],
+            "two-sided contact with multipliers has more conditions than unknowns",
+            "choose enforcement.penalty, or a compliant normal law without friction",
+        );
+    }
     // A multiplier takes whatever pressure closes the gap: damping would change nothing.
     if damping.as_dyn().active() && set_valued && multipliers {
         findings.add(
