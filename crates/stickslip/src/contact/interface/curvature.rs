@@ -101,6 +101,8 @@ impl Interface {
             .zip(self.memory.integrals.par_chunks(CHUNK))
             .map(|(faces, integrals)| {
                 let mut room = Vec::new();
+                // The second derivatives of the gap do not ask for it.
+                let unused = Stencil::default();
                 let mut made = Vec::new();
                 for (face, integral) in faces.iter().zip(integrals) {
                     let own: Vec<_> = face.points.iter().map(|&p| carried(p)).collect();
@@ -152,13 +154,10 @@ impl Interface {
                             anchor: &foot,
                             point_before: point,
                         };
-                        let mut stencil = Stencil::default();
-                        let convective = Convective {};
-                        convective.stencil(&pair, &mut stencil);
                         room.clear();
                         room.resize(pair.dofs() * pair.dofs(), 0.0);
                         let weights = [-pressure, 0.0, 0.0];
-                        convective.add_hessian(&pair, &stencil, weights, &mut room);
+                        Convective {}.add_hessian(&pair, &unused, weights, &mut room);
                         add_shear(&pair, shear, &mut room);
                         // where the nodes of the pair stand in the block
                         let theirs = facet.nodes.iter().filter_map(|node| {

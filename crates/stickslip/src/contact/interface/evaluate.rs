@@ -1,7 +1,5 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
-use std::collections::HashMap;
-
 use super::{Interface, Primary};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil, tangents};
@@ -126,8 +124,7 @@ pub(super) struct Batch {
     stencil: Stencil,
     /// Gradients of the slip as friction sees it; empty where they are those of the slip.
     rated: [Vec<f64>; 2],
-    /// Where the nodes of a mortar's point are among its own, and the gradient of its gap by node.
-    places: HashMap<usize, usize>,
+    /// The gradient of the gap of a mortar's point by node.
     gradients: Vec<Vec3>,
 }
 
@@ -550,11 +547,9 @@ impl Interface {
         let dim = self.dofs.dim;
         let (mut area, mut gap, mut normal) = (0.0, 0.0, [0.0; 3]);
         let sides = batch.sides.len();
-        batch.places.clear();
         batch.gradients.clear();
         // The node itself first.
         for &node in &point.nodes {
-            batch.places.insert(node, batch.gradients.len());
             batch.gradients.push([0.0; 3]);
             batch.sides.push((node, 0.0));
         }
@@ -581,7 +576,9 @@ impl Interface {
                 if entry.weight.abs() <= least && norm(entry.gradient) <= least {
                     continue;
                 }
-                let k = *batch.places.entry(node).or_insert_with(|| {
+                // So few that looking through them is faster than a map.
+                let known = batch.sides[sides..].iter().position(|s| s.0 == node);
+                let k = known.unwrap_or_else(|| {
                     batch.gradients.push([0.0; 3]);
                     batch.sides.push((node, 0.0));
                     batch.gradients.len() - 1

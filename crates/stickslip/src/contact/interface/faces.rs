@@ -52,8 +52,13 @@ impl Interface {
         if frozen && !self.memory.integrals.is_empty() {
             return;
         }
-        let reference = self.reference.clone();
-        let x = if frozen { &reference } else { x };
+        // Lent out, as the search changes the memory.
+        let reference = std::mem::take(&mut self.reference);
+        self.integrate_at(if frozen { &reference } else { x }, &reference, frozen);
+        self.reference = reference;
+    }
+
+    fn integrate_at(&mut self, x: &[Vec3], reference: &[Vec3], frozen: bool) {
         self.search_faces(x);
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return;
@@ -61,7 +66,7 @@ impl Interface {
         let memory = &mut self.memory;
         let sides = Sides {
             x,
-            reference: &reference,
+            reference,
             facets,
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
