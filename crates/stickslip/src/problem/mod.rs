@@ -45,6 +45,7 @@ use crate::material::Material;
 
 pub use amplitude::AmplitudeTable;
 pub use body::{Body, GmshFile, MeshSource, Rayleigh};
+pub use build::Meshes;
 pub use document::Document;
 pub use dynamic::Dynamic;
 pub use families::{FamilyListing, ModelListing, families};
