@@ -8,6 +8,7 @@ mod print;
 mod progress;
 mod render;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -37,8 +38,9 @@ const INPUT: u8 = 1;
 /// Results fail a check or the quality gate.
 const CHECK: u8 = 2;
 
-fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+/// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
+pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(e) => {
             // Help and version are "errors" that go to standard output and succeed. A closed pipe is nobody's fault.
@@ -62,5 +64,31 @@ fn main() -> ExitCode {
             render::failure(&failure);
             ExitCode::from(failure.code())
         }
+    }
+}
+
+/// The number of an exit code, for programs that call [`main_with`].
+pub fn number(code: ExitCode) -> u8 {
+    // The standard library does not tell; there are not many.
+    (0..=u8::MAX)
+        .find(|&n| ExitCode::from(n) == code)
+        .unwrap_or(INPUT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exit_codes_have_their_numbers() {
+        for n in [0, INPUT, CHECK, 3, 255] {
+            assert_eq!(number(ExitCode::from(n)), n);
+        }
+    }
+
+    #[test]
+    fn a_wrong_command_line_is_an_error_of_input() {
+        assert_eq!(number(main_with(["stickslip", "--no-such-flag"])), INPUT);
+        assert_eq!(number(main_with(["stickslip", "--version"])), 0);
     }
 }
