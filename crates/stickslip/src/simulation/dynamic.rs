@@ -146,7 +146,7 @@ impl Simulation {
         let Some(mut motion) = self.motion.take() else {
             return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
         };
-        let outcome = self.advance(
+        let outcome = self.integrate(
             &mut motion,
             trial,
             dynamic,
@@ -158,7 +158,7 @@ impl Simulation {
         outcome
     }
 
-    fn advance(
+    fn integrate(
         &mut self,
         motion: &mut Motion,
         trial: Trial,

@@ -160,6 +160,7 @@ impl Make<'_> {
                 enforcement: table.enforcement.clone(),
                 tied: table.tied,
                 wear: table.wear,
+                own: Default::default(),
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),
