@@ -6,6 +6,7 @@
 mod anchors;
 mod around;
 mod cells;
+pub mod couplings;
 mod elastic;
 mod extrapolate;
 mod facets;
