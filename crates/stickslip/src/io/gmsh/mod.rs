@@ -1,5 +1,5 @@
 //! Reader for Gmsh meshes: `.msh` 2.2 and 4.1, ASCII and binary of either byte order
-//! (Gmsh reference manual, *MSH file format*).
+//! (Gmsh reference manual, *MSH file format*); and a writer of version 4.1, ASCII.
 //!
 //! What becomes of the file:
 //!
@@ -30,9 +30,15 @@ mod kinds;
 mod raw;
 mod v2;
 mod v4;
+mod write;
 
 #[cfg(test)]
 mod tests;
+
+pub use write::{text, write};
+
+pub(super) use build::turned;
+pub(super) use facets::Faces;
 
 use std::path::Path;
 

@@ -432,11 +432,11 @@ fn what_cannot_be_read_is_said() {
         ),
         (
             &array("type='Float64'", "1 2 3"),
-            "array `V`: it has 3 values where its points need 2",
+            "array `V`: it has 3 values where the grid needs 2",
         ),
         (
             &array("type='Float64'", ""),
-            "it has 0 values where its points need 2",
+            "it has 0 values where the grid needs 2",
         ),
         (
             &array("type='Int8' format='hex'", "1 2"),
@@ -458,12 +458,12 @@ fn what_cannot_be_read_is_said() {
                 "type='Int8' NumberOfComponents='1000000000000000000'",
                 "1 2",
             ),
-            "array `V`: it has 2 values where its points need 2000000000000000000",
+            "array `V`: it has 2 values where the grid needs 2000000000000000000",
         ),
         // Three bytes after a header that says three.
         (
             &array("type='Int8' format='binary'", "AwAAAAECAw=="),
-            "array `V`: it has 3 bytes where its points need 2",
+            "array `V`: it has 3 bytes where the grid needs 2",
         ),
         (
             &array("type='Int8' format='binary'", "AgAAAAE="),
