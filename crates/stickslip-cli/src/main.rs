@@ -10,11 +10,11 @@ mod render;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Frictional contact of elastic bodies, in 2D and 3D.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(name = "stickslip", version, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -30,12 +30,20 @@ enum Command {
     Curve(commands::curve::Arguments),
     Models(commands::models::Arguments),
     Schema(commands::schema::Arguments),
+    Convert(commands::convert::Arguments),
+    Completions(commands::completions::Arguments),
+    Man(commands::man::Arguments),
 }
 
 /// The input is wrong; also the code of a wrong command line.
 const INPUT: u8 = 1;
 /// Results fail a check or the quality gate.
 const CHECK: u8 = 2;
+
+/// The command line as data, for completions and manual pages.
+fn command() -> clap::Command {
+    Arguments::command()
+}
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -55,6 +63,9 @@ fn main() -> ExitCode {
         Command::Curve(arguments) => commands::curve::run(&arguments),
         Command::Models(arguments) => commands::models::run(&arguments),
         Command::Schema(arguments) => commands::schema::run(&arguments),
+        Command::Convert(arguments) => commands::convert::run(&arguments),
+        Command::Completions(arguments) => commands::completions::run(&arguments),
+        Command::Man(arguments) => commands::man::run(&arguments),
     };
     match outcome {
         Ok(code) => code,

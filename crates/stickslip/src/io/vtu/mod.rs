@@ -22,7 +22,7 @@ mod grid_tests;
 mod tests;
 
 pub use grid::{parse_mesh, read_mesh};
-pub use read::{PointArray, PointFields, read};
+pub use read::{PointArray, PointFields, parse, read};
 pub use write::{write, write_mesh, write_vertices};
 
 pub(super) use write::escape;

@@ -34,7 +34,15 @@ pub struct PointArray {
 /// in a way that is not read.
 pub fn read(path: &Path) -> Result<PointFields, Error> {
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    parse(&bytes).map_err(|message| {
+    parse(&bytes, path)
+}
+
+/// Reads points and data from the bytes of a file; `path` is for messages only.
+///
+/// # Errors
+/// As [`read()`], but for those of the file system.
+pub fn parse(bytes: &[u8], path: &Path) -> Result<PointFields, Error> {
+    point_fields(bytes).map_err(|message| {
         Error::Io(IoError {
             file: path.to_path_buf(),
             message,
@@ -67,7 +75,7 @@ pub(super) struct Piece<'a> {
     pub cell_data: Vec<Array<'a>>,
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<PointFields, String> {
+pub(super) fn point_fields(bytes: &[u8]) -> Result<PointFields, String> {
     let outline = outline(bytes)?;
     let mut all = PointFields::default();
     for piece in &outline.pieces {

@@ -4,7 +4,7 @@ use crate::mesh::{Block, Mesh};
 use crate::shape::ElementKind;
 use crate::system::{Field, Fields, Location};
 
-use super::read::parse;
+use super::read::point_fields as parse;
 use super::stream::tests::{deflate, encode};
 use super::{PointArray, PointFields, read, write};
 
