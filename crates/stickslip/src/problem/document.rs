@@ -30,9 +30,10 @@ impl Document {
     /// The text of a file.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read or is not UTF-8.
+    /// [`Error::Io`] if it cannot be read, [`Error::Problem`] if it is not UTF-8.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let source = std::fs::read_to_string(file).map_err(|e| Error::io(file, e))?;
+        let bytes = std::fs::read(file).map_err(|e| Error::io(file, e))?;
+        let source = String::from_utf8(bytes).map_err(|e| not_text(file, &e))?;
         Ok(Document::new(source, Some(file)))
     }
 
@@ -119,8 +120,47 @@ fn syntax(error: &toml::de::Error) -> Diagnostic {
         message: format!("not TOML: {}", error.message()),
         key: String::new(),
         span: error.span(),
-        help: None,
+        help: Some(syntax_help(error.message()).into()),
     }
+}
+
+/// What to do about a mistake of syntax, by the words of the parser.
+fn syntax_help(message: &str) -> &'static str {
+    let says = |words: &str| message.contains(words);
+    if says("duplicate key") {
+        "every key and every table is given once: join the two, or remove one"
+    } else if says("escape") {
+        "in double quotes a backslash is written twice; in single quotes it stands for itself"
+    } else if says("recurse") {
+        "no value of a problem file is nested that deeply"
+    } else if says("leading zero") {
+        "write the number without leading zeros"
+    } else if says("with no value") || says("must be quoted") {
+        "write `key = value`, and texts in double quotes"
+    } else if says("unexpected key or value") {
+        "write one `key = value` a line, and numbers with a decimal point and no unit"
+    } else {
+        "TOML has lines `key = value`, headings `[table]`, texts in double quotes, and lists in brackets that are closed"
+    }
+}
+
+/// A file that is no text: shown up to where it stops being one.
+fn not_text(file: &Path, error: &std::string::FromUtf8Error) -> Error {
+    let at = error.utf8_error().valid_up_to();
+    let byte = error.as_bytes().get(at).copied().unwrap_or_default();
+    let finding = Diagnostic {
+        span: Some(at..at),
+        ..Diagnostic::new(
+            "",
+            format!("the file is not UTF-8 text: byte {at} is 0x{byte:02X}"),
+        )
+        .help("save it as UTF-8; problem files are TOML, not results or meshes")
+    };
+    Error::Problem(ProblemError {
+        file: Some(file.to_path_buf()),
+        source: String::from_utf8_lossy(error.as_bytes()).into_owned(),
+        findings: vec![finding],
+    })
 }
 
 /// A finding if the file is of another format than this version reads: anything else said about it would mislead.

@@ -248,11 +248,18 @@ impl<'s> Walk<'s> {
         }
         let first = expected.own.get("prefixItems").and_then(Json::as_array);
         let rest = expected.own.get("items");
+        let before = self.findings.len();
         for (i, value) in list.iter().enumerate() {
             if let Some(schema) = first.and_then(|f| f.get(i)).or(rest) {
                 self.path.push(i.to_string());
                 self.value(schema, value, value.span());
                 self.path.pop();
+            }
+        }
+        // Entries have no description of their own.
+        for finding in &mut self.findings[before..] {
+            if finding.help.is_none() {
+                finding.help = expected.description.map(first_sentence);
             }
         }
     }

@@ -134,8 +134,9 @@ impl Grid {
         let points = outline.points(piece).map_err(damaged)?;
         if let Some(p) = points.iter().position(|x| x.iter().any(|x| !x.is_finite())) {
             let [x, y, z] = points[p];
+            let line = piece.coordinates.as_ref().map_or(1, |a| outline.line(a));
             return Err(MeshError::new(format!(
-                "point {p} (counted from 0) has a coordinate that is not finite: ({x}, {y}, {z})"
+                "line {line}: point {p} (counted from 0) has a coordinate that is not finite: ({x}, {y}, {z})"
             ))
             .help("coordinates must be finite numbers: repair the grid where it was made"));
         }
@@ -158,7 +159,7 @@ impl Grid {
         if piece.cells == 0 {
             return Ok(());
         }
-        let array = |name: &str, count: usize| -> Result<Vec<f64>, MeshError> {
+        let array = |name: &str, count: usize| -> Result<(Vec<f64>, usize), MeshError> {
             let mut fault = format!(
                 "a piece has {} cells and no array `{name}` in <Cells>",
                 piece.cells
@@ -166,7 +167,8 @@ impl Grid {
             for array in &piece.topology {
                 match array {
                     Ok(array) if array.name == name => {
-                        return outline.values(array, count).map_err(damaged);
+                        let values = outline.values(array, count).map_err(damaged)?;
+                        return Ok((values, outline.line(array)));
                     }
                     Ok(_) => {}
                     Err(message) => fault.clone_from(message),
@@ -174,21 +176,30 @@ impl Grid {
             }
             Err(damaged(fault))
         };
-        let types = array("types", piece.cells)?;
-        let offsets = array("offsets", piece.cells)?;
-        let total = whole(offsets[piece.cells - 1])
-            .ok_or_else(|| damaged("the last of `offsets` is no count".into()))?;
-        let connectivity = array("connectivity", total)?;
+        let (types, _) = array("types", piece.cells)?;
+        let (offsets, line) = array("offsets", piece.cells)?;
+        let total = whole(offsets[piece.cells - 1]).ok_or_else(|| {
+            damaged(format!(
+                "line {line}: the last of `offsets` is no count of points: {}",
+                offsets[piece.cells - 1]
+            ))
+        })?;
+        let (connectivity, line_of_nodes) = array("connectivity", total)?;
         let mut start = 0;
         for (c, (&kind, &end)) in types.iter().zip(&offsets).enumerate() {
             let end = whole(end).filter(|&end| start <= end && end <= total);
             let end = end.ok_or_else(|| {
                 damaged(format!(
-                    "cell {c} (counted from 0): its entry in `offsets` is {}, where {start} to {total} is possible",
+                    "line {line}: cell {c} (counted from 0): its entry in `offsets` is {}, where {start} to {total} is possible",
                     offsets[c]
                 ))
             })?;
-            self.element(c, kind, &connectivity[start..end], base, piece.points)?;
+            let nodes = &connectivity[start..end];
+            self.element(c, kind, nodes, base, piece.points)
+                .map_err(|mut error| {
+                    error.message = format!("line {line_of_nodes}: {}", error.message);
+                    error
+                })?;
             start = end;
         }
         Ok(())

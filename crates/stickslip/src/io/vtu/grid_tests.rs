@@ -130,18 +130,22 @@ fn what_is_wrong_with_a_grid_is_said_with_what_to_do() {
         (
             text(POINTS, "1 2 9", "3", "5", ""),
             "cell 0 (counted from 0) uses point 9, but the points are 0 to 4",
-            None,
+            Some(6),
         ),
-        (text(POINTS, "1 2 -1", "3", "5", ""), "uses point -1", None),
+        (
+            text(POINTS, "1 2 -1", "3", "5", ""),
+            "uses point -1",
+            Some(6),
+        ),
         (
             text(POINTS, "1 2 3", "3", "9", ""),
             "is a quad4, which has 4 points, but `offsets` gives it 3",
-            None,
+            Some(6),
         ),
         (
             text(POINTS, "1 2 3", "3", "14", ""),
             "VTK type 14 (pyramid)",
-            None,
+            Some(6),
         ),
         (
             text(POINTS, "1 2 3 2 3 4", "3 2", "5 5", ""),
@@ -151,12 +155,12 @@ fn what_is_wrong_with_a_grid_is_said_with_what_to_do() {
         (
             text(POINTS, "1 2 3 2 3 4", "9 6", "5 5", ""),
             "cell 0 (counted from 0): its entry in `offsets` is 9, where 0 to 6",
-            None,
+            Some(7),
         ),
         (
             text(POINTS, "1 2 3", "-3", "5", ""),
-            "the last of `offsets` is no count",
-            None,
+            "the last of `offsets` is no count of points: -3",
+            Some(7),
         ),
         (
             text(POINTS, "1 2 3", "3", "5", "").replace("types", "kinds"),
@@ -171,7 +175,7 @@ fn what_is_wrong_with_a_grid_is_said_with_what_to_do() {
         (
             text(&POINTS.replace("1 1 4", "1 nan 4"), "1 2 3", "3", "5", ""),
             "point 4 (counted from 0) has a coordinate that is not finite",
-            None,
+            Some(4),
         ),
         (
             text(&POINTS.replace("1 1 4", "1 1 5"), "1 2 4", "3", "5", ""),

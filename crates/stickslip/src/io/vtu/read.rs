@@ -66,7 +66,8 @@ pub(super) struct Piece<'a> {
     pub points: usize,
     /// Number of cells.
     pub cells: usize,
-    coordinates: Option<Array<'a>>,
+    /// Coordinates.
+    pub coordinates: Option<Array<'a>>,
     /// Point data.
     pub data: Vec<Array<'a>>,
     /// The arrays that make the cells, or why one cannot be read: nobody may ask for it.
@@ -91,12 +92,16 @@ pub(super) fn point_fields(bytes: &[u8]) -> Result<PointFields, String> {
 
 const FOREIGN: &str = "this is no VTK file: it does not begin with <VTKFile>";
 
-const TRUNCATED: &str = "the file is truncated: it does not end with </VTKFile>";
-
 pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
     if !bytes.trim_ascii_end().ends_with(b"</VTKFile>") {
         let begun = bytes.windows(8).any(|w| w == b"<VTKFile");
-        return Err(if begun { TRUNCATED } else { FOREIGN }.into());
+        return Err(match begun {
+            true => format!(
+                "the file is truncated: it ends at byte {} without </VTKFile>",
+                bytes.len()
+            ),
+            false => FOREIGN.into(),
+        });
     }
     let mut scanner = Scanner::new(bytes);
     let mut root = None;
@@ -233,7 +238,12 @@ impl Outline<'_> {
     /// The values of an array on so many points or cells.
     pub fn values(&self, array: &Array, count: usize) -> Result<Vec<f64>, String> {
         let values = array.values(count, &self.packing, self.appended);
-        values.map_err(|message| format!("line {}: {message}", line(self.bytes, array.at)))
+        values.map_err(|message| format!("line {}: {message}", self.line(array)))
+    }
+
+    /// The line of the tag of an array.
+    pub fn line(&self, array: &Array) -> usize {
+        line(self.bytes, array.at)
     }
 
     /// The coordinates of a piece.
@@ -244,7 +254,7 @@ impl Outline<'_> {
             }
             Some(array) => Err(format!(
                 "line {}: the points have {} components, not 3",
-                line(self.bytes, array.at),
+                self.line(array),
                 array.components
             )),
             None if piece.points == 0 => Ok(Vec::new()),
@@ -259,7 +269,7 @@ impl Outline<'_> {
             let Entry::Vacant(place) = arrays.entry(array.name.clone()) else {
                 return Err(format!(
                     "line {}: a second array `{}`",
-                    line(self.bytes, array.at),
+                    self.line(array),
                     array.name
                 ));
             };

@@ -340,7 +340,10 @@ fn a_file_that_is_cut_anywhere_is_refused() {
     std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
     let error = read(&path).unwrap_err().to_string();
     std::fs::remove_file(&path).unwrap();
-    let message = "the file is truncated: it does not end with </VTKFile>";
+    let message = format!(
+        "the file is truncated: it ends at byte {} without </VTKFile>",
+        whole.len() / 2
+    );
     assert_eq!(error, format!("{}: {message}", path.display()));
     let error = read(&path).unwrap_err().to_string();
     assert!(error.starts_with(path.to_str().unwrap()), "{error}");
