@@ -161,8 +161,8 @@ impl Grid {
         }
         let array = |name: &str, count: usize| -> Result<(Vec<f64>, usize), MeshError> {
             let mut fault = format!(
-                "a piece has {} cells and no array `{name}` in <Cells>",
-                piece.cells
+                "line {}: the piece has no array `{name}` in <Cells>",
+                piece.line
             );
             for array in &piece.topology {
                 match array {
@@ -338,6 +338,7 @@ impl Grid {
             let cell = into.cell_ids.len() - 1;
             cells[e] = Some(CellRef { block, cell });
         }
+        mend_wedges(mesh);
         if mesh.dim == 2 && mesh.cells().all(|cell| mesh.cell_measure(cell) < 0.0) {
             for block in &mut mesh.blocks {
                 let order = turned(block.kind);
@@ -402,6 +403,18 @@ impl Grid {
         let faces = Faces::of(mesh, &nodes);
         let owner = |nodes: &&[usize]| faces.owner(mesh, nodes, false);
         nodes.iter().map(owner).collect()
+    }
+}
+
+/// Turns linear wedges over that are inside out: most other programs write them in the order of Abaqus and Gmsh, not in VTK's.
+fn mend_wedges(mesh: &mut Mesh) {
+    let cells = mesh.cells().filter(|&cell| {
+        mesh.cell_kind(cell) == ElementKind::Wedge6 && mesh.cell_measure(cell) < 0.0
+    });
+    for CellRef { block, cell } in cells.collect::<Vec<_>>() {
+        let nodes = &mut mesh.blocks[block].connectivity[6 * cell..6 * cell + 6];
+        nodes.swap(1, 2);
+        nodes.swap(4, 5);
     }
 }
 

@@ -164,8 +164,8 @@ fn what_is_wrong_with_a_grid_is_said_with_what_to_do() {
         ),
         (
             text(POINTS, "1 2 3", "3", "5", "").replace("types", "kinds"),
-            "a piece has 1 cells and no array `types`",
-            None,
+            "the piece has no array `types` in <Cells>",
+            Some(3),
         ),
         (
             text(POINTS, "1 2 3", "3", "5", "").replace("UInt8", "String"),

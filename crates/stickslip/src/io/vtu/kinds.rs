@@ -25,10 +25,22 @@ pub(super) fn vtk_type(kind: ElementKind) -> u8 {
         ElementKind::Tet10 => 24,
         ElementKind::Hex8 => 12,
         ElementKind::Hex20 => 25,
+        ElementKind::Wedge6 => 13,
+        ElementKind::Wedge15 => 26,
     }
 }
 
-const MIXED: &str = "solids are tetrahedra or hexahedra: mesh with these";
+/// The nodes of a cell in VTK's order, and back again: it is its own inverse. Empty if the orders agree.
+///
+/// VTK's linear wedge has its first triangle facing out of the cell, while its quadratic one, as ours, has it facing in.
+pub(super) fn vtk_order(kind: ElementKind) -> &'static [usize] {
+    match kind {
+        ElementKind::Wedge6 => &[0, 2, 1, 3, 5, 4],
+        _ => &[],
+    }
+}
+
+const MIXED: &str = "solids are tetrahedra, wedges or hexahedra: mesh with these";
 const SPLIT: &str =
     "split it into triangles or tetrahedra (the filter Triangulate or Tetrahedralize of ParaView)";
 const SERENDIPITY: &str =
@@ -40,7 +52,7 @@ pub(super) fn cell(number: f64) -> Cell {
         .into_iter()
         .find(|&kind| f64::from(vtk_type(kind)) == number);
     if let Some(kind) = ours {
-        return Cell::Solid(kind, &[]);
+        return Cell::Solid(kind, vtk_order(kind));
     }
     let number = if number.fract() == 0.0 { number } else { -1.0 };
     match number as i64 {
@@ -52,7 +64,6 @@ pub(super) fn cell(number: f64) -> Cell {
         6 => Cell::Refused("triangle strip", SPLIT),
         7 => Cell::Refused("polygon", SPLIT),
         42 => Cell::Refused("polyhedron", SPLIT),
-        13 | 26 => Cell::Refused("wedge", MIXED),
         14 | 27 => Cell::Refused("pyramid", MIXED),
         28 | 29 | 33 | 34 | 37 => {
             Cell::Refused("element with nodes inside faces or cells", SERENDIPITY)
@@ -60,7 +71,7 @@ pub(super) fn cell(number: f64) -> Cell {
         35 | 36 | 60..=81 => Cell::Refused("element of higher order", SERENDIPITY),
         _ => Cell::Refused(
             "cell outside the family",
-            "triangles, quadrilaterals, tetrahedra and hexahedra of order 1 or 2 are read",
+            "triangles, quadrilaterals, tetrahedra, wedges and hexahedra of order 1 or 2 are read",
         ),
     }
 }

@@ -62,6 +62,8 @@ pub(super) struct Outline<'a> {
 
 /// A piece of a grid.
 pub(super) struct Piece<'a> {
+    /// The line of its tag.
+    pub line: usize,
     /// Number of points.
     pub points: usize,
     /// Number of cells.
@@ -116,6 +118,7 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
             (Event::Open(_), [_]) | (Event::Text(_), []) => return Err(FOREIGN.into()),
             (Event::Open(attributes), ["VTKFile", "UnstructuredGrid", "Piece"]) => {
                 pieces.push(Piece {
+                    line: line(bytes, scanner.position()),
                     points: count(&attributes, "NumberOfPoints", None).map_err(fault)?,
                     cells: count(&attributes, "NumberOfCells", Some(0)).map_err(fault)?,
                     coordinates: None,
@@ -144,7 +147,13 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
                             "Points" if piece.coordinates.is_some() => {
                                 return Err(fault("a second array of points".into()));
                             }
-                            "Points" => piece.coordinates = Some(array?),
+                            "Points" => {
+                                let mut array = array?;
+                                if array.name.is_empty() {
+                                    array.name = "Points".into();
+                                }
+                                piece.coordinates = Some(array);
+                            }
                             "PointData" => piece.data.push(array?),
                             "Cells" => piece.topology.push(array),
                             // Texts, for one, are no values that a cell could have.
@@ -258,7 +267,10 @@ impl Outline<'_> {
                 array.components
             )),
             None if piece.points == 0 => Ok(Vec::new()),
-            None => Err("a piece has no array of points".into()),
+            None => Err(format!(
+                "line {}: the piece has no array of points",
+                piece.line
+            )),
         }
     }
 

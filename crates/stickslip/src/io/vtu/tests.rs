@@ -514,7 +514,7 @@ fn what_cannot_be_read_is_said() {
         (&points("<Piece/>"), "line 2: NumberOfPoints is missing"),
         (
             &points("<Piece NumberOfPoints='1'/>"),
-            "a piece has no array of points",
+            "the piece has no array of points",
         ),
         (
             &points(

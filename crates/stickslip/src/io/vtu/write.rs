@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::shape::ElementKind;
 use crate::system::{Fields, Location};
 
-use super::kinds::vtk_type;
+use super::kinds::{vtk_order, vtk_type};
 
 /// Bytes compressed at a time. Blocks are compressed in parallel, and are the same for any number of threads.
 const BLOCK: usize = 1 << 18;
@@ -231,11 +231,20 @@ impl Writer {
         self.array("UInt8", "types", 1, vec![1; points]);
     }
 
-    /// The cells of the blocks, and more cells behind them.
+    /// The cells of the blocks, and more cells, of kinds whose order VTK shares, behind them.
     fn cells(&mut self, mesh: &Mesh, more: &[(ElementKind, Vec<usize>)]) {
-        let connectivity = mesh.blocks.iter().flat_map(|block| &block.connectivity);
-        let connectivity = connectivity.chain(more.iter().flat_map(|(_, nodes)| nodes));
-        self.integers("connectivity", connectivity.map(|&point| point as i64));
+        let mut connectivity = Vec::new();
+        for block in &mesh.blocks {
+            let cells = block.connectivity.chunks_exact(block.kind.node_count());
+            match vtk_order(block.kind) {
+                [] => connectivity.extend(cells.flatten().map(|&point| point as i64)),
+                order => connectivity
+                    .extend(cells.flat_map(|cell| order.iter().map(|&i| cell[i] as i64))),
+            }
+        }
+        let more_nodes = more.iter().flat_map(|(_, nodes)| nodes);
+        connectivity.extend(more_nodes.map(|&point| point as i64));
+        self.integers("connectivity", connectivity.into_iter());
         let mut end = 0;
         let mut offsets = Vec::new();
         let mut types = Vec::new();
