@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::tree::{self, Table};
 use super::{FORMAT, Problem, check, key, overrides, schema, structure};
-use crate::error::{Diagnostic, Error, ProblemError};
+use crate::error::{Diagnostic, Error, ProblemError, line_column};
 
 /// The text of a problem file with its overrides: it becomes a [`Problem`], and shows where in the text a finding is.
 #[derive(Debug, Clone)]
@@ -81,6 +81,10 @@ impl Document {
                 finding.span = path.and_then(|path| tree::find(tree.get_ref(), &path));
             }
         }
+        for finding in findings.iter_mut().filter(|f| f.help.is_none()) {
+            let path = key::parse(&finding.key).ok();
+            finding.help = path.and_then(|path| structure::description(schema::shared(), &path));
+        }
         // Findings without a place, about the whole file, come first; `sort_by_key` keeps the order of equals.
         findings.sort_by_key(|f| f.span.as_ref().map(|s| s.start));
         ProblemError {
@@ -102,7 +106,7 @@ impl Document {
 
     fn tree(&self) -> Result<Spanned<Table<'_>>, Vec<Diagnostic>> {
         let (mut tree, errors) = Table::parse_recoverable(&self.source);
-        let mut findings: Vec<Diagnostic> = errors.iter().map(syntax).collect();
+        let mut findings = syntax_findings(&self.source, &errors);
         if findings.is_empty() {
             let mut wrong = |text| overrides::apply(tree.get_mut(), text).err();
             findings.extend(self.overrides.iter().filter_map(|o| wrong(o)));
@@ -113,6 +117,24 @@ impl Document {
             Err(findings)
         }
     }
+}
+
+/// Lines with mistakes of syntax that are reported: where a bracket is not closed all lines behind it have one.
+const MOST_LINES: usize = 5;
+
+/// The first mistake of each line.
+fn syntax_findings(source: &str, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
+    let line = |e: &toml::de::Error| e.span().map(|span| line_column(source, span.start).0);
+    let mut lines = Vec::new();
+    let mut out = Vec::new();
+    for error in errors {
+        let line = line(error);
+        if !lines.contains(&line) && lines.len() < MOST_LINES {
+            lines.push(line);
+            out.push(syntax(error));
+        }
+    }
+    out
 }
 
 fn syntax(error: &toml::de::Error) -> Diagnostic {
