@@ -194,3 +194,33 @@ fn what_is_wrong_with_a_grid_is_said_with_what_to_do() {
         assert_eq!(error.file.as_deref(), Some(Path::new("a.vtu")));
     }
 }
+
+#[test]
+fn every_kind_comes_back_and_wedges_from_either_order() {
+    for kind in ElementKind::ALL.into_iter().filter(|kind| kind.dim() > 1) {
+        let points = kind.reference().nodes();
+        let mut mesh = Mesh {
+            dim: kind.dim(),
+            points: points.to_vec(),
+            point_ids: (0..points.len() as u64).map(|i| 100 - i).collect(),
+            blocks: vec![Block {
+                kind,
+                connectivity: (0..points.len()).collect(),
+                cell_ids: vec![3],
+            }],
+            ..Mesh::default()
+        };
+        for (i, facet) in mesh.boundary().into_iter().enumerate() {
+            let points = mesh.points_of_facets(&[facet]);
+            mesh.facet_sets.insert(format!("face {i}"), vec![facet]);
+            mesh.point_sets.insert(format!("face {i}"), points);
+        }
+        assert_eq!(again(&mesh, kind.name()), mesh, "{kind}");
+    }
+    let points = "0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1";
+    for nodes in ["0 1 2 3 4 5", "0 2 1 3 5 4"] {
+        let mesh = parse(&text(points, nodes, "6", "13", ""));
+        assert_eq!(mesh.blocks[0].connectivity, [0, 1, 2, 3, 4, 5]);
+        mesh.check().unwrap();
+    }
+}
