@@ -1,6 +1,8 @@
 //! Developer tasks: `cargo xtask TASK`.
 
 mod chatter;
+mod dist;
+mod fuzz;
 mod peers;
 mod robustness;
 mod schema;
@@ -13,6 +15,8 @@ usage: cargo xtask TASK
 
 tasks:
   schema                    write stickslip.schema.json, the JSON schema of problem files
+  dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
+  fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu or checkpoint (needs cargo-fuzz)
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
@@ -35,6 +39,8 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
+        Some((task, [])) if task == "dist" => dist::pack(),
+        Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "peers" => peers::compare(what),
         Some((task, what)) if task == "robustness" => robustness::sweep(what),

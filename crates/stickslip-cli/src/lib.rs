@@ -15,11 +15,11 @@ mod render;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Frictional contact of elastic bodies, in 2D and 3D.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(name = "stickslip", version, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -35,6 +35,9 @@ enum Command {
     Curve(commands::curve::Arguments),
     Models(commands::models::Arguments),
     Schema(commands::schema::Arguments),
+    Convert(commands::convert::Arguments),
+    Completions(commands::completions::Arguments),
+    Man(commands::man::Arguments),
 }
 
 /// The input is wrong; also the code of a wrong command line.
@@ -43,6 +46,11 @@ const INPUT: u8 = 1;
 const CHECK: u8 = 2;
 /// Stopped by Ctrl-C; results up to there are complete.
 const INTERRUPTED: u8 = 130;
+
+/// The command line as data, for completions and manual pages.
+fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
 pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
@@ -63,6 +71,9 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
         Command::Curve(arguments) => commands::curve::run(&arguments),
         Command::Models(arguments) => commands::models::run(&arguments),
         Command::Schema(arguments) => commands::schema::run(&arguments),
+        Command::Convert(arguments) => commands::convert::run(&arguments),
+        Command::Completions(arguments) => commands::completions::run(&arguments),
+        Command::Man(arguments) => commands::man::run(&arguments),
     };
     match outcome {
         Ok(code) => code,

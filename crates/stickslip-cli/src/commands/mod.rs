@@ -2,8 +2,11 @@
 
 pub mod check;
 pub mod compare;
+pub mod completions;
+pub mod convert;
 pub mod curve;
 pub mod explain;
+pub mod man;
 pub mod models;
 pub mod run;
 pub mod schema;

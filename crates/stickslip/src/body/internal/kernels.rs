@@ -28,8 +28,18 @@ pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> 
     let scheme = Scheme::of(kind, formulation);
     if matches!(scheme, Scheme::Uniform | Scheme::Incompatible) {
         let kernel: Box<dyn Kernel> = match kind.dim() {
-            2 => Box::new(Swept(Cellwise::<4, 2>(Medium::new(kind, space, formulation, acting)))),
-            _ => Box::new(Swept(Cellwise::<8, 3>(Medium::new(kind, space, formulation, acting)))),
+            2 => Box::new(Swept(Cellwise::<4, 2>(Medium::new(
+                kind,
+                space,
+                formulation,
+                acting,
+            )))),
+            _ => Box::new(Swept(Cellwise::<8, 3>(Medium::new(
+                kind,
+                space,
+                formulation,
+                acting,
+            )))),
         };
         return vec![(kernel, all.collect())];
     }

@@ -4,7 +4,7 @@ use crate::mesh::{Block, Mesh};
 use crate::shape::ElementKind;
 use crate::system::{Field, Fields, Location};
 
-use super::read::parse;
+use super::read::point_fields as parse;
 use super::stream::tests::{deflate, encode};
 use super::{PointArray, PointFields, read, write};
 
@@ -340,7 +340,10 @@ fn a_file_that_is_cut_anywhere_is_refused() {
     std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
     let error = read(&path).unwrap_err().to_string();
     std::fs::remove_file(&path).unwrap();
-    let message = "the file is truncated: it does not end with </VTKFile>";
+    let message = format!(
+        "the file is truncated: it ends at byte {} without </VTKFile>",
+        whole.len() / 2
+    );
     assert_eq!(error, format!("{}: {message}", path.display()));
     let error = read(&path).unwrap_err().to_string();
     assert!(error.starts_with(path.to_str().unwrap()), "{error}");
@@ -432,11 +435,11 @@ fn what_cannot_be_read_is_said() {
         ),
         (
             &array("type='Float64'", "1 2 3"),
-            "array `V`: it has 3 values where its points need 2",
+            "array `V`: it has 3 values where the grid needs 2",
         ),
         (
             &array("type='Float64'", ""),
-            "it has 0 values where its points need 2",
+            "it has 0 values where the grid needs 2",
         ),
         (
             &array("type='Int8' format='hex'", "1 2"),
@@ -458,12 +461,12 @@ fn what_cannot_be_read_is_said() {
                 "type='Int8' NumberOfComponents='1000000000000000000'",
                 "1 2",
             ),
-            "array `V`: it has 2 values where its points need 2000000000000000000",
+            "array `V`: it has 2 values where the grid needs 2000000000000000000",
         ),
         // Three bytes after a header that says three.
         (
             &array("type='Int8' format='binary'", "AwAAAAECAw=="),
-            "array `V`: it has 3 bytes where its points need 2",
+            "array `V`: it has 3 bytes where the grid needs 2",
         ),
         (
             &array("type='Int8' format='binary'", "AgAAAAE="),
@@ -511,7 +514,7 @@ fn what_cannot_be_read_is_said() {
         (&points("<Piece/>"), "line 2: NumberOfPoints is missing"),
         (
             &points("<Piece NumberOfPoints='1'/>"),
-            "a piece has no array of points",
+            "the piece has no array of points",
         ),
         (
             &points(
