@@ -30,6 +30,8 @@ enum Command {
     Curve(commands::curve::Arguments),
     Models(commands::models::Arguments),
     Schema(commands::schema::Arguments),
+    Report(commands::report::Arguments),
+    Plot(commands::plot::Arguments),
 }
 
 /// The input is wrong; also the code of a wrong command line.
@@ -55,6 +57,8 @@ fn main() -> ExitCode {
         Command::Curve(arguments) => commands::curve::run(&arguments),
         Command::Models(arguments) => commands::models::run(&arguments),
         Command::Schema(arguments) => commands::schema::run(&arguments),
+        Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Plot(arguments) => commands::plot::run(&arguments),
     };
     match outcome {
         Ok(code) => code,

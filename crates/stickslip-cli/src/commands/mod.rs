@@ -5,6 +5,8 @@ pub mod compare;
 pub mod curve;
 pub mod explain;
 pub mod models;
+pub mod plot;
+pub mod report;
 pub mod run;
 pub mod schema;
 pub mod sweep;

@@ -53,6 +53,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut simulation = Simulation::with_library(model, library)?;
     simulation.summary.phases.read = read;
     let mut files = ResultFiles::new(&directory)?;
+    super::report::keep_problem(&directory, &problem)?;
     let mut progress = Progress::new(arguments.verbose);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
     if !arguments.quiet {

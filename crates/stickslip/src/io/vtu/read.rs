@@ -43,21 +43,31 @@ pub fn read(path: &Path) -> Result<PointFields, Error> {
 }
 
 /// What the tags of a file say.
-struct Outline<'a> {
-    packing: Packing,
-    pieces: Vec<Piece<'a>>,
-    appended: Appended<'a>,
+pub(super) struct Outline<'a> {
+    pub packing: Packing,
+    pub pieces: Vec<Piece<'a>>,
+    pub appended: Appended<'a>,
 }
 
 /// A piece of a grid.
-struct Piece<'a> {
-    points: usize,
+pub(super) struct Piece<'a> {
+    pub points: usize,
     coordinates: Option<Array<'a>>,
     data: Vec<Array<'a>>,
+    /// Its cells: how many, their arrays and the data on them.
+    pub cells: Cells<'a>,
+}
+
+/// The cells of a piece; empty where they were not asked for.
+#[derive(Default)]
+pub(super) struct Cells<'a> {
+    pub count: usize,
+    pub topology: Vec<Array<'a>>,
+    pub data: Vec<Array<'a>>,
 }
 
 pub(super) fn parse(bytes: &[u8]) -> Result<PointFields, String> {
-    let outline = outline(bytes)?;
+    let outline = outline(bytes, false)?;
     let mut all = PointFields::default();
     for piece in &outline.pieces {
         let next = outline.read(piece)?;
@@ -74,7 +84,8 @@ const FOREIGN: &str = "this is no VTK file: it does not begin with <VTKFile>";
 
 const TRUNCATED: &str = "the file is truncated: it does not end with </VTKFile>";
 
-fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
+/// The tags of a file. Arrays of cells are looked at only where they are asked for.
+pub(super) fn outline(bytes: &[u8], cells: bool) -> Result<Outline<'_>, String> {
     if !bytes.trim_ascii_end().ends_with(b"</VTKFile>") {
         let begun = bytes.windows(8).any(|w| w == b"<VTKFile");
         return Err(if begun { TRUNCATED } else { FOREIGN }.into());
@@ -95,6 +106,13 @@ fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
                     points: count(&attributes, "NumberOfPoints", None).map_err(fault)?,
                     coordinates: None,
                     data: Vec::new(),
+                    cells: Cells {
+                        count: match cells {
+                            true => count(&attributes, "NumberOfCells", None).map_err(fault)?,
+                            false => 0,
+                        },
+                        ..Cells::default()
+                    },
                 });
             }
             (
@@ -127,6 +145,33 @@ fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
                         };
                         // Text may be parted by elements that describe the array; the values are in the first part.
                         if let Some(array) = array.filter(|array| array.text.is_empty()) {
+                            array.text = text;
+                        }
+                    }
+                    Event::Close => {}
+                }
+            }
+            (
+                event,
+                [
+                    "VTKFile",
+                    "UnstructuredGrid",
+                    "Piece",
+                    section @ ("CellData" | "Cells"),
+                    "DataArray",
+                ],
+            ) if cells => {
+                let Some(piece) = pieces.last_mut() else {
+                    continue;
+                };
+                let list = match *section {
+                    "Cells" => &mut piece.cells.topology,
+                    _ => &mut piece.cells.data,
+                };
+                match event {
+                    Event::Open(attributes) => list.push(Array::new(&attributes).map_err(fault)?),
+                    Event::Text(text) => {
+                        if let Some(array) = list.last_mut().filter(|a| a.text.is_empty()) {
                             array.text = text;
                         }
                     }
@@ -201,7 +246,8 @@ fn append<'a>(rest: &'a [u8], attributes: &[(&str, String)]) -> Result<Appended<
 }
 
 impl Outline<'_> {
-    fn read(&self, piece: &Piece) -> Result<PointFields, String> {
+    /// The points of a piece and the data on them.
+    pub fn read(&self, piece: &Piece) -> Result<PointFields, String> {
         let values = |array: &Array| array.values(piece.points, &self.packing, self.appended);
         let points = match &piece.coordinates {
             Some(array) if array.components == 3 => values(array)?.as_chunks().0.to_vec(),
@@ -230,7 +276,7 @@ impl Outline<'_> {
 
 impl PointFields {
     /// Appends the points of another piece, which has to have the same arrays.
-    fn join(&mut self, mut other: PointFields) -> Result<(), String> {
+    pub(super) fn join(&mut self, mut other: PointFields) -> Result<(), String> {
         self.points.append(&mut other.points);
         for (name, array) in &mut self.arrays {
             let mut more = other

@@ -4,6 +4,7 @@ use crate::mesh::{Block, Mesh};
 use crate::shape::ElementKind;
 use crate::system::{Field, Fields, Location};
 
+use super::grid::parse_grid;
 use super::read::parse;
 use super::stream::tests::{deflate, encode};
 use super::{PointArray, PointFields, read, write};
@@ -527,5 +528,67 @@ fn what_cannot_be_read_is_said() {
     ] {
         let error = parse(text.as_bytes()).unwrap_err();
         assert!(error.contains(message), "{error}\nfor {text}");
+    }
+}
+
+/// A piece in text: two triangles and a line on four points.
+const PIECE: &str = "<Piece NumberOfPoints=\"4\" NumberOfCells=\"3\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">\
+    0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\">0 1 2 0 2 3 0 1</DataArray>\
+    <DataArray type=\"Int32\" Name=\"offsets\">3 6 8</DataArray><DataArray type=\"UInt8\" Name=\"types\">5 5 3</DataArray></Cells>\
+    <CellData><DataArray type=\"Int8\" Name=\"BODY\">0 1 1</DataArray></CellData></Piece>";
+
+#[test]
+fn cells_are_read_and_pieces_of_them_are_joined() {
+    let text = format!(
+        "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>{PIECE}{PIECE}</UnstructuredGrid></VTKFile>"
+    );
+    let grid = parse_grid(text.as_bytes()).unwrap();
+    assert_eq!(grid.points.points.len(), 8);
+    assert_eq!(grid.types, [5, 5, 3, 5, 5, 3]);
+    assert_eq!(grid.cell(1), [0, 2, 3]);
+    assert_eq!(grid.cell(4), [4, 6, 7]);
+    assert_eq!(grid.cell(5), [4, 5]);
+    assert_eq!(
+        grid.cell_arrays["BODY"].values,
+        [0.0, 1.0, 1.0, 0.0, 1.0, 1.0]
+    );
+    for (old, new, message) in [
+        (">0 1 2 0 2 3 0 1<", ">0 1 2 0 2 9 0 1<", "point 9"),
+        (">0 1 2 0 2 3 0 1<", ">0 1 2 0 2 -3 0 1<", "no index"),
+        (">0 1 2 0 2 3 0 1<", ">0 1 2 0 2 3 0<", "connectivity"),
+        (">3 6 8<", ">6 3 8<", "decreases"),
+        ("\"offsets\"", "\"ends\"", "no array `offsets`"),
+        ("\"UInt8\" Name", "\"Int32\" Name", ">300"),
+    ] {
+        let text = text.replacen(old, new, 1).replace(
+            ">5 5 3<",
+            match message {
+                ">300" => ">5 300 3<",
+                _ => ">5 5 3<",
+            },
+        );
+        let error = parse_grid(text.as_bytes()).unwrap_err();
+        let wanted = message.trim_start_matches('>');
+        assert!(error.contains(wanted), "{message}: {error}");
+    }
+}
+
+#[test]
+fn a_grid_that_was_written_reads_back() {
+    let path = temporary("grid.vtu");
+    let (mesh, fields) = model(8, ElementKind::Hex8);
+    write(&path, &mesh, &fields, Some(&[3])).unwrap();
+    let grid = super::read_grid(&path).unwrap();
+    assert_eq!(all_bits(&grid.points), all_bits(&read(&path).unwrap()));
+    assert_eq!(grid.types, [12]);
+    assert_eq!(grid.cell(0), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(grid.cell_arrays["BODY"].values, [3.0]);
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    for at in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 0x55;
+        let _ = parse_grid(&damaged);
+        let _ = parse_grid(&bytes[..at]);
     }
 }
