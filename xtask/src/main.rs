@@ -1,5 +1,6 @@
 //! Developer tasks: `cargo xtask TASK`.
 
+mod browser;
 mod chatter;
 mod peers;
 mod robustness;
@@ -12,6 +13,8 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
+  browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
+                            playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
@@ -36,6 +39,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
         Some((task, [])) if task == "chatter" => chatter::measure(),
+        Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),
         Some((task, what)) if task == "robustness" => robustness::sweep(what),
         _ => Err(USAGE.to_string()),

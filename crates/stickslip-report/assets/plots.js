@@ -112,7 +112,7 @@ report.attempt(async () => {
     if (some(get("DT"))) plot(convergence, "Length of increments", increments, [{ ...line("DT", "DT"), stepped: true }], { log: true, sync: "rows" });
     const statuses = [["OPEN", "open", 0], ["STICK", "stick", 1], ["SLIP", "slip", 2]].filter(([n]) => get(n));
     if (statuses.some(([n]) => some(get(n)))) {
-      const inkOf = (i) => ["#b59b00", "#0072b2", "#d55e00"][i];
+      const inkOf = (i) => ["#a8912a", "#0072b2", "#d55e00"][i];
       plot(convergence, "Contact points by status", increments, statuses.map(([n, label, i]) => ({ ...line(n, label), stroke: inkOf(i), stepped: true })), { sync: "rows" });
     }
   }

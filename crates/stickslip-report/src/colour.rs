@@ -33,9 +33,10 @@ pub const SIGNED: &[Rgb] = &[
 /// Where there is no value.
 pub const NOTHING: Rgb = [196, 200, 206];
 
-/// The status of contact: name and colour, by its number. From the palette of Okabe and Ito.
+/// The status of contact: name and colour, by its number. Blue and vermilion of the palette of Okabe and Ito, and a yellow that is
+/// pale, as most of a surface is open.
 pub const STATUSES: [(&str, Rgb); 3] = [
-    ("open", [240, 228, 66]),
+    ("open", [243, 229, 150]),
     ("stick", [0, 114, 178]),
     ("slip", [213, 94, 0]),
 ];

@@ -65,6 +65,12 @@ pub fn draw(
     };
     let nothing = || fault(&results.directory, "the columns hold no numbers");
     let [low, high] = crate::field::range(x.iter().copied()).ok_or_else(nothing)?;
+    // A time that begins just after zero begins at zero.
+    let low = if low > 0.0 && low < 0.02 * high {
+        0.0
+    } else {
+        low
+    };
     let [x0, x1] = spread(low, high, 0.0);
     let all = lines.iter().flat_map(|(_, y)| y.iter().copied());
     let [low, high] = crate::field::range(all).ok_or_else(nothing)?;

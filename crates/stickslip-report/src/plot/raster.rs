@@ -75,15 +75,15 @@ impl Raster {
         if !length.is_finite() {
             return;
         }
-        let half = width / 2.0;
+        let half = width.max(1.0) / 2.0;
         let clamp = |v: f64, most: usize| v.clamp(0.0, most as f64) as usize;
         let (x0, x1) = (
-            clamp((a[0].min(b[0]) - half).floor(), self.size[0]),
-            clamp((a[0].max(b[0]) + half).ceil(), self.size[0]),
+            clamp((a[0].min(b[0]) - half - 0.5).floor(), self.size[0]),
+            clamp((a[0].max(b[0]) + half + 0.5).ceil(), self.size[0]),
         );
         let (y0, y1) = (
-            clamp((a[1].min(b[1]) - half).floor(), self.size[1]),
-            clamp((a[1].max(b[1]) + half).ceil(), self.size[1]),
+            clamp((a[1].min(b[1]) - half - 0.5).floor(), self.size[1]),
+            clamp((a[1].max(b[1]) + half + 0.5).ceil(), self.size[1]),
         );
         for y in y0..y1 {
             for x in x0..x1 {
@@ -93,9 +93,11 @@ impl Raster {
                     false => 0.0,
                 };
                 let away = (px - along * dx).hypot(py - along * dy);
-                if away <= half {
+                // The part of the pixel that is covered: a thin line would have gaps otherwise.
+                let cover = (half + 0.5 - away).clamp(0.0, 1.0) * width.min(1.0);
+                if cover > 0.0 {
                     let z = a[2] + along * (b[2] - a[2]) + lift;
-                    self.set(x, y, z, ink, strength);
+                    self.set(x, y, z, ink, strength * cover);
                 }
             }
         }
@@ -112,11 +114,18 @@ impl Raster {
             self.depth[i] = z;
             pixel[..3].copy_from_slice(&colour);
             pixel[3] = 255;
-        } else if pixel[3] > 0 {
-            for (p, c) in pixel.iter_mut().zip(colour) {
-                *p = (f64::from(*p) * (1.0 - strength) + f64::from(c) * strength) as u8;
-            }
+            return;
         }
+        // Over what is there; where nothing is, the part that is covered becomes the opacity.
+        let under = f64::from(pixel[3]) / 255.0 * (1.0 - strength);
+        let opacity = strength + under;
+        if opacity <= 0.0 {
+            return;
+        }
+        for (p, c) in pixel[..3].iter_mut().zip(colour) {
+            *p = ((f64::from(*p) * under + f64::from(c) * strength) / opacity).round() as u8;
+        }
+        pixel[3] = (255.0 * opacity).round() as u8;
     }
 }
 

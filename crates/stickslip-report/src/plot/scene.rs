@@ -323,7 +323,7 @@ impl<'a> Scene<'a> {
             );
             y += 1.15 * em;
         }
-        y += 0.6 * em;
+        y += 0.9 * em;
         let mut key = |colour, words: &str, y: &mut f64| {
             canvas.rectangle([x, *y], [1.1 * em, 1.1 * em], colour);
             let place = [x + 1.6 * em, *y + 0.92 * em];
@@ -346,18 +346,15 @@ impl<'a> Scene<'a> {
         }
         let [low, high] = self.colours.range;
         let height = (size[1] - (y - at[1]) - em).clamp(4.0 * em, 24.0 * em);
-        const STRIPES: usize = 128;
-        for i in 0..STRIPES {
-            let colour = colour::along(self.colours.anchors(), (i as f64 + 0.5) / STRIPES as f64);
-            let part = height / STRIPES as f64;
-            // Stripes overlap by a little: smooth edges would show as lines.
-            let top = y + height - (i + 1) as f64 * part;
-            canvas.rectangle(
-                [x, top],
-                [1.5 * em, part + if i > 0 { 0.6 } else { 0.0 }],
-                colour,
-            );
-        }
+        let bar = [1.5 * em, height].map(|n| (n * FINE as f64) as usize);
+        let pixels: Vec<u8> = (0..bar[1])
+            .flat_map(|row| {
+                let t = 1.0 - (row as f64 + 0.5) / bar[1] as f64;
+                let [r, g, b] = colour::along(self.colours.anchors(), t);
+                std::iter::repeat_n([r, g, b, 255], bar[0]).flatten()
+            })
+            .collect();
+        canvas.picture([x, y], bar, FINE, &pixels);
         let ticks = if high > low {
             axis::ticks(low, high, 7)
         } else {
