@@ -55,6 +55,7 @@ report.attempt(async () => {
       ...size(),
       legend: { live: true },
       cursor: { drag: { x: true, y: false }, sync: options.sync ? { key: options.sync } : undefined, points: { size: 6 } },
+      bands: options.bands,
       scales: { x: { time: false }, y: log ? { distr: 3 } : { range } },
       axes: [axis(along.name), { ...axis(""), size: 68, values: (u, ticks) => ticks.map((t) => (t === null ? "" : number(t))) }],
       series: [{ label: along.name, value: shown }, ...lines.map((line, i) => ({
@@ -130,11 +131,12 @@ report.attempt(async () => {
       const sums = [];
       parts.forEach((n, i) => sums.push(get(n).map((v, k) => (v || 0) + (i ? sums[i - 1][k] : 0))));
       const layers = parts.map((n, i) => ({
-        label: words[n], values: sums[i], stroke: inks[i % inks.length], fill: inks[i % inks.length] + "66",
+        label: words[n], values: sums[i], stroke: inks[i % inks.length], fill: inks[i % inks.length] + "88",
         shown: (u, v, s, k) => number(k === null || k === undefined ? null : get(n)[k]),
       })).reverse();
       const supplied = get("ALLWK").map((v, k) => (v || 0) + ((get("EINITIAL") || [])[k] || 0));
-      plot(energy, "Stored and dissipated, stacked, and what was supplied", time, [...layers, { label: "supplied", values: supplied, stroke: "#7f7f7f" }], { sync: "energy" });
+      plot(energy, "Stored and dissipated, stacked, and what was supplied", time, [...layers, { label: "supplied", values: supplied, stroke: "#7f7f7f" }],
+        { sync: "energy", bands: parts.slice(1).map((_, i) => ({ series: [i + 1, i + 2] })) });
     }
     if (known.length) plot(energy, "Energies", time, known.map((n) => line(n, words[n])), { sync: "energy" });
     if (get("ERESIDUAL")) plot(energy, "Residual of the balance", time, [line("ERESIDUAL", "residual")], { sync: "energy" });

@@ -50,7 +50,7 @@ report.attempt(async () => {
   const uniforms = {
     factor: { value: 1 }, ramp: { value: ramps.ordered }, status: { value: 0 }, lit: { value: flat ? 0 : 1 }, nothing: { value: rgb(model.nothing) },
     first: { value: rgb(model.statuses[0].colour) }, second: { value: rgb(model.statuses[1].colour) }, third: { value: rgb(model.statuses[2].colour) },
-    ink: { value: new THREE.Vector3() }, strength: { value: 0.35 }, dot: { value: 9 },
+    ink: { value: new THREE.Vector3() }, soft: { value: new THREE.Vector3() }, strength: { value: 0.35 }, dot: { value: 9 },
   };
   // A status is no number between others: the corner that is nearest decides.
   const vertex = `
@@ -91,7 +91,7 @@ report.attempt(async () => {
     void main() {
       float r = length(gl_PointCoord - 0.5);
       if (r > 0.5 || vDatum.y < 0.5) discard;
-      gl_FragColor = vec4(r > 0.40 ? colouring() * 0.35 : colouring(), 1.0);
+      gl_FragColor = vec4(r > 0.43 ? colouring() * 0.35 : colouring(), 1.0);
     }`,
   });
 
@@ -127,6 +127,24 @@ report.attempt(async () => {
     }
     from = end;
   });
+
+  // Obstacles are lines. They move by the same factor as the bodies.
+  let shift = null, shifts = null;
+  if (model.obstacles.any) {
+    const places = await report.singles("obstacles");
+    const made = new THREE.BufferGeometry();
+    shift = new THREE.BufferAttribute(new Float32Array(places.length), 3);
+    made.setAttribute("position", new THREE.BufferAttribute(places, 3));
+    made.setAttribute("motion", shift);
+    made.setAttribute("datum", new THREE.BufferAttribute(new Float32Array((2 * places.length) / 3), 2));
+    made.setIndex(new THREE.BufferAttribute(await report.indices("obstacle-lines"), 1));
+    if (model.obstacles.move) shifts = await report.singles("obstacle-motion");
+    const bold = lines.clone();
+    bold.uniforms = { ...uniforms, strength: { value: 0.85 }, ink: uniforms.soft };
+    const wire = new THREE.LineSegments(made, bold);
+    wire.frustumCulled = false;
+    scene.add(wire);
+  }
 
   // The camera, without perspective, so that lengths can be compared.
   const radius = Math.max(model.size / 2, 1e-30);
@@ -238,6 +256,11 @@ report.attempt(async () => {
       for (let i = 0; i < 3 * n; i++) out[i] = back(model.motion, motion[offset + i]);
     }
     attributes.motion.needsUpdate = true;
+    if (shifts) {
+      const size = shift.array.length;
+      shift.array.set(shifts.subarray(size * state.frame, size * (state.frame + 1)));
+      shift.needsUpdate = true;
+    }
   }
 
   function colours() {
@@ -483,6 +506,8 @@ report.attempt(async () => {
     renderer.setClearColor(new THREE.Color(report.colour("--stage")), 1);
     const c = new THREE.Color(report.colour("--edge"));
     uniforms.ink.value.set(c.r, c.g, c.b);
+    const s = new THREE.Color(report.colour("--soft"));
+    uniforms.soft.value.set(s.r, s.g, s.b);
     draw();
   }
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", theme);

@@ -7,6 +7,7 @@ mod colour;
 mod draw;
 mod field;
 mod html;
+mod obstacle;
 mod pack;
 pub mod plot;
 mod results;

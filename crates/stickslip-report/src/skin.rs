@@ -132,36 +132,39 @@ impl Skin {
         let owners = grid.cell_arrays.get("BODY").map(|a| &a.values);
         let body = |i: usize| owners.map_or(0, |o| o[i].max(0.0) as usize);
         let mut seen = Vec::new();
-        // By sorted corners: a face between two cells is met twice.
-        let mut open: BTreeMap<Vec<usize>, Option<Seen>> = BTreeMap::new();
+        // By sorted corners: a face between two cells is met twice. Three corners have an end that no point has.
+        let mut met: Vec<([usize; 4], usize, usize)> = Vec::new();
         for (i, &kind) in grid.types.iter().enumerate() {
             let (of, faces) = faces(kind);
-            if of != dim {
+            let cell = grid.cell(i);
+            // Cells of a lower dimension are supports or loads of other programs; those with too few points are damaged.
+            let whole = |face: &Face| face.iter().all(|&k| k < cell.len());
+            if of != dim || !faces.iter().all(whole) {
                 continue;
             }
-            let cell = grid.cell(i);
-            for face in faces {
-                let points: Option<Vec<usize>> =
-                    face.iter().map(|&k| cell.get(k).copied()).collect();
-                let Some(points) = points else {
-                    continue;
-                };
-                let face = Seen {
-                    body: body(i),
-                    points,
-                };
-                if dim == 2 {
-                    seen.push(face);
-                    continue;
+            for (k, face) in faces.iter().enumerate() {
+                let mut key = [usize::MAX; 4];
+                let n = corners(face.len());
+                for (slot, &corner) in key[..n].iter_mut().zip(&face[..n]) {
+                    *slot = cell[corner];
                 }
-                let mut key = face.points[..corners(face.points.len())].to_vec();
-                key.sort_unstable();
-                open.entry(key)
-                    .and_modify(|twice| *twice = None)
-                    .or_insert(Some(face));
+                key[..n].sort_unstable();
+                met.push((key, i, k));
             }
         }
-        seen.extend(open.into_values().flatten());
+        if dim == 3 {
+            met.sort_unstable();
+        }
+        for same in met.chunk_by(|a, b| dim == 3 && a.0 == b.0) {
+            if let [(_, i, k)] = same {
+                let cell = grid.cell(*i);
+                let (_, faces) = faces(grid.types[*i]);
+                seen.push(Seen {
+                    body: body(*i),
+                    points: faces[*k].iter().map(|&k| cell[k]).collect(),
+                });
+            }
+        }
         seen.sort_by_key(|face| face.body);
         Skin::from_faces(grid, dim, &seen)
     }

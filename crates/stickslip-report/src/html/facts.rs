@@ -167,10 +167,10 @@ pub fn quality(results: &Results) -> String {
             let cells = vec![
                 text(f["figure"].as_str().unwrap_or("?")).replace('-', " "),
                 text(f["place"].as_str().unwrap_or("?")),
+                verdict,
                 shown(value),
                 shown(limit),
                 bar,
-                verdict,
                 shown(f["time"].as_f64()),
             ];
             (met, cells)
@@ -193,10 +193,10 @@ pub fn quality(results: &Results) -> String {
             &[
                 "figure",
                 "where",
+                "verdict",
                 "value",
                 "limit",
                 "value over limit",
-                "verdict",
                 "at time",
             ],
             &rows,

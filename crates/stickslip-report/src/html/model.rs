@@ -5,6 +5,7 @@ use stickslip::Error;
 use stickslip::io::vtu::PointArray;
 
 use crate::field::{self, Field};
+use crate::obstacle::{self, Outline};
 use crate::pack;
 use crate::results::{Results, fault};
 use crate::skin::Skin;
@@ -142,6 +143,10 @@ fn describe(
     if !motion.is_empty() {
         blobs.push(("motion".to_string(), pack::shorts(&moved.values)));
     }
+    let times: Vec<f64> = kept.iter().map(|&i| results.frames[i].time).collect();
+    let outlines = obstacle::outlines(&results.problem, skin);
+    let moving = outlines.iter().any(Outline::moves);
+    blobs.extend(obstacles(&outlines, middle, &times, moving));
     let colours = |list: &[crate::colour::Rgb]| json!(list);
     let statuses: Vec<Value> = crate::colour::STATUSES
         .iter()
@@ -155,7 +160,8 @@ fn describe(
         "largest": largest,
         "scale": scale(skin.size(), largest),
         "motion": (!motion.is_empty()).then_some(moved.range),
-        "times": kept.iter().map(|&i| results.frames[i].time).collect::<Vec<f64>>(),
+        "times": times,
+        "obstacles": {"any": !outlines.is_empty(), "move": moving},
         "bodies": results.bodies(skin.ends.len()),
         "ends": skin.ends,
         "fields": shown,
@@ -165,6 +171,45 @@ fn describe(
         "statuses": statuses,
     });
     Packed { meta, blobs }
+}
+
+/// Lines of the obstacles: points at the first time, what they move to, and the lines between them.
+fn obstacles(
+    outlines: &[Outline],
+    middle: [f64; 3],
+    times: &[f64],
+    moving: bool,
+) -> Vec<(String, String)> {
+    if outlines.is_empty() {
+        return Vec::new();
+    }
+    let all = |t: f64| outlines.iter().flat_map(move |o| o.at(t)).flatten();
+    let start = 0.0;
+    let relative = all(start).enumerate().map(|(i, x)| x - middle[i % 3]);
+    let mut first = 0;
+    let mut lines = Vec::new();
+    for outline in outlines {
+        lines.extend(outline.lines.iter().flatten().map(|i| i + first));
+        first += outline.at(start).len() as u32;
+    }
+    let mut blobs = vec![
+        ("obstacles".to_string(), pack::singles(relative)),
+        (
+            "obstacle-lines".to_string(),
+            pack::indices(lines.into_iter()),
+        ),
+    ];
+    if moving {
+        let from: Vec<f64> = all(start).collect();
+        let moved = times.iter().flat_map(|&t| {
+            all(t)
+                .zip(&from)
+                .map(|(x, x0)| x - x0)
+                .collect::<Vec<f64>>()
+        });
+        blobs.push(("obstacle-motion".to_string(), pack::singles(moved)));
+    }
+    blobs
 }
 
 /// The factor of displacements at which the largest is a twentieth of the model; 1 if it is more by itself.

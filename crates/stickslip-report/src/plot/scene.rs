@@ -10,6 +10,7 @@ use super::{Picture, axis};
 use crate::colour::{self, Scale};
 use crate::draw::{Anchor, Canvas, Pen, text_width};
 use crate::field::{self, Field};
+use crate::obstacle::{self, Outline};
 use crate::results::{Results, fault};
 use crate::skin::Skin;
 
@@ -29,6 +30,7 @@ pub struct Scene<'a> {
     colours: Scale,
     scale: f64,
     camera: Camera,
+    obstacles: Vec<Outline>,
     /// The box of the picture's plane that holds the bodies at all times.
     bounds: [[f64; 2]; 2],
     /// What was chosen for the reader.
@@ -131,7 +133,9 @@ impl<'a> Scene<'a> {
                 }
             }
         }
+        let obstacles = obstacle::outlines(&results.problem, &skin);
         Ok(Scene {
+            obstacles,
             results,
             skin,
             shown,
@@ -155,7 +159,7 @@ impl<'a> Scene<'a> {
         let at = [margin, top];
         let area = [width - bar - 2.0 * margin, height - top - 2.6 * em];
         let area = area.map(|n| n.max(16.0));
-        self.bodies(&points, at, area, em, canvas);
+        self.bodies(frame, &points, at, area, em, canvas);
         let title = self.results.title();
         let title = shorten(&title, 1.35 * em, width - 2.0 * margin);
         canvas.text(
@@ -193,6 +197,7 @@ impl<'a> Scene<'a> {
 
     fn bodies(
         &self,
+        number: usize,
         points: &PointFields,
         at: [f64; 2],
         area: [f64; 2],
@@ -249,6 +254,21 @@ impl<'a> Scene<'a> {
             for e in edges {
                 let ends = e.map(|i| seen[i as usize]);
                 raster.line(ends, 0.5 * fine, lift, INK, strength);
+            }
+        }
+        let time = self.results.frames[number].time;
+        for outline in &self.obstacles {
+            // By the same factor as the bodies.
+            let (from, to) = (outline.at(0.0), outline.at(time));
+            let ends: Vec<[f64; 3]> = from
+                .iter()
+                .zip(&to)
+                .map(|(x, y)| [0, 1, 2].map(|c| x[c] + self.scale * (y[c] - x[c])))
+                .map(|x| frame.place(self.camera.see(x)))
+                .collect();
+            for line in &outline.lines {
+                let ends = line.map(|i| ends[i as usize]);
+                raster.line(ends, 0.8 * fine, 0.0, SOFT, 0.8);
             }
         }
         if flat && values.iter().any(|v| v.is_nan()) {
