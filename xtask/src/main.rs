@@ -1,5 +1,6 @@
 //! Developer tasks: `cargo xtask TASK`.
 
+mod browser;
 mod chatter;
 mod dist;
 mod fuzz;
@@ -14,6 +15,8 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
+  browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
+                            playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
   fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu or checkpoint (needs cargo-fuzz)
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
         Some((task, [])) if task == "dist" => dist::pack(),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
+        Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),
         Some((task, what)) if task == "robustness" => robustness::sweep(what),
         _ => Err(USAGE.to_string()),

@@ -8,6 +8,8 @@ pub mod curve;
 pub mod explain;
 pub mod man;
 pub mod models;
+pub mod plot;
+pub mod report;
 pub mod run;
 pub mod schema;
 pub mod sweep;

@@ -60,6 +60,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     simulation.summary.phases.read = read;
     simulation.set_interrupt(crate::interrupt::watch());
     let mut files = ResultFiles::new(&directory)?;
+    super::report::keep_problem(&directory, &input.problem)?;
     let mut progress = Progress::new(arguments.verbose);
     let mut lines = Lines::default();
     let stem = arguments.file.file_stem().unwrap_or_default();

@@ -1,10 +1,10 @@
-//! The ParaView collection that lists the field files by time.
+//! The ParaView collection that lists the field files by time: written, and read back.
 
 use std::path::{Path, PathBuf};
 
-use crate::error::Error;
+use crate::error::{Error, IoError};
 
-use super::vtu::escape;
+use super::vtu::{Event, Scanner, escape};
 use super::write_atomically;
 
 /// A `.pvd` file: opened in ParaView, it shows the files it lists as one animation.
@@ -43,6 +43,49 @@ impl Collection {
     }
 }
 
+/// Reads a collection: time and file of each entry, in the order of the file. Names are as they are written, relative to the
+/// collection.
+///
+/// # Errors
+/// [`Error::Io`] if the file cannot be read, is malformed, or an entry has no time or no file.
+pub fn read(path: &Path) -> Result<Vec<(f64, String)>, Error> {
+    let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
+    parse(&bytes).map_err(|message| {
+        Error::Io(IoError {
+            file: path.to_path_buf(),
+            message,
+        })
+    })
+}
+
+fn parse(bytes: &[u8]) -> Result<Vec<(f64, String)>, String> {
+    let mut scanner = Scanner::new(bytes);
+    let (mut entries, mut collection) = (Vec::new(), false);
+    while let Some(event) = scanner.next()? {
+        match (event, scanner.path()) {
+            (Event::Open(_), ["VTKFile", "Collection"]) => collection = true,
+            (Event::Open(attributes), ["VTKFile", "Collection", "DataSet"]) => {
+                let find = |key: &str| {
+                    let found = attributes.iter().find(|(k, _)| *k == key);
+                    found
+                        .map(|(_, value)| value.as_str())
+                        .ok_or_else(|| scanner.fault(format!("an entry has no `{key}`")))
+                };
+                let text = find("timestep")?;
+                let time = text.trim().parse::<f64>().ok().filter(|t| t.is_finite());
+                let time =
+                    time.ok_or_else(|| scanner.fault(format!("the time `{text}` is no number")))?;
+                entries.push((time, find("file")?.to_string()));
+            }
+            _ => {}
+        }
+    }
+    match collection {
+        true => Ok(entries),
+        false => Err("this is no ParaView collection: it has no <Collection>".into()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,6 +99,31 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains("timestep=\"0.0\" part=\"0\" file=\"fields/0000.vtu\""));
         assert!(text.contains("timestep=\"1e-9\" part=\"0\" file=\"fields/a&amp;b.vtu\""));
+        let expected = [
+            (0.0, "fields/0000.vtu".to_string()),
+            (1e-9, "fields/a&b.vtu".to_string()),
+        ];
+        assert_eq!(read(&path).unwrap(), expected);
         std::fs::remove_file(path).unwrap();
+    }
+
+    #[test]
+    fn what_is_no_collection_is_refused() {
+        for (text, message) in [
+            ("", "no ParaView collection"),
+            ("<VTKFile></VTKFile>", "no ParaView collection"),
+            ("<VTKFile><Collection>", "ends inside <Collection>"),
+            (
+                "<VTKFile><Collection><DataSet file='a'/></Collection></VTKFile>",
+                "line 1: an entry has no `timestep`",
+            ),
+            (
+                "<VTKFile><Collection><DataSet timestep='x' file='a'/></Collection></VTKFile>",
+                "the time `x` is no number",
+            ),
+        ] {
+            let error = parse(text.as_bytes()).unwrap_err();
+            assert!(error.contains(message), "{text}: {error}");
+        }
     }
 }

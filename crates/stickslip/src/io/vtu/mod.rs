@@ -13,6 +13,7 @@ mod grid;
 mod kinds;
 mod read;
 mod stream;
+mod whole;
 mod write;
 mod xml;
 
@@ -23,6 +24,8 @@ mod tests;
 
 pub use grid::{parse_mesh, read_mesh};
 pub use read::{PointArray, PointFields, parse, read};
+pub use whole::{Grid, read_grid};
 pub use write::{write, write_mesh, write_vertices};
 
 pub(super) use write::escape;
+pub(super) use xml::{Event, Scanner};

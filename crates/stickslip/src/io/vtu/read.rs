@@ -274,7 +274,8 @@ impl Outline<'_> {
         }
     }
 
-    fn read(&self, piece: &Piece) -> Result<PointFields, String> {
+    /// The points of a piece and the data on them.
+    pub fn read(&self, piece: &Piece) -> Result<PointFields, String> {
         let points = self.points(piece)?;
         let mut arrays = BTreeMap::new();
         for array in &piece.data {
@@ -296,7 +297,7 @@ impl Outline<'_> {
 
 impl PointFields {
     /// Appends the points of another piece, which has to have the same arrays.
-    fn join(&mut self, mut other: PointFields) -> Result<(), String> {
+    pub(super) fn join(&mut self, mut other: PointFields) -> Result<(), String> {
         self.points.append(&mut other.points);
         for (name, array) in &mut self.arrays {
             let mut more = other

@@ -1,7 +1,7 @@
 //! The little of XML that VTK files use, read tag by tag.
 
 /// What stands next in a text.
-pub(super) enum Event<'a> {
+pub(in crate::io) enum Event<'a> {
     /// An element begins: [`Scanner::path`] ends with it.
     Open(Vec<(&'a str, String)>),
     /// Text, not only space, in the element at the end of the path.
@@ -11,7 +11,7 @@ pub(super) enum Event<'a> {
 }
 
 /// A place in a text, which it reads on from. Faults name the line.
-pub(super) struct Scanner<'a> {
+pub(in crate::io) struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
     path: Vec<&'a str>,

@@ -1,0 +1,115 @@
+//! Reports and pictures from outside: what a run leaves is enough for them.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn stickslip(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .args(arguments)
+        .output()
+        .expect("the binary runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+const CASE: &str = r#"format = 1
+title = "A block"
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
+support.top = { set = "block.top", x = 0.0, y = -1e-5 }
+step = [{ name = "press", increments = { fixed = 2 } }]
+"#;
+
+/// The results of the case, with another coefficient of friction, in a folder of its own.
+fn results(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("reports")
+        .join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let case = folder.join("case.toml");
+    std::fs::write(&case, CASE).expect("the case is written");
+    let set = "interface.base.friction.coulomb.mu=0.4";
+    let output = stickslip(&["run", "--quiet", "--set", set, &case.to_string_lossy()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    folder.join("case.out")
+}
+
+#[test]
+fn a_run_leaves_its_problem_with_what_was_changed() {
+    let results = results("problem");
+    let text = std::fs::read_to_string(results.join("problem.toml")).unwrap();
+    let again = stickslip::problem::Problem::from_toml(&text, None).unwrap();
+    assert_eq!(again.title.as_deref(), Some("A block"));
+    assert!(text.contains("mu = 0.4"), "{text}");
+}
+
+#[test]
+fn a_report_and_pictures_are_made_of_what_a_run_leaves() {
+    let results = results("all");
+    let folder = results.to_string_lossy();
+    let output = stickslip(&["report", &folder]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("report.html"));
+    let page = std::fs::read_to_string(results.join("report.html")).unwrap();
+    assert!(page.contains("<title>A block</title>") && page.contains("0.4"));
+    for (arguments, file) in [
+        (&[][..], "plot.png"),
+        (
+            &[
+                "--field", "CPRESS", "--time", "1", "--scale", "10", "--view", "-z", "--size",
+                "300x200",
+            ],
+            "plot.png",
+        ),
+        (&["--history", "base.CFN2,ALLSE"], "history.png"),
+    ] {
+        let _ = std::fs::remove_file(results.join(file));
+        let mut all = vec!["plot", &folder];
+        all.extend(arguments);
+        let output = stickslip(&all);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(results.join(file).is_file(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_an_error_of_the_input() {
+    let results = results("errors");
+    let folder = results.to_string_lossy();
+    for (arguments, message) in [
+        (vec!["report", "nowhere"], "there is no such folder"),
+        (vec!["plot", "nowhere"], "there is no such folder"),
+        (
+            vec!["plot", &folder, "--field", "NO"],
+            "there is no field `NO`",
+        ),
+        (
+            vec!["plot", &folder, "--time", "now"],
+            "`last`, `all` or a number",
+        ),
+        (
+            vec!["plot", &folder, "--size", "big"],
+            "width and height like 1200x900",
+        ),
+        (
+            vec!["plot", &folder, "-o", "x.pdf"],
+            "ends with .png or .svg",
+        ),
+        (vec!["plot", &folder, "--history", "NO"], "no column `NO`"),
+        (
+            vec!["plot", &folder, "--history", ","],
+            "no column is named",
+        ),
+    ] {
+        let output = stickslip(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        let said = text(&output.stderr);
+        assert!(said.contains(message), "{arguments:?}: {said}");
+    }
+}

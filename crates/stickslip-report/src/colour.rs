@@ -1,0 +1,124 @@
+//! Colours of numbers and of the status of contact.
+
+/// Red, green, blue.
+pub type Rgb = [u8; 3];
+
+/// From low to high: anchors of *viridis* (Smith and van der Walt, CC0), which grows in lightness and is told apart by people who
+/// are colour-blind.
+pub const ORDERED: &[Rgb] = &[
+    [68, 1, 84],
+    [71, 45, 123],
+    [59, 82, 139],
+    [44, 114, 142],
+    [33, 145, 140],
+    [40, 174, 128],
+    [94, 201, 98],
+    [173, 220, 48],
+    [253, 231, 37],
+];
+
+/// From negative over zero to positive: blue, light grey, red.
+pub const SIGNED: &[Rgb] = &[
+    [33, 74, 147],
+    [67, 118, 183],
+    [122, 165, 208],
+    [178, 205, 225],
+    [232, 232, 229],
+    [240, 196, 172],
+    [222, 141, 108],
+    [194, 84, 66],
+    [148, 23, 42],
+];
+
+/// Where there is no value.
+pub const NOTHING: Rgb = [196, 200, 206];
+
+/// The status of contact: name and colour, by its number. Blue and vermilion of the palette of Okabe and Ito, and a yellow that is
+/// pale, as most of a surface is open.
+pub const STATUSES: [(&str, Rgb); 3] = [
+    ("open", [243, 229, 150]),
+    ("stick", [0, 114, 178]),
+    ("slip", [213, 94, 0]),
+];
+
+/// The colour at `t` between 0 and 1 along a list of anchors.
+pub fn along(anchors: &[Rgb], t: f64) -> Rgb {
+    if t.is_nan() {
+        return NOTHING;
+    }
+    let last = anchors.len() - 1;
+    let x = t.clamp(0.0, 1.0) * last as f64;
+    let i = (x as usize).min(last - 1);
+    let f = x - i as f64;
+    let mix = |c: usize| {
+        let (a, b) = (f64::from(anchors[i][c]), f64::from(anchors[i + 1][c]));
+        (a + f * (b - a)).round() as u8
+    };
+    [mix(0), mix(1), mix(2)]
+}
+
+/// The colour of a value: by its place in a range, along one of the two lists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// What the ends of the list stand for.
+    pub range: [f64; 2],
+    /// Whether zero is in the middle.
+    pub signed: bool,
+    /// Whether the numbers are the status of contact.
+    pub status: bool,
+}
+
+impl Scale {
+    /// The list of anchors.
+    pub fn anchors(&self) -> &'static [Rgb] {
+        if self.signed { SIGNED } else { ORDERED }
+    }
+
+    /// The colour of a value.
+    pub fn colour(&self, value: f64) -> Rgb {
+        if value.is_nan() {
+            return NOTHING;
+        }
+        if self.status {
+            return STATUSES[value.round().clamp(0.0, 2.0) as usize].1;
+        }
+        let width = self.range[1] - self.range[0];
+        let t = match width > 0.0 {
+            true => (value - self.range[0]) / width,
+            false => 0.5,
+        };
+        along(self.anchors(), t)
+    }
+}
+
+/// As in HTML and SVG: `#1a2b3c`.
+pub fn hex([r, g, b]: Rgb) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_go_from_end_to_end() {
+        assert_eq!(along(ORDERED, 0.0), ORDERED[0]);
+        assert_eq!(along(ORDERED, 1.0), ORDERED[8]);
+        assert_eq!(along(ORDERED, 7.0), ORDERED[8]);
+        assert_eq!(along(SIGNED, 0.5), SIGNED[4]);
+        assert_eq!(along(SIGNED, f64::NAN), NOTHING);
+        let scale = Scale {
+            range: [1.0, 1.0],
+            signed: false,
+            status: false,
+        };
+        assert_eq!(scale.colour(1.0), ORDERED[4]);
+        assert_eq!(hex([1, 160, 255]), "#01a0ff");
+    }
+
+    #[test]
+    fn lightness_grows_along_the_ordered_list() {
+        let light = |c: &Rgb| 2 * u32::from(c[0]) + 7 * u32::from(c[1]) + u32::from(c[2]);
+        assert!(ORDERED.is_sorted_by_key(light));
+    }
+}

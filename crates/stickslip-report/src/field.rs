@@ -1,0 +1,173 @@
+//! Fields as single numbers on points: names, components, and what they are called.
+
+use std::collections::BTreeMap;
+
+use stickslip::io::vtu::PointArray;
+
+/// A number on every point, made of an array of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Field {
+    /// Its name: `CPRESS`, `U` for the magnitude, `U1` for a component.
+    pub name: String,
+    /// The array it is made of.
+    pub array: String,
+    /// Which number of it; `None` for the magnitude.
+    pub component: Option<usize>,
+}
+
+/// What is known of a field by the name of its array.
+const WORDS: &[(&str, &str)] = &[
+    ("CPRESS", "contact pressure"),
+    ("CSTATUS", "contact status"),
+    ("CSHEAR", "shear traction"),
+    ("COPEN", "gap"),
+    ("CSLIP", "slip"),
+    ("CDISS", "dissipated per area"),
+    ("CWEAR", "depth worn off"),
+    ("CFORCE", "contact force"),
+    ("MISES", "von Mises stress"),
+    ("RF", "reaction"),
+    ("S", "stress"),
+    ("U", "displacement"),
+    ("V", "velocity"),
+    ("A", "acceleration"),
+];
+
+/// The field that holds the status of contact: 0 open, 1 stick, 2 slip.
+pub const STATUS: &str = "CSTATUS";
+
+impl Field {
+    /// The name with what it means: `CPRESS, contact pressure`.
+    pub fn label(&self) -> String {
+        let stem = self.array.trim_end_matches(['1', '2', '3']);
+        let words = WORDS.iter().find(|(name, _)| *name == stem);
+        match (words, self.component) {
+            (None, _) => self.name.clone(),
+            (Some((_, words)), None) if self.array != self.name || WIDE.contains(&stem) => {
+                format!("{}, {words} (magnitude)", self.name)
+            }
+            (Some((_, words)), _) => format!("{}, {words}", self.name),
+        }
+    }
+
+    /// The value at a point; NaN where the array has none.
+    pub fn value(&self, array: &PointArray, point: usize) -> f64 {
+        let n = array.components;
+        let values = &array.values[n * point..n * (point + 1)];
+        match self.component {
+            Some(c) => values[c],
+            None => values.iter().map(|v| v * v).sum::<f64>().sqrt(),
+        }
+    }
+}
+
+/// Vectors whose magnitude has the name of the array.
+const WIDE: &[&str] = &["U", "V", "A", "RF", "CFORCE"];
+
+/// The fields of a file: what belongs to contact first, then the displacement and stresses, then the rest.
+pub fn fields(arrays: &BTreeMap<String, PointArray>) -> Vec<Field> {
+    let mut all = Vec::new();
+    for (name, array) in arrays {
+        if name == "NODE_ID" {
+            continue;
+        }
+        let mut push = |name: String, array: &str, component| {
+            all.push(Field {
+                name,
+                array: array.to_string(),
+                component,
+            });
+        };
+        match array.components {
+            1 => push(name.clone(), name, Some(0)),
+            6 => {
+                for (c, which) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
+                    push(format!("{name}{which}"), name, Some(c));
+                }
+            }
+            n => {
+                push(name.clone(), name, None);
+                for c in 0..n {
+                    push(format!("{name}{}", c + 1), name, Some(c));
+                }
+            }
+        }
+    }
+    let order = |field: &Field| {
+        let places = [
+            "CPRESS", "CSHEAR1", "CSHEAR2", "CSTATUS", "COPEN", "CSLIP1", "CSLIP2", "CDISS",
+            "CWEAR", "U", "MISES", "S", "V", "A", "RF", "CFORCE",
+        ];
+        let found = places.iter().position(|p| *p == field.array);
+        found.unwrap_or(places.len())
+    };
+    all.sort_by_key(order);
+    all
+}
+
+/// The range of values; `None` if none is a number.
+pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for v in values.filter(|v| v.is_finite()) {
+        range = [range[0].min(v), range[1].max(v)];
+    }
+    (range[0] <= range[1]).then_some(range)
+}
+
+/// The range that colours should span: zero in the middle where there are values on both sides of it.
+pub fn span([low, high]: [f64; 2]) -> ([f64; 2], bool) {
+    let wide = low.abs().max(high.abs());
+    if low < -0.05 * wide && high > 0.05 * wide {
+        return ([-wide, wide], true);
+    }
+    ([low, high], false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn array(components: usize, values: &[f64]) -> PointArray {
+        PointArray {
+            components,
+            values: values.to_vec(),
+        }
+    }
+
+    #[test]
+    fn arrays_become_numbers_with_names() {
+        let arrays = BTreeMap::from([
+            ("NODE_ID".to_string(), array(1, &[1.])),
+            ("U".to_string(), array(3, &[3., 0., 4.])),
+            ("S".to_string(), array(6, &[1., 2., 3., 4., 5., 6.])),
+            ("CPRESS".to_string(), array(1, &[7.])),
+            ("XYZ".to_string(), array(1, &[8.])),
+        ]);
+        let all = fields(&arrays);
+        let names: Vec<&str> = all.iter().map(|f| f.name.as_str()).collect();
+        assert_eq!(
+            names,
+            [
+                "CPRESS", "U", "U1", "U2", "U3", "S11", "S22", "S33", "S12", "S23", "S13", "XYZ"
+            ]
+        );
+        let values: Vec<f64> = all.iter().map(|f| f.value(&arrays[&f.array], 0)).collect();
+        assert_eq!(values, [7., 5., 3., 0., 4., 1., 2., 3., 4., 5., 6., 8.]);
+        assert_eq!(all[0].label(), "CPRESS, contact pressure");
+        assert_eq!(all[1].label(), "U, displacement (magnitude)");
+        assert_eq!(all[2].label(), "U1, displacement");
+        assert_eq!(all[11].label(), "XYZ");
+    }
+
+    #[test]
+    fn colours_are_centred_where_signs_differ() {
+        assert_eq!(span([0., 2.]), ([0., 2.], false));
+        assert_eq!(span([-1., 2.]), ([-2., 2.], true));
+        assert_eq!(span([-0.01, 2.]), ([-0.01, 2.], false));
+        assert_eq!(
+            range([f64::NAN, 1., -2., f64::INFINITY].into_iter()),
+            Some([-2., 1.])
+        );
+        assert_eq!(range([f64::NAN].into_iter()), None);
+    }
+}

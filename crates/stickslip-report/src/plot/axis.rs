@@ -1,0 +1,80 @@
+//! Ticks of axes at round numbers, and numbers as text.
+
+/// At most about `count` round numbers between `low` and `high`.
+pub fn ticks(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let width = high - low;
+    if !(width > 0.0 && width.is_finite()) {
+        return vec![low];
+    }
+    let rough = width / count.max(1) as f64;
+    let power = 10f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|lead| lead * power)
+        .find(|step| *step >= rough * 0.999_999)
+        .unwrap_or(10.0 * power);
+    let first = (low / step - 1e-9).ceil() as i64;
+    let last = (high / step + 1e-9).floor() as i64;
+    // Multiples, not sums: no rounding adds up.
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// A number in at most `digits` digits; with a true minus sign.
+pub fn number(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let size = value.abs();
+    let text = if value == 0.0 {
+        "0".into()
+    } else if (1e-3..1e6).contains(&size) {
+        let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
+        trimmed(&format!("{value:.after$}"))
+    } else {
+        let text = format!("{value:.*e}", digits - 1);
+        match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+            None => text,
+        }
+    };
+    text.replace('-', "−")
+}
+
+fn trimmed(text: &str) -> String {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').into(),
+        false => text.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_within() {
+        assert_eq!(
+            ticks(0.0, 1.0, 5),
+            [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]
+        );
+        assert_eq!(ticks(-3.0, 7.0, 4), [0.0, 5.0]);
+        assert_eq!(ticks(2.0, 2.0, 4), [2.0]);
+        for (low, high) in [(1e-9, 3e-9), (-5e12, 1e13), (0.1, 0.1001)] {
+            let ticks = ticks(low, high, 6);
+            assert!((3..=8).contains(&ticks.len()), "{ticks:?}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.6000000000000001, "0.6"),
+            (-1.25e-5, "−1.25e−5"),
+            (1e9, "1e9"),
+            (123_456.0, "123456"),
+            (0.012_346, "0.01235"),
+        ] {
+            assert_eq!(number(value, 4), text);
+        }
+    }
+}

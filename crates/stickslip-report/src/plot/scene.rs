@@ -1,0 +1,481 @@
+//! The bodies with a field in colour, as one picture.
+
+use stickslip::Error;
+use stickslip::io::vtu::{self, Grid, PointFields};
+
+use super::bodies::{self, Shown};
+use super::camera::{Camera, Frame, cross, unit};
+use super::raster::{Corner, Raster};
+use super::{Picture, axis};
+use crate::colour::{self, Scale};
+use crate::draw::{Anchor, Canvas, Pen, text_width};
+use crate::field::{self, Field};
+use crate::obstacle::{self, Outline};
+use crate::results::{Results, fault};
+use crate::skin::Skin;
+
+/// Pixels of the raster for a pixel of the picture, each way.
+const FINE: usize = 2;
+
+/// Ink of texts.
+const INK: colour::Rgb = [27, 36, 48];
+const SOFT: colour::Rgb = [86, 97, 111];
+
+/// What is the same for all times: geometry, camera, colours.
+pub struct Scene<'a> {
+    results: &'a Results,
+    skin: Skin,
+    shown: Shown,
+    field: Option<Field>,
+    colours: Scale,
+    scale: f64,
+    camera: Camera,
+    obstacles: Vec<Outline>,
+    /// The box of the picture's plane that holds the bodies at all times.
+    bounds: [[f64; 2]; 2],
+    /// What was chosen for the reader.
+    pub notes: Vec<String>,
+}
+
+fn displacement(points: &PointFields, point: usize) -> [f64; 3] {
+    match points.arrays.get("U").filter(|u| u.components == 3) {
+        Some(u) => [0, 1, 2].map(|c| u.values[3 * point + c]),
+        None => [0.0; 3],
+    }
+}
+
+fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
+    let list = field::fields(&grid.points.arrays);
+    let Some(name) = name else {
+        let find = |name: &str| list.iter().find(|f| f.name == name).cloned();
+        return Ok(find("MISES")
+            .or_else(|| find("U"))
+            .or_else(|| list.first().cloned()));
+    };
+    let found = list
+        .iter()
+        .find(|f| f.name == name)
+        .or_else(|| list.iter().find(|f| f.name.eq_ignore_ascii_case(name)));
+    match found {
+        Some(field) => Ok(Some(field.clone())),
+        None => {
+            let names: Vec<&str> = list.iter().map(|f| f.name.as_str()).collect();
+            Err(fault(
+                &results.directory,
+                format!("there is no field `{name}`; there are {}", names.join(", ")),
+            ))
+        }
+    }
+}
+
+impl<'a> Scene<'a> {
+    /// Reads what is to be drawn at these times.
+    pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
+        let grid = results.grid(frames[0])?;
+        let skin = Skin::of(&grid);
+        if skin.triangles.is_empty() {
+            return Err(fault(
+                &results.frames[frames[0]].file,
+                "it has no cells that could be drawn",
+            ));
+        }
+        let field = choose(results, &grid, wanted.field.as_deref())?;
+        let mut notes = Vec::new();
+        // Colours, and the factor of displacements, are those of all the times that are drawn.
+        let (mut range, mut largest) = (None::<[f64; 2]>, 0.0f64);
+        let each =
+            |frame: usize| -> Result<PointFields, Error> { vtu::read(&results.frames[frame].file) };
+        for &frame in frames {
+            let points = each(frame)?;
+            if points.points.len() != grid.points.points.len() {
+                return Err(fault(
+                    &results.frames[frame].file,
+                    "it has another number of points than the first file that is drawn",
+                ));
+            }
+            let values = values(&points, &skin, field.as_ref());
+            if let Some([low, high]) = field::range(values.into_iter()) {
+                let [l, h] = range.unwrap_or([low, high]);
+                range = Some([l.min(low), h.max(high)]);
+            }
+            for &p in &skin.points {
+                let u = displacement(&points, p);
+                largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
+            }
+        }
+        let scale = wanted
+            .scale
+            .unwrap_or_else(|| crate::html::scale(skin.size(), largest));
+        let (range, signed) = field::span(range.unwrap_or([0.0; 2]));
+        let colours = Scale {
+            range,
+            signed,
+            status: field.as_ref().is_some_and(|f| f.name == field::STATUS),
+        };
+        let first = values(&grid.points, &skin, field.as_ref());
+        let names = results.bodies(skin.ends.len());
+        let shown = bodies::choose(&skin, &names, wanted, &first)
+            .map_err(|message| fault(&results.directory, message))?;
+        notes.extend(shown.notes.iter().cloned());
+        let camera = Camera::new(shown.view, skin.dim);
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for &frame in frames {
+            let points = each(frame)?;
+            for (local, &p) in skin.points.iter().enumerate() {
+                if !shown.bodies[skin.owner[local] as usize] {
+                    continue;
+                }
+                let u = displacement(&points, p);
+                let at = camera.see([0, 1, 2].map(|c| skin.positions[local][c] + scale * u[c]));
+                for c in 0..2 {
+                    bounds[0][c] = bounds[0][c].min(at[c]);
+                    bounds[1][c] = bounds[1][c].max(at[c]);
+                }
+            }
+        }
+        let obstacles = obstacle::outlines(&results.problem, &skin);
+        Ok(Scene {
+            obstacles,
+            results,
+            skin,
+            shown,
+            field,
+            colours,
+            scale,
+            camera,
+            bounds,
+            notes,
+        })
+    }
+
+    /// Draws one of the times.
+    pub fn draw(&self, frame: usize, size: [u32; 2], canvas: &mut dyn Canvas) -> Result<(), Error> {
+        let points = vtu::read(&self.results.frames[frame].file)?;
+        let [width, height] = size.map(f64::from);
+        // All texts grow with the picture.
+        let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
+        let bar = 11.0 * em;
+        let (top, margin) = (4.4 * em, 1.6 * em);
+        let at = [margin, top];
+        let area = [width - bar - 2.0 * margin, height - top - 2.6 * em];
+        let area = area.map(|n| n.max(16.0));
+        self.bodies(frame, &points, at, area, em, canvas);
+        let title = self.results.title();
+        let title = shorten(&title, 1.35 * em, width - 2.0 * margin);
+        canvas.text(
+            [margin, 2.1 * em],
+            &title,
+            1.35 * em,
+            Anchor::Start,
+            INK,
+            false,
+        );
+        let time = self.results.frames[frame].time;
+        let mut line = format!("time {}", axis::number(time, 5));
+        if self.scale != 1.0 {
+            line += &format!(", displacements × {}", axis::number(self.scale, 4));
+        }
+        if let Some(words) = &self.shown.words {
+            line += &format!(", {words}");
+        }
+        let line = shorten(&line, em, width - 2.0 * margin);
+        canvas.text([margin, 3.6 * em], &line, em, Anchor::Start, SOFT, false);
+        if let Some(field) = &self.field {
+            let x = width - bar - 0.4 * em;
+            self.bar(
+                field,
+                &points,
+                [x, top + 0.5 * em],
+                [bar, area[1]],
+                em,
+                canvas,
+            );
+        }
+        self.triad([margin + 2.2 * em, height - 2.6 * em], em, canvas);
+        Ok(())
+    }
+
+    fn bodies(
+        &self,
+        number: usize,
+        points: &PointFields,
+        at: [f64; 2],
+        area: [f64; 2],
+        em: f64,
+        canvas: &mut dyn Canvas,
+    ) {
+        let fine = FINE as f64;
+        let size = area.map(|n| (n * fine) as usize);
+        let rim = 0.6 * em * fine;
+        let room = [0, 1].map(|c| (size[c] as f64 - 2.0 * rim).max(1.0));
+        let frame = Frame::fit(self.bounds[0], self.bounds[1], [rim, rim], room);
+        let values = values(points, &self.skin, self.field.as_ref());
+        let moved: Vec<[f64; 3]> = self
+            .skin
+            .points
+            .iter()
+            .zip(&self.skin.positions)
+            .map(|(&p, x)| {
+                let u = displacement(points, p);
+                [0, 1, 2].map(|c| x[c] + self.scale * u[c])
+            })
+            .collect();
+        let seen: Vec<[f64; 3]> = moved
+            .iter()
+            .map(|x| frame.place(self.camera.see(*x)))
+            .collect();
+        let mut raster = Raster::new(size);
+        let flat = self.skin.dim == 2;
+        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
+            for t in self.skin.triangles_of(body) {
+                let [a, b, c] = t.map(|i| moved[i as usize]);
+                let edge = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
+                let normal = unit(self.camera.see(cross(edge(b), edge(c))));
+                let light = match flat {
+                    true => 1.0,
+                    false => {
+                        let towards = normal[2].abs();
+                        0.70 + 0.26 * towards + 0.06 * normal[1] * normal[2].signum()
+                    }
+                };
+                let corners = t.map(|i| Corner {
+                    at: seen[i as usize],
+                    value: values[i as usize],
+                });
+                raster.triangle(corners, &self.colours, light.clamp(0.0, 1.0));
+            }
+        }
+        // Edges lie in the faces: a little nearer, so that faces they bound do not hide them.
+        let lift = 1e-3 * self.skin.size();
+        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
+            let edges = self.skin.edges_of(body);
+            // Fine meshes would be black.
+            let strength = (0.5 * spacing(&seen, edges) / (6.0 * fine)).clamp(0.06, 0.5);
+            for e in edges {
+                let ends = e.map(|i| seen[i as usize]);
+                raster.line(ends, 0.5 * fine, lift, INK, strength);
+            }
+        }
+        let time = self.results.frames[number].time;
+        for outline in &self.obstacles {
+            // By the same factor as the bodies.
+            let (from, to) = (outline.at(0.0), outline.at(time));
+            let ends: Vec<[f64; 3]> = from
+                .iter()
+                .zip(&to)
+                .map(|(x, y)| [0, 1, 2].map(|c| x[c] + self.scale * (y[c] - x[c])))
+                .map(|x| frame.place(self.camera.see(x)))
+                .collect();
+            for line in &outline.lines {
+                let ends = line.map(|i| ends[i as usize]);
+                raster.line(ends, 0.8 * fine, 0.0, SOFT, 0.8);
+            }
+        }
+        if flat && values.iter().any(|v| v.is_nan()) {
+            self.rim(&seen, &values, em, &mut raster);
+        }
+        canvas.picture(at, size, FINE, &raster.pixels);
+    }
+
+    /// In a plane a surface is a line: the field of contact is drawn along it as a ribbon.
+    fn rim(&self, seen: &[[f64; 3]], values: &[f64], em: f64, raster: &mut Raster) {
+        let width = 0.45 * em * FINE as f64;
+        let front = self.skin.size();
+        let visible = |i: u32| self.shown.bodies[self.skin.owner[i as usize] as usize];
+        let pieces = self
+            .skin
+            .rim
+            .iter()
+            .filter(|e| visible(e[0]) && e.iter().all(|i| !values[*i as usize].is_nan()));
+        let pieces: Vec<&[u32; 2]> = pieces.collect();
+        for &&[a, b] in &pieces {
+            let ends = [seen[a as usize], seen[b as usize]];
+            raster.line(ends, 1.35 * width, front, INK, 1.0);
+        }
+        const CUTS: usize = 8;
+        for &&[a, b] in &pieces {
+            let (x, y) = (seen[a as usize], seen[b as usize]);
+            let (v, w) = (values[a as usize], values[b as usize]);
+            for k in 0..CUTS {
+                let at = |i: usize| {
+                    let f = i as f64 / CUTS as f64;
+                    [0, 1, 2].map(|c| x[c] + f * (y[c] - x[c]))
+                };
+                let f = (k as f64 + 0.5) / CUTS as f64;
+                let value = match self.colours.status {
+                    true => {
+                        if f < 0.5 {
+                            v
+                        } else {
+                            w
+                        }
+                    }
+                    false => v + f * (w - v),
+                };
+                let ink = self.colours.colour(value);
+                raster.line([at(k), at(k + 1)], width, front, ink, 1.0);
+            }
+        }
+    }
+
+    fn bar(
+        &self,
+        field: &Field,
+        points: &PointFields,
+        at: [f64; 2],
+        size: [f64; 2],
+        em: f64,
+        canvas: &mut dyn Canvas,
+    ) {
+        let [x, mut y] = at;
+        let label = field.label();
+        let (name, words) = label.split_once(", ").unwrap_or((&label, ""));
+        canvas.text([x, y + em], name, 1.1 * em, Anchor::Start, INK, false);
+        y += 1.4 * em;
+        for line in wrap(words, 0.85 * em, size[0]) {
+            canvas.text(
+                [x, y + 0.9 * em],
+                &line,
+                0.85 * em,
+                Anchor::Start,
+                SOFT,
+                false,
+            );
+            y += 1.15 * em;
+        }
+        y += 0.9 * em;
+        let mut key = |colour, words: &str, y: &mut f64| {
+            canvas.rectangle([x, *y], [1.1 * em, 1.1 * em], colour);
+            let place = [x + 1.6 * em, *y + 0.92 * em];
+            canvas.text(place, words, 0.95 * em, Anchor::Start, INK, false);
+            *y += 1.7 * em;
+        };
+        let values: Vec<f64> = values(points, &self.skin, Some(field));
+        let missing = values.iter().any(|v| v.is_nan());
+        if self.colours.status {
+            for (number, (name, colour)) in colour::STATUSES.iter().enumerate() {
+                let count = values.iter().filter(|v| v.round() == number as f64).count();
+                key(*colour, &format!("{name} ({count})"), &mut y);
+            }
+        }
+        if missing {
+            key(colour::NOTHING, "no value", &mut y);
+        }
+        if self.colours.status {
+            return;
+        }
+        let [low, high] = self.colours.range;
+        let height = (size[1] - (y - at[1]) - em).clamp(4.0 * em, 24.0 * em);
+        let bar = [1.5 * em, height].map(|n| (n * FINE as f64) as usize);
+        let pixels: Vec<u8> = (0..bar[1])
+            .flat_map(|row| {
+                let t = 1.0 - (row as f64 + 0.5) / bar[1] as f64;
+                let [r, g, b] = colour::along(self.colours.anchors(), t);
+                std::iter::repeat_n([r, g, b, 255], bar[0]).flatten()
+            })
+            .collect();
+        canvas.picture([x, y], bar, FINE, &pixels);
+        let ticks = if high > low {
+            axis::ticks(low, high, 7)
+        } else {
+            vec![low]
+        };
+        for tick in ticks {
+            let share = if high > low {
+                (tick - low) / (high - low)
+            } else {
+                0.5
+            };
+            let place = y + (1.0 - share) * height;
+            let pen = Pen::new(INK, 0.07 * em);
+            canvas.line(&[[x + 1.5 * em, place], [x + 1.9 * em, place]], pen);
+            let text = axis::number(tick, 4);
+            let place = [x + 2.2 * em, place + 0.34 * em];
+            canvas.text(place, &text, 0.92 * em, Anchor::Start, INK, false);
+        }
+        if let Some([least, most]) = field::range(values.into_iter()) {
+            let line = format!("{} … {}", axis::number(least, 4), axis::number(most, 4));
+            let place = [x, y + height + 1.5 * em];
+            canvas.text(place, &line, 0.85 * em, Anchor::Start, SOFT, false);
+        }
+    }
+
+    fn triad(&self, at: [f64; 2], em: f64, canvas: &mut dyn Canvas) {
+        let colours = [[209, 73, 91], [47, 158, 99], [59, 125, 216]];
+        let mut arms: Vec<(f64, usize, [f64; 2])> = (0..self.skin.dim)
+            .map(|c| {
+                let mut d = [0.0; 3];
+                d[c] = 1.0;
+                let d = self.camera.see(d);
+                (d[2], c, [d[0], -d[1]])
+            })
+            .collect();
+        arms.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, c, d) in arms {
+            let end = [0, 1].map(|k| at[k] + 1.7 * em * d[k]);
+            canvas.line(&[at, end], Pen::new(colours[c], 0.2 * em));
+            if d[0].hypot(d[1]) > 0.1 {
+                let place = [at[0] + 2.2 * em * d[0], at[1] + 2.2 * em * d[1] + 0.3 * em];
+                canvas.text(
+                    place,
+                    ["x", "y", "z"][c],
+                    0.9 * em,
+                    Anchor::Middle,
+                    INK,
+                    false,
+                );
+            }
+        }
+    }
+}
+
+/// The values at the points of a skin; NaN where there are none.
+fn values(points: &PointFields, skin: &Skin, field: Option<&Field>) -> Vec<f64> {
+    let array = field.and_then(|f| Some((f, points.arrays.get(&f.array)?)));
+    let value = |p: &usize| {
+        array.map_or(f64::NAN, |(f, array)| match f.component {
+            Some(c) if c >= array.components => f64::NAN,
+            _ => f.value(array, *p),
+        })
+    };
+    skin.points.iter().map(value).collect()
+}
+
+/// The mean length of edges on the picture.
+fn spacing(seen: &[[f64; 3]], edges: &[[u32; 2]]) -> f64 {
+    let length = |e: &[u32; 2]| {
+        let [a, b] = e.map(|i| seen[i as usize]);
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    };
+    edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64
+}
+
+/// The beginning of a text that fits.
+pub fn shorten(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_string();
+    }
+    let mut short: Vec<char> = text.chars().collect();
+    while let Some(_last) = short.pop() {
+        let text: String = short.iter().collect::<String>().trim_end().to_string() + "…";
+        if text_width(&text, size) <= width {
+            return text;
+        }
+    }
+    String::new()
+}
+
+/// Lines that fit, broken at spaces.
+fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}"), size) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines
+}

@@ -1,0 +1,162 @@
+//! A result folder as `stickslip run` leaves it: what is there, and what is missing.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use stickslip::error::IoError;
+use stickslip::io::{csv, pvd, vtu};
+use stickslip::{Error, io::vtu::Grid};
+
+/// An error about a file.
+pub(crate) fn fault(file: &Path, message: impl Into<String>) -> Error {
+    Error::Io(IoError {
+        file: file.to_path_buf(),
+        message: message.into(),
+    })
+}
+
+/// One time at which fields were written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Time `[time]`.
+    pub time: f64,
+    /// The file with the fields.
+    pub file: PathBuf,
+}
+
+/// What a result folder holds. Fields are read when they are asked for.
+#[derive(Debug, Clone)]
+pub struct Results {
+    /// The folder.
+    pub directory: PathBuf,
+    /// `summary.json`; `null` where the run has not come to its end.
+    pub summary: Value,
+    /// The problem as it was run, from `problem.toml`; empty where there is none.
+    pub problem: toml::Table,
+    /// The text of `problem.toml`.
+    pub problem_text: String,
+    /// The rows of `history.csv`; no columns where there is none.
+    pub history: csv::Table,
+    /// The times of `fields.pvd`.
+    pub frames: Vec<Frame>,
+    /// What is missing, a sentence each.
+    pub missing: Vec<String>,
+}
+
+impl Results {
+    /// Looks into a folder. A file that is not there is noted in [`Results::missing`]: a run that was stopped leaves no summary, and one
+    /// without an accepted increment no history.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the folder is not there or holds none of the files, or one of them is damaged.
+    pub fn open(directory: &Path) -> Result<Self, Error> {
+        if !directory.is_dir() {
+            let what = match directory.exists() {
+                true => "this is a file; the folder with the results of a run is needed",
+                false => "there is no such folder",
+            };
+            return Err(fault(directory, what));
+        }
+        let mut missing = Vec::new();
+        let mut find = |name: &str, sentence: &str| {
+            let path = directory.join(name);
+            let found = path.is_file();
+            if !found {
+                missing.push(format!("{name} is missing: {sentence}"));
+            }
+            found.then_some(path)
+        };
+        let summary = find(
+            "summary.json",
+            "the run has not come to its end, or was stopped",
+        );
+        let history = find("history.csv", "no increment was accepted");
+        let fields = find("fields.pvd", "no fields were written");
+        let problem = find(
+            "problem.toml",
+            "the results are of an older version, or were not made by `stickslip run`",
+        );
+        if summary.is_none() && history.is_none() && fields.is_none() {
+            return Err(fault(
+                directory,
+                "this is no folder of results: it has neither summary.json nor history.csv nor fields.pvd",
+            ));
+        }
+        let mut results = Results {
+            directory: directory.to_path_buf(),
+            summary: Value::Null,
+            problem: toml::Table::new(),
+            problem_text: String::new(),
+            history: csv::Table::default(),
+            frames: Vec::new(),
+            missing,
+        };
+        if let Some(path) = summary {
+            let text = read(&path)?;
+            results.summary = serde_json::from_str(&text)
+                .map_err(|e| fault(&path, format!("the summary is damaged: {e}")))?;
+            if !results.summary.is_object() {
+                return Err(fault(&path, "the summary is damaged: it is no JSON object"));
+            }
+        }
+        if let Some(path) = history {
+            results.history = csv::read(&path)?;
+        }
+        if let Some(path) = problem {
+            results.problem_text = read(&path)?;
+            results.problem = results
+                .problem_text
+                .parse()
+                .map_err(|e| fault(&path, format!("the problem is damaged: {e}")))?;
+        }
+        if let Some(path) = fields {
+            for (time, name) in pvd::read(&path)? {
+                let file = directory.join(&name);
+                if !file.is_file() {
+                    return Err(fault(
+                        &path,
+                        format!("it lists `{name}`, which is not there"),
+                    ));
+                }
+                results.frames.push(Frame { time, file });
+            }
+        }
+        Ok(results)
+    }
+
+    /// The title of the problem, or the name of the folder.
+    pub fn title(&self) -> String {
+        let of_summary = self.summary.get("title").and_then(Value::as_str);
+        let of_problem = self.problem.get("title").and_then(toml::Value::as_str);
+        let title = of_summary.or(of_problem).unwrap_or_default().trim();
+        if !title.is_empty() {
+            return title.to_string();
+        }
+        let name = self.directory.file_name();
+        name.map_or_else(|| "results".into(), |n| n.to_string_lossy().into_owned())
+    }
+
+    /// The names of the bodies in the order of their numbers; those that are not known are `body 1`, `body 2` ...
+    pub fn bodies(&self, count: usize) -> Vec<String> {
+        let table = self.problem.get("body").and_then(toml::Value::as_table);
+        let mut names: Vec<String> = table.map_or_else(Vec::new, |t| t.keys().cloned().collect());
+        // The problem has them sorted by name, and so has the model.
+        names.sort();
+        if names.len() < count {
+            names = (1..=count).map(|i| format!("body {i}")).collect();
+        }
+        names
+    }
+
+    /// Points, cells and data of a frame.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file cannot be read or is damaged.
+    pub fn grid(&self, frame: usize) -> Result<Grid, Error> {
+        vtu::read_grid(&self.frames[frame].file)
+    }
+}
+
+fn read(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|e| Error::io(path, e))
+}

@@ -1,0 +1,455 @@
+//! Reports and pictures of small runs: what is in them, and what is said where results are missing or damaged.
+
+use std::path::{Path, PathBuf};
+
+use stickslip::io::write_atomically;
+use stickslip::problem::Problem;
+use stickslip::simulation::{Observer, ResultFiles, Simulation};
+use stickslip_report::plot::{self, Picture, View, When};
+use stickslip_report::{Limits, Results, page, report};
+
+const EVIL: &str = "</script><b id=\"x\">&'`<!--";
+
+/// A folder that goes away with the test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let name = format!("stickslip-report-{}-{name}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let _ = std::fs::remove_dir_all(&path);
+        std::fs::create_dir_all(&path).unwrap();
+        Folder(path)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn run(text: &str, directory: &Path) {
+    let problem = Problem::from_toml(text, None).unwrap();
+    let model = problem.build(Path::new("")).unwrap();
+    let mut simulation = Simulation::new(model).unwrap();
+    let mut files = ResultFiles::new(directory).unwrap();
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
+    simulation.run(&mut observers).unwrap();
+    let text = problem.to_toml().unwrap();
+    write_atomically(&directory.join("problem.toml"), text.as_bytes()).unwrap();
+}
+
+/// Two cubes of one cell, pressed and slid; or squares.
+fn stacked(space: &str, title: &str, body: &str) -> String {
+    let (kind, z, lower, upper) = match space {
+        "solid" => (
+            "box",
+            "z",
+            "from = [0, 0, 0], to = [1, 1, 1], cells = [1, 1, 1]",
+            "from = [0, 0, 1], to = [1, 1, 2], cells = [1, 1, 1]",
+        ),
+        _ => (
+            "rectangle",
+            "y",
+            "from = [0, 0], to = [1, 1], cells = [2, 1]",
+            "from = [0, 1], to = [1, 2], cells = [2, 1]",
+        ),
+    };
+    let depth = if space == "solid" { "y = 0\n" } else { "" };
+    let key = toml_key(body);
+    format!(
+        "format = 1\ntitle = {title}\n[model]\nspace = \"{space}\"\n\
+         [body.a]\ngenerate.{kind} = {{ {lower} }}\nmaterial = \"steel\"\n\
+         [body.{key}]\ngenerate.{kind} = {{ {upper} }}\nmaterial = \"steel\"\n\
+         [material.steel.isotropic]\nyoung = 210e9\npoisson = 0.3\n\
+         [interface.joint]\nsecondary = {sec}\nprimary = \"a.top\"\nfriction.coulomb = {{ mu = 0.3 }}\n\
+         [support.base]\nset = \"a.bottom\"\nhold = [\"x\", \"{z}\"]\n{depth}\
+         [support.top]\nset = {top}\nx = 1e-4\n{depth}{z} = -1e-3\n\
+         [[step]]\nname = \"press\"\nincrements.fixed = 3\n[quality]\ngate = \"warn\"\n",
+        title = toml_string(title),
+        sec = toml_string(&format!("{body}.bottom")),
+        top = toml_string(&format!("{body}.top")),
+    )
+}
+
+fn toml_string(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+fn toml_key(text: &str) -> String {
+    match text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-') {
+        true => text.to_string(),
+        false => toml_string(text),
+    }
+}
+
+fn written(directory: &Path) -> String {
+    let report = report(directory, None, Limits::default()).unwrap();
+    assert_eq!(report.notes, Vec::<String>::new());
+    let text = std::fs::read_to_string(&report.file).unwrap();
+    assert_eq!(text.len() as u64, report.size);
+    text
+}
+
+/// Whether every element is closed where it should be; the content of scripts and styles is not looked at.
+fn nests(page: &str) {
+    let alone = ["meta", "link", "input", "br", "line", "!doctype"];
+    let mut open: Vec<String> = Vec::new();
+    let mut rest = page;
+    while let Some(at) = rest.find('<') {
+        rest = &rest[at + 1..];
+        let end = rest.find(['>', ' ', '\n', '/']).unwrap_or(rest.len());
+        if let Some(tail) = rest.strip_prefix('/') {
+            let name = &tail[..tail.find('>').unwrap()];
+            assert_eq!(
+                open.pop().as_deref(),
+                Some(name),
+                "</{name}> is out of place"
+            );
+            continue;
+        }
+        let name = rest[..end].to_ascii_lowercase();
+        let close = rest.find('>').unwrap();
+        rest = &rest[close + 1..];
+        if name == "script" || name == "style" {
+            let tail = format!("</{name}>");
+            rest = &rest[rest.find(&tail).unwrap() + tail.len()..];
+        } else if !alone.contains(&name.as_str()) {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "still open: {open:?}");
+}
+
+#[test]
+fn a_report_has_all_sections_and_loads_nothing() {
+    for space in ["solid", "plane-strain"] {
+        let folder = Folder::new(&format!("all-{space}"));
+        run(&stacked(space, "Two blocks", "b"), &folder.0);
+        let page = written(&folder.0);
+        nests(&page);
+        for id in [
+            "result",
+            "solved",
+            "quality",
+            "convergence",
+            "energy",
+            "history",
+            "time",
+        ] {
+            assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
+        }
+        for text in [
+            "<title>Two blocks</title>",
+            "friction › coulomb › mu",
+            "2.1e11 <span class=\"unit\">Pa</span>",
+            "Step 1",
+            "penetration to approach",
+            "Content-Security-Policy",
+            "default-src 'none'",
+        ] {
+            assert!(page.contains(text), "{text}");
+        }
+        // Nothing is loaded by any of the ways in which HTML loads.
+        for way in [
+            " src=",
+            "url(",
+            "@import",
+            "srcset",
+            "<iframe",
+            "<object",
+            "<embed",
+            "<base",
+            "import(\"http",
+            "fetch(\"http",
+        ] {
+            assert!(!page.contains(way), "{way}");
+        }
+        let links = page
+            .match_indices("<link")
+            .map(|(at, _)| &page[at..at + 30]);
+        assert!(links.into_iter().all(|l| l.contains("href=\"data:,\"")));
+        let names: Vec<&str> = page
+            .match_indices("https://")
+            .chain(page.match_indices("http://"))
+            .map(|(at, _)| {
+                page[at..]
+                    .split(['"', '\'', ' ', ')', '\n'])
+                    .next()
+                    .unwrap()
+            })
+            .collect();
+        // What is left are names in comments and name spaces.
+        for name in names {
+            let known = ["https://github.com/leeoniya/uPlot", "http://www.w3.org/"];
+            assert!(known.iter().any(|k| name.starts_with(k)), "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_users_write_never_becomes_part_of_the_page() {
+    let folder = Folder::new("evil");
+    run(&stacked("plane-strain", EVIL, EVIL), &folder.0);
+    let page = written(&folder.0);
+    nests(&page);
+    assert!(!page.contains("<b id="));
+    assert!(
+        page.contains("<title>&lt;/script&gt;&lt;b id=&quot;x&quot;&gt;&amp;&#39;`&lt;!--</title>")
+    );
+    let meta = page.split_once("id=\"meta\">").unwrap().1;
+    let meta = meta.split_once("</script>").unwrap().0;
+    let meta: serde_json::Value = serde_json::from_str(meta).unwrap();
+    assert_eq!(meta["title"], EVIL);
+    assert_eq!(meta["model"]["bodies"].as_array().unwrap().len(), 2);
+    assert!(
+        meta["model"]["bodies"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|b| b == EVIL)
+    );
+    let svg = folder.file("evil.svg");
+    plot::picture(&folder.0, Some(&svg), &Picture::default()).unwrap();
+    let text = std::fs::read_to_string(&svg).unwrap();
+    assert!(!text.contains("<b ") && !text.contains("<script"), "{text}");
+}
+
+#[test]
+fn times_that_do_not_fit_are_left_out_and_the_page_says_so() {
+    let folder = Folder::new("limit");
+    run(&stacked("solid", "T", "b"), &folder.0);
+    let results = Results::open(&folder.0).unwrap();
+    assert!(results.frames.len() >= 3);
+    let limits = Limits { fields: 1, rows: 2 };
+    let (text, notes) = page(&results, limits).unwrap();
+    assert_eq!(notes.len(), 2, "{notes:?}");
+    assert!(
+        notes[0].contains("1 of the") && notes[1].contains("2 of the 3 rows"),
+        "{notes:?}"
+    );
+    assert!(text.contains("plots have 2 of the 3 rows"));
+    assert!(text.len() < page(&results, Limits::default()).unwrap().0.len());
+}
+
+#[test]
+fn missing_results_are_noted_and_damaged_ones_refused() {
+    let folder = Folder::new("damaged");
+    let open = |folder: &Path| Results::open(folder).map_err(|e| e.to_string());
+    let nothing = open(&folder.0).unwrap_err();
+    assert!(nothing.contains("no folder of results"), "{nothing}");
+    assert!(
+        open(&folder.file("no"))
+            .unwrap_err()
+            .contains("no such folder")
+    );
+    std::fs::write(folder.file("file"), "").unwrap();
+    assert!(
+        open(&folder.file("file"))
+            .unwrap_err()
+            .contains("this is a file")
+    );
+    run(&stacked("plane-strain", "T", "b"), &folder.0);
+    let whole = |name: &str| std::fs::read(folder.file(name)).unwrap();
+    for (name, message) in [
+        ("summary.json", "the run has not come to its end"),
+        ("history.csv", "no increment was accepted"),
+        ("fields.pvd", "no fields were written"),
+        ("problem.toml", "older version"),
+    ] {
+        let bytes = whole(name);
+        std::fs::remove_file(folder.file(name)).unwrap();
+        let made = report(&folder.0, None, Limits::default()).unwrap();
+        assert_eq!(made.notes.len(), 1, "{name}");
+        assert!(
+            made.notes[0].contains(name) && made.notes[0].contains(message),
+            "{:?}",
+            made.notes
+        );
+        let page = std::fs::read_to_string(&made.file).unwrap();
+        nests(&page);
+        assert!(page.contains(message));
+        std::fs::write(folder.file(name), bytes).unwrap();
+    }
+    for (name, damage, message) in [
+        ("summary.json", "{\"title\": ", "the summary is damaged"),
+        ("summary.json", "[]", "the summary is damaged"),
+        ("problem.toml", "a = = 1", "the problem is damaged"),
+        ("history.csv", "a,b\n1\n", "line 2 has 1 entries"),
+        (
+            "fields.pvd",
+            "<VTKFile><Collection><DataSet timestep=\"0\" file=\"gone.vtu\"/></Collection></VTKFile>",
+            "gone.vtu",
+        ),
+        ("fields.pvd", "nothing", "no ParaView collection"),
+        ("fields_00001.vtu", "<VTKFile", "truncated"),
+    ] {
+        let bytes = whole(name);
+        std::fs::write(folder.file(name), damage).unwrap();
+        let error = report(&folder.0, None, Limits::default())
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(message), "{name}: {error}");
+        std::fs::write(folder.file(name), bytes).unwrap();
+    }
+    // A summary of another shape, from another version, is still a page.
+    std::fs::write(
+        folder.file("summary.json"),
+        "{\"quality\": 3, \"findings\": [{\"message\": \"<i>\"}, 7], \"notes\": {}}",
+    )
+    .unwrap();
+    nests(&written(&folder.0));
+}
+
+/// The size of a PNG file, as its header says.
+fn png_size(file: &Path) -> [u32; 2] {
+    let bytes = std::fs::read(file).unwrap();
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n"));
+    [16, 20].map(|at| u32::from_be_bytes(*bytes[at..].first_chunk().unwrap()))
+}
+
+#[test]
+fn pictures_are_made_of_every_field_and_time() {
+    for space in ["solid", "plane-strain"] {
+        let folder = Folder::new(&format!("pictures-{space}"));
+        run(&stacked(space, "Two blocks", "b"), &folder.0);
+        let picture = |file: Option<&Path>, p: Picture| {
+            plot::picture(&folder.0, file, &p).map_err(|e| e.to_string())
+        };
+        let small = Picture {
+            size: [320, 240],
+            ..Picture::default()
+        };
+        let (files, notes) = picture(None, small.clone()).unwrap();
+        assert_eq!(files, [folder.file("plot.png")]);
+        assert!(notes.is_empty());
+        assert_eq!(png_size(&files[0]), [320, 240]);
+        for field in ["CPRESS", "cstatus", "U", "S33"] {
+            let field = Some(field.to_string());
+            let (_, notes) = picture(
+                None,
+                Picture {
+                    field: field.clone(),
+                    ..small.clone()
+                },
+            )
+            .unwrap();
+            // Between the cubes nothing of the contact could be seen.
+            let hidden =
+                space == "solid" && field.is_some_and(|f| f.to_lowercase().starts_with('c'));
+            assert_eq!(notes.len(), usize::from(hidden), "{notes:?}");
+        }
+        let (files, _) = picture(
+            Some(&folder.file("p.svg")),
+            Picture {
+                when: When::All,
+                ..small.clone()
+            },
+        )
+        .unwrap();
+        assert!(files.len() >= 3);
+        for file in &files {
+            let text = std::fs::read_to_string(file).unwrap();
+            assert!(
+                text.starts_with("<svg")
+                    && text.ends_with("</svg>\n")
+                    && text.contains("Two blocks")
+            );
+        }
+        assert_eq!(files[0], folder.file("p_00001.svg"));
+        // The same again gives the same bytes; another view or factor does not.
+        let bytes = |p: Picture| {
+            let (files, _) = picture(None, p).unwrap();
+            std::fs::read(&files[0]).unwrap()
+        };
+        assert_eq!(bytes(small.clone()), bytes(small.clone()));
+        let first = Picture {
+            when: When::Number(1),
+            ..small.clone()
+        };
+        assert_ne!(bytes(small.clone()), bytes(first));
+        assert_ne!(
+            bytes(small.clone()),
+            bytes(Picture {
+                scale: Some(1.0),
+                ..small.clone()
+            })
+        );
+        let turned = bytes(Picture {
+            view: Some(View::Along(0, 1.0)),
+            ..small.clone()
+        });
+        assert_eq!(bytes(small.clone()) == turned, space != "solid");
+        for (wrong, message) in [
+            (
+                Picture {
+                    field: Some("NO".into()),
+                    ..small.clone()
+                },
+                "there is no field `NO`; there are CPRESS",
+            ),
+            (
+                Picture {
+                    when: When::Number(99),
+                    ..small.clone()
+                },
+                "there is no time 99",
+            ),
+            (
+                Picture {
+                    bodies: vec!["c".into()],
+                    ..small.clone()
+                },
+                "there is no body `c`; there are a, b",
+            ),
+            (
+                Picture {
+                    size: [1, 9],
+                    ..small.clone()
+                },
+                "width and height are between",
+            ),
+        ] {
+            let error = picture(None, wrong).unwrap_err();
+            assert!(error.contains(message), "{error}");
+        }
+        let error = picture(Some(Path::new("x.jpg")), small).unwrap_err();
+        assert!(error.contains(".png or .svg"), "{error}");
+    }
+}
+
+#[test]
+fn columns_of_the_history_are_plotted() {
+    let folder = Folder::new("columns");
+    run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
+    let columns = |file: &str, names: &[&str], against: &str| {
+        let names: Vec<String> = names.iter().map(|n| n.to_string()).collect();
+        let file = folder.file(file);
+        plot::columns(&folder.0, Some(&file), &names, against, [400, 300])
+            .map_err(|e| e.to_string())
+    };
+    let file = columns("h.svg", &["joint.CFN2", "ALLSE"], "TIME").unwrap();
+    let text = std::fs::read_to_string(file).unwrap();
+    for word in ["joint.CFN2", "ALLSE", "TIME", "Two blocks", "<polyline"] {
+        assert!(text.contains(word), "{word}");
+    }
+    let file = columns("h.png", &["STICK"], "top.RF2").unwrap();
+    assert_eq!(png_size(&file), [400, 300]);
+    let error = columns("h.png", &["NO"], "TIME").unwrap_err();
+    assert!(
+        error.contains("no column `NO`; it has STEP, INC"),
+        "{error}"
+    );
+    assert!(columns("h.png", &["STICK"], "NO").is_err());
+    std::fs::remove_file(folder.file("history.csv")).unwrap();
+    assert!(
+        columns("h.png", &["STICK"], "TIME")
+            .unwrap_err()
+            .contains("no rows")
+    );
+}
