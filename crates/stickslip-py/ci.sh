@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it into a virtual environment of its own, and runs the Python tests with it. Sets up all it needs.
+#   ci.sh [PROFILE]    PROFILE: dev (the default) or release
+set -euo pipefail
+cd "$(dirname "$0")"
+profile=${1:-dev}
+target=$(cd ../.. && pwd)/target
+venv=$target/python
+[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+"$venv/bin/pip" install --quiet --disable-pip-version-check \
+    'maturin>=1.7,<2' numpy pytest pyvista meshio matplotlib
+rm -rf "$target/wheels"
+"$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet
+"$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
+PATH=$venv/bin:$PATH "$venv/bin/python" -m pytest --quiet
