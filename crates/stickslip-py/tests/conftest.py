@@ -21,7 +21,7 @@ def case():
             "press": {
                 "secondary": "block.bottom",
                 "primary": "base.top",
-                "normal": {"linear": {"stiffness": 2e12}},
+                "normal": {"linear": {"c": 2e12}},
                 "friction": {"coulomb": {"mu": 0.3}},
             }
         },

@@ -31,7 +31,7 @@ poisson = 0.3
 [interface.press]
 secondary = "block.bottom"
 primary = "base.top"
-normal.linear = { stiffness = 2e12 }
+normal.linear = { c = 2e12 }
 friction.coulomb = { mu = 0.3 }
 
 [support.base]
@@ -203,7 +203,7 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
         plain.run(&mut [&mut wanted]).unwrap();
 
         let other = CASE
-            .replace("normal.linear = { stiffness = 2e12 }", "")
+            .replace("normal.linear = { c = 2e12 }", "")
             .replace("friction.coulomb = { mu = 0.3 }", "")
             .replace("METHOD", method);
         let mut model = support::problem(&other).build(Path::new("")).unwrap();
