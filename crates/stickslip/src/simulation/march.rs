@@ -8,6 +8,7 @@ use super::doctor;
 use super::model::{Dynamic, Step};
 use super::pending::Pending;
 use super::run::{Event, Observer, Simulation};
+use crate::body::couplings::CouplingsMemory;
 use crate::error::Error;
 use crate::system::{Cause, StepFailure};
 use crate::time::scheme::Method;
@@ -110,6 +111,7 @@ impl Simulation {
                 for interface in &mut self.model.interfaces {
                     self.summary.energy.initial += interface.use_springs(false);
                 }
+                self.summary.energy.initial += self.model.couplings.use_springs(false);
                 match dynamic.method {
                     Method::Implicit(_) => {
                         self.start_motion(&dynamic)?;
@@ -231,6 +233,7 @@ impl Simulation {
             row: due || increment % plan.history_every == 0,
             seen: Vec::new(),
             memories: Vec::new(),
+            couplings: CouplingsMemory::default(),
             found: None,
         };
         if pending.row {

@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::accepted::Accepted;
 use super::history;
 use super::run::{Advance, Event, Observer, Simulation};
+use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::Memory;
 use crate::error::Error;
 use crate::newton::Progress;
@@ -27,6 +28,8 @@ pub(super) struct Pending {
     pub seen: Vec<Progress>,
     /// What the interfaces knew after it; empty if it is reported at once.
     pub memories: Vec<Memory>,
+    /// The same of the couplings.
+    pub couplings: CouplingsMemory,
     /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
     pub found: Option<(Amplitudes, Vec<f64>)>,
 }
@@ -50,6 +53,8 @@ pub(super) struct Recovered {
     queue: VecDeque<Pending>,
     /// What the interfaces know after the last of them.
     now: Vec<Memory>,
+    /// And the couplings.
+    coupled: CouplingsMemory,
 }
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
@@ -98,6 +103,7 @@ impl Simulation {
         self.recovered = Some(Recovered {
             queue: pending.into(),
             now: interfaces.map(|i| std::mem::take(&mut i.memory)).collect(),
+            coupled: std::mem::take(&mut self.model.couplings.memory),
         });
     }
 
@@ -112,6 +118,7 @@ impl Simulation {
         let mut outcome = Ok(());
         if let Some(mut one) = recovered.queue.pop_front() {
             self.remember(std::mem::take(&mut one.memories));
+            self.model.couplings.memory = std::mem::take(&mut one.couplings);
             outcome = self.complete(&mut one);
             if outcome.is_ok() {
                 outcome = self.report(one, observers);
@@ -119,6 +126,7 @@ impl Simulation {
         }
         if recovered.queue.is_empty() || outcome.is_err() {
             self.remember(recovered.now);
+            self.model.couplings.memory = recovered.coupled;
         } else {
             self.recovered = Some(recovered);
         }

@@ -54,6 +54,8 @@ pub struct Simulation {
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
+    /// Energy in couplings at the last accepted state.
+    pub(super) coupled: f64,
     pub(super) motion: Option<Motion>,
     pub(super) explicit: Option<Explicit>,
     pub(super) previous: Option<(f64, Vec<f64>)>,
@@ -153,6 +155,7 @@ impl Simulation {
             around,
             contact: vec![0.0; n],
             load: vec![0.0; n],
+            coupled: 0.0,
             motion: None,
             explicit: None,
             state: State {
@@ -189,7 +192,10 @@ impl Simulation {
             started,
             model,
         };
-        let strain = strain_energy(&simulation.matrix, &simulation.state.u);
+        let State { t, u, .. } = &simulation.state;
+        let strain =
+            strain_energy(&simulation.matrix, u) + simulation.model.couplings.begin_analysis(*t, u);
+        simulation.coupled = simulation.model.couplings.energy().stored;
         simulation.summary.energy.initial = strain;
         simulation.summary.energy.strain = strain;
         simulation.summary.energy_quality.limit = simulation.model.energy_limit;
@@ -247,6 +253,7 @@ impl Simulation {
             interface.set_masses(&[]);
             self.summary.energy.initial += interface.use_springs(false);
         }
+        self.summary.energy.initial += self.model.couplings.use_springs(false);
     }
 
     /// Takes note of what was tried beside plain iteration.

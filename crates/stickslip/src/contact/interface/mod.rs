@@ -1,5 +1,6 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
+mod change;
 mod curvature;
 mod evaluate;
 mod faces;
@@ -20,6 +21,7 @@ mod tests;
 
 use rayon::prelude::*;
 
+pub use change::Change;
 pub use meeting::Meeting;
 pub use oscillation::neighbours;
 pub use quality::{Balance, Quality};

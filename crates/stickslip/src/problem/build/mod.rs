@@ -1,6 +1,7 @@
 //! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
 
 mod contact;
+mod couplings;
 mod faces;
 mod initial;
 mod meshes;
@@ -111,12 +112,15 @@ impl Problem {
         };
         let sets = Sets::new(self, &mesh, &bodies)?;
         let timeline = Timeline::new(self);
+        let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
+            masses: &masses,
             mesh: &mesh,
             space,
             densities: &densities,
         };
         let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
+        let couplings = couplings::build(self, &sets, &mesh, &timeline)?;
         let supports = supports(self, &sets, &rigid, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
@@ -130,6 +134,8 @@ impl Problem {
             bodies,
             loads,
             springs,
+            masses,
+            couplings,
             supports,
             interfaces,
             initials,
@@ -224,6 +230,25 @@ fn loads(
         }
     }
     Ok((loads, springs))
+}
+
+/// Masses at points, ascending, each once.
+fn masses(problem: &Problem, sets: &Sets, rigid: &RigidBodies) -> Result<Vec<(usize, f64)>, Error> {
+    let mut all = std::collections::BTreeMap::<usize, f64>::new();
+    for (name, table) in &problem.mass {
+        let key = format!("mass.{name}.set");
+        for point in sets.points(&table.set, &key)? {
+            if rigid.links.of_point(point).is_some() {
+                let message = format!("`{}` has points of a rigid body", table.set);
+                let help = "give the body a density with which it has the whole mass";
+                return Err(problem_error(vec![
+                    Diagnostic::new(&key, message).help(help),
+                ]));
+            }
+            *all.entry(point).or_default() += table.mass;
+        }
+    }
+    Ok(all.into_iter().collect())
 }
 
 fn supports(
