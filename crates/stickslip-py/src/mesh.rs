@@ -10,23 +10,19 @@ use stickslip::shape::ElementKind;
 
 use super::errors::raise;
 
-/// Kinds of cells by the names they have in Python.
-const KINDS: [(&str, ElementKind); 8] = [
-    ("tri3", ElementKind::Tri3),
-    ("tri6", ElementKind::Tri6),
-    ("quad4", ElementKind::Quad4),
-    ("quad8", ElementKind::Quad8),
-    ("tet4", ElementKind::Tet4),
-    ("tet10", ElementKind::Tet10),
-    ("hex8", ElementKind::Hex8),
-    ("hex20", ElementKind::Hex20),
+/// Kinds of cells.
+const KINDS: [ElementKind; 10] = [
+    ElementKind::Tri3,
+    ElementKind::Tri6,
+    ElementKind::Quad4,
+    ElementKind::Quad8,
+    ElementKind::Tet4,
+    ElementKind::Tet10,
+    ElementKind::Wedge6,
+    ElementKind::Wedge15,
+    ElementKind::Hex8,
+    ElementKind::Hex20,
 ];
-
-/// The name of a kind of cells.
-pub fn name(kind: ElementKind) -> &'static str {
-    let known = KINDS.iter().find(|(_, k)| *k == kind);
-    known.map_or("unknown", |(name, _)| name)
-}
 
 /// A mesh for problems.
 #[pyclass(frozen)]
@@ -58,8 +54,8 @@ impl Mesh {
         let mut blocks = Vec::new();
         let mut next = 1;
         for (kind, connectivity) in cells {
-            let Some((_, kind)) = KINDS.iter().find(|(name, _)| *name == kind) else {
-                let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+            let Some(kind) = KINDS.iter().find(|k| k.name() == kind) else {
+                let known: Vec<&str> = KINDS.iter().map(|k| k.name()).collect();
                 return Err(PyValueError::new_err(format!(
                     "there are no cells of kind `{kind}`; known are {}",
                     known.join(", ")

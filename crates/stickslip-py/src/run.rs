@@ -15,7 +15,6 @@ use stickslip::system::Location;
 use super::array::{Array, Kept, Owner};
 use super::errors::raise;
 use super::laws::{Raised, keep};
-use super::mesh;
 
 /// How often Python is asked whether a signal has come.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -266,10 +265,7 @@ impl Simulation {
             .map(|block| {
                 let shape = vec![block.cell_ids.len(), block.kind.node_count()];
                 let array = Array::of(&block.connectivity, shape, "<u8");
-                (
-                    mesh::name(block.kind),
-                    array.with(Owner::Mesh(Arc::clone(mesh))),
-                )
+                (block.kind.name(), array.with(Owner::Mesh(Arc::clone(mesh))))
             })
             .collect()
     }

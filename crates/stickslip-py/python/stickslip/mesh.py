@@ -20,6 +20,8 @@ _KINDS = {
     "quad8": ("quad8", 23, 8, 2),
     "tet4": ("tetra", 10, 4, 3),
     "tet10": ("tetra10", 24, 10, 3),
+    "wedge6": ("wedge", 13, 6, 3),
+    "wedge15": ("wedge15", 26, 15, 3),
     "hex8": ("hexahedron", 12, 8, 3),
     "hex20": ("hexahedron20", 25, 20, 3),
 }
@@ -37,8 +39,8 @@ class Mesh:
     points
         Coordinates, shape ``(n, 2)`` or ``(n, 3)`` [length].
     cells
-        Node indices from 0 by kind of cell, shape ``(cells, nodes)``: ``tri3``, ``tri6``, ``quad4``, ``quad8``, ``tet4``, ``tet10``, ``hex8``,
-        ``hex20``, with nodes in the order of VTK. Cells of lines (in the plane) or surfaces (in space) are not allowed here: see
+        Node indices from 0 by kind of cell, shape ``(cells, nodes)``: ``tri3``, ``tri6``, ``quad4``, ``quad8``, ``tet4``, ``tet10``,
+        ``wedge6``, ``wedge15``, ``hex8``, ``hex20``, with nodes in the order of VTK. Cells of lines (in the plane) or surfaces (in space) are not allowed here: see
         `facet_sets`.
     point_sets
         Point indices by name.
