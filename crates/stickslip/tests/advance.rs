@@ -176,13 +176,13 @@ fn an_analysis_can_be_interrupted_between_increments() {
 #[derive(Default)]
 struct Functions {
     calls: AtomicUsize,
-    most: AtomicUsize,
+    asked: AtomicUsize,
 }
 
 impl PressureFunction for Functions {
     fn pressures(&self, gaps: &[f64]) -> (Vec<f64>, Option<Vec<f64>>) {
         self.calls.fetch_add(1, Ordering::Relaxed);
-        self.most.fetch_max(gaps.len(), Ordering::Relaxed);
+        self.asked.fetch_add(gaps.len(), Ordering::Relaxed);
         let value = gaps.iter().map(|g| 2e12 * (-g).max(0.0)).collect();
         let slope = |g: &f64| if *g < 0.0 { -2e12 } else { 0.0 };
         (value, Some(gaps.iter().map(slope).collect()))
@@ -227,8 +227,8 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
         }
         // One call an evaluation, not one a point.
         let points = simulation.model.interfaces[0].points.len();
-        assert_eq!(functions.most.load(Ordering::Relaxed), points);
         let calls = functions.calls.load(Ordering::Relaxed);
+        assert!(functions.asked.load(Ordering::Relaxed) >= points * calls);
         assert!(calls < 8 * (own.iterations + own.increments), "{calls}");
     }
 }

@@ -43,7 +43,8 @@ __all__ = [
 
 def schema() -> dict[str, Any]:
     """The JSON schema of problem files and of the dictionaries that `Problem.from_dict` takes."""
-    return json.loads(_core.schema())
+    table: dict[str, Any] = json.loads(_core.schema())
+    return table
 
 
 def set_threads(count: int) -> None:

@@ -237,7 +237,8 @@ class Simulation:
     @property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds: outcome, counts, times, energies, quality, findings."""
-        return json.loads(self._core.summary)
+        summary: dict[str, Any] = json.loads(self._core.summary)
+        return summary
 
     @property
     def notes(self) -> list[str]:
