@@ -72,6 +72,9 @@ impl Reader<'_> {
             (None, Err(why)) => {
                 let message = format!("elements of type {kind} ({}) are not supported", why.what);
                 self.error(card.place, message, why.help);
+                let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
+                self.skipped.extend(ids);
+                self.skipped_sets.extend(card.get("ELSET").map(str::to_string));
                 return;
             }
         };

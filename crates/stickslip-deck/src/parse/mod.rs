@@ -65,6 +65,9 @@ struct Reader<'a> {
     in_step: bool,
     /// Whether the step has its procedure.
     procedure: bool,
+    /// Elements of types that are not supported, and sets of them: one error is enough.
+    skipped: std::collections::BTreeSet<u64>,
+    skipped_sets: std::collections::BTreeSet<String>,
 }
 
 /// After so many errors no more are looked for: something else is wrong than single lines.
@@ -83,6 +86,8 @@ impl<'a> Reader<'a> {
             context: Context::None,
             in_step: false,
             procedure: false,
+            skipped: Default::default(),
+            skipped_sets: Default::default(),
         }
     }
 
@@ -373,6 +378,7 @@ impl<'a> Reader<'a> {
     fn elements_of(&mut self, text: &str, place: Place) -> Vec<u64> {
         match whole(text) {
             Some(n) if self.deck.elements.contains_key(&n) => vec![n],
+            Some(n) if self.skipped.contains(&n) => Vec::new(),
             Some(n) => {
                 self.error(
                     place,
@@ -383,6 +389,7 @@ impl<'a> Reader<'a> {
             }
             None => match self.deck.element_sets.get(&label(text)) {
                 Some(set) => set.clone(),
+                None if self.skipped_sets.contains(&label(text)) => Vec::new(),
                 None => {
                     let help = listing("sets of elements", self.deck.element_sets.keys());
                     self.error(

@@ -154,7 +154,9 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
             toml::number(d)
         ));
     }
-    if pair.by_nodes {
+    // CalculiX integrates penalty springs over the faces; on quadratic ones that is what the points of the faces do here.
+    let quadratic = compliant(interaction) && curved(job, pair);
+    if pair.by_nodes || quadratic {
         job.out.line("discretisation.node-to-facet = {}");
     }
     if pair.small_sliding {
@@ -178,6 +180,25 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
             ));
         }
     }
+}
+
+/// Whether the law is a spring.
+fn compliant(interaction: &Interaction) -> bool {
+    matches!(
+        interaction.behavior,
+        Some(Behavior::Linear { .. } | Behavior::Exponential { .. } | Behavior::Tabular(_))
+    )
+}
+
+/// Whether the slave surface has quadratic faces of solid elements.
+fn curved(job: &Job, pair: &Pair) -> bool {
+    let deck = job.deck;
+    let Some(SurfaceParts::Faces(faces)) = deck.surfaces.get(&pair.slave).map(|s| &s.parts) else {
+        return false;
+    };
+    let nodes = |e: &u64| deck.elements.get(e).map_or(0, |e| e.nodes.len());
+    let solid = |e: &u64| deck.elements.get(e).is_some_and(|e| e.kind.starts_with("C3D"));
+    faces.iter().any(|(e, _)| solid(e) && nodes(e) >= 10)
 }
 
 /// A typical height of the cells of the slave surface, to which distances are related.
@@ -278,10 +299,7 @@ fn friction(f: &Friction) -> String {
 
 /// The stiffness of sticking is taken where contact is a spring as well; hard contact is exact, and so is stick then.
 fn enforcement(job: &mut Job, interaction: &Interaction) {
-    let compliant = matches!(
-        interaction.behavior,
-        Some(Behavior::Linear { .. } | Behavior::Exponential { .. } | Behavior::Tabular(_))
-    );
+    let compliant = compliant(interaction);
     match interaction.friction.and_then(|f| f.stick) {
         Some(stick) if compliant => job.out.line(&format!(
             "enforcement.penalty = {{ tangential-stiffness = {} }}",

@@ -146,7 +146,7 @@ pub(super) fn write(job: &mut Job) {
             if largest > 0.0 {
                 sizes.push(format!(
                     "largest = {}",
-                    toml::number(fraction(largest).max(fraction(smallest)))
+                    toml::number(fraction(largest).max(fraction(smallest)).max(initial))
                 ));
             }
         }

@@ -252,6 +252,8 @@ mod tests {
             ("C3D15", ElementKind::Wedge15, Space::Solid, Full),
             ("C3D8R", ElementKind::Hex8, Space::Solid, Reduced),
             ("C3D8i", ElementKind::Hex8, Space::Solid, Incompatible),
+            ("C3D6", ElementKind::Wedge6, Space::Solid, Full),
+            ("C3D15", ElementKind::Wedge15, Space::Solid, Full),
             ("C3D20R", ElementKind::Hex20, Space::Solid, Reduced),
             ("CPS3", ElementKind::Tri3, Space::PlaneStress, Full),
             (
