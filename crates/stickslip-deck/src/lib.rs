@@ -26,6 +26,6 @@ pub use deck::*;
 pub use finding::{DeckError, Finding, Severity};
 pub use print::Printer;
 pub use status::Status;
-pub use translate::Translation;
+pub use translate::{Translation, read_mesh};
 
 pub(crate) use parse::frame as parse_frame;

@@ -291,7 +291,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "interfaces = [\"base\"]",
         "interfaces = []\nsupports = []",
-        &["36:1 nothing acts in this step: no support, no load, no interface"],
+        &["36:1 nothing acts in this step: no support, no load, no interface, no coupling"],
     ),
     (
         "[obstacle.floor.plane]",
@@ -339,7 +339,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
         "[probe.A]",
         "[load.p]\nset = \"A\"\n\n[probe.A]",
         &[
-            "40:7 one of these keys is missing: traction, pressure, body-force, gravity, nodal-force, spring",
+            "40:7 one of these keys is missing: traction, pressure, body-force, gravity, centrifugal, nodal-force, spring",
         ],
     ),
     (

@@ -8,16 +8,17 @@ use stickslip::mesh::Mesh;
 use super::{Failure, Outcome};
 use crate::print;
 
-/// Convert a mesh: Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), by the endings of the names.
+/// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) and its
+/// mesh, by the endings of the names.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Numbers of points and cells, and sets of points, cells and facets, are kept. What cannot be kept is noted on \
                   standard error. In .vtu files sets are arrays of whole numbers: of zeros and ones, or one set for each value."
 )]
 pub struct Arguments {
-    /// The file to read: .msh (2.2 or 4.1) or .vtu.
+    /// The file to read: .msh (2.2 or 4.1), .vtu or .inp.
     input: PathBuf,
-    /// The file to write: .msh (4.1), .vtu or .inp.
+    /// The file to write: .msh (4.1), .vtu or .inp; .toml for a deck.
     output: PathBuf,
     /// Element types of a plane mesh in an .inp file.
     #[arg(long, value_enum, default_value_t = Plane::PlaneStrain)]
@@ -48,6 +49,9 @@ impl Plane {
 /// Converts the file.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
+    if ending(output) == "toml" {
+        return problem(input, output);
+    }
     let write = match ending(output).as_str() {
         "msh" => |path: &Path, mesh: &Mesh, _: Plane| gmsh::write(path, mesh),
         "vtu" => |path: &Path, mesh: &Mesh, _: Plane| vtu::write_mesh(path, mesh),
@@ -57,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mesh = match ending(input).as_str() {
         "msh" => gmsh::read(input),
         "vtu" => vtu::read_mesh(input),
-        other => return Err(unknown(input, other, "read from .msh and .vtu files")),
+        "inp" => Ok(stickslip_deck::read_mesh(input).map_err(Failure::Deck)?),
+        other => return Err(unknown(input, other, "read from .msh, .vtu and .inp files")),
     };
     let mesh = mesh.map_err(stickslip::Error::Mesh)?;
     let mut notes = write(output, &mesh, arguments.plane)?;
@@ -69,6 +74,31 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let _ = writeln!(std::io::stderr(), "note: {note}");
     }
     print::out(&summary(output, &mesh))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A deck to a problem file, with its mesh beside it.
+fn problem(input: &Path, output: &Path) -> Outcome {
+    if !crate::input::is_deck(input) {
+        return Err(Failure::Arguments(
+            format!(
+                "{}: only decks (.inp) become problem files",
+                input.display()
+            ),
+            "write `body.NAME.gmsh.file` into a problem file of your own for a mesh alone".into(),
+        ));
+    }
+    let deck = crate::input::translate(input)?;
+    for note in &deck.notes {
+        crate::progress::say(&note.to_string());
+    }
+    let mesh = output.with_file_name(&deck.mesh_name);
+    for note in gmsh::write(&mesh, &deck.mesh)? {
+        crate::progress::say(&format!("note: {note}"));
+    }
+    stickslip::io::write_atomically(output, deck.toml.as_bytes())?;
+    print::out(&summary(&mesh, &deck.mesh))?;
+    print::out(&format!("{}: the problem\n", output.display()))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -74,7 +74,8 @@ impl Reader<'_> {
                 self.error(card.place, message, why.help);
                 let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
                 self.skipped.extend(ids);
-                self.skipped_sets.extend(card.get("ELSET").map(str::to_string));
+                self.skipped_sets
+                    .extend(card.get("ELSET").map(str::to_string));
                 return;
             }
         };

@@ -95,7 +95,17 @@ fn root(parent: &mut BTreeMap<u64, u64>, mut n: u64) -> u64 {
     }
 }
 
+/// The bodies of a deck with their names and sections.
 pub(super) fn find(job: &mut Job) -> Option<Bodies> {
+    let mut bodies = connected(job)?;
+    names(job, &mut bodies);
+    sections(job, &mut bodies);
+    rigid(job, &mut bodies);
+    Some(bodies)
+}
+
+/// The bodies as connected cells, without names.
+pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
     let deck = job.deck;
     let mut parent: BTreeMap<u64, u64> = BTreeMap::new();
     let mut space: Option<(Space, u64)> = None;
@@ -203,18 +213,14 @@ pub(super) fn find(job: &mut Job) -> Option<Bodies> {
         });
         all[body].elements.insert(*id);
     }
-    let mut bodies = Bodies {
+    Some(Bodies {
         all,
         mesh,
         space,
         of_node,
         of_element,
         section: BTreeMap::new(),
-    };
-    names(job, &mut bodies);
-    sections(job, &mut bodies);
-    rigid(job, &mut bodies);
-    Some(bodies)
+    })
 }
 
 /// A body is called like the set of just its elements, or by a number.

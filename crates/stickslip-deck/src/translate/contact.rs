@@ -197,7 +197,11 @@ fn curved(job: &Job, pair: &Pair) -> bool {
         return false;
     };
     let nodes = |e: &u64| deck.elements.get(e).map_or(0, |e| e.nodes.len());
-    let solid = |e: &u64| deck.elements.get(e).is_some_and(|e| e.kind.starts_with("C3D"));
+    let solid = |e: &u64| {
+        deck.elements
+            .get(e)
+            .is_some_and(|e| e.kind.starts_with("C3D"))
+    };
     faces.iter().any(|(e, _)| solid(e) && nodes(e) >= 10)
 }
 

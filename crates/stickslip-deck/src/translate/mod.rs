@@ -180,6 +180,34 @@ impl Deck {
     }
 }
 
+/// The mesh of a deck with all its sets and surfaces, whatever else it says: it may consist of a mesh alone.
+///
+/// # Errors
+/// What is wrong with its nodes, elements, sets and surfaces.
+pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
+    let deck = Deck::read(path)?;
+    let mut job = Job::new(&deck);
+    let Some(bodies) = bodies::connected(&mut job) else {
+        return Err(job.failed());
+    };
+    let mut sets = Sets::new(&deck, &bodies);
+    for (name, nodes) in &deck.node_sets {
+        sets.keep_points(&bodies, &toml::name(name), nodes);
+    }
+    for (name, elements) in &deck.element_sets {
+        sets.keep_cells(&bodies, &toml::name(name), elements);
+    }
+    for (name, surface) in &deck.surfaces {
+        match &surface.parts {
+            crate::deck::SurfaceParts::Nodes(nodes) => {
+                sets.keep_points(&bodies, &toml::name(name), nodes)
+            }
+            faces => sets.keep_facets(&toml::name(name), &bodies.faces(faces)),
+        }
+    }
+    Ok(sets.into_mesh(&bodies))
+}
+
 /// Whether sticking is a spring of the deck's own.
 fn deck_has_stick(deck: &Deck) -> bool {
     let mut all = deck.interactions.values().filter_map(|i| i.friction);

@@ -151,6 +151,29 @@ impl Sets {
             .collect()
     }
 
+    /// Keeps nodes under a name.
+    pub fn keep_points(&mut self, bodies: &Bodies, name: &str, nodes: &[u64]) {
+        let known = nodes
+            .iter()
+            .copied()
+            .filter(|n| bodies.of_node.contains_key(n));
+        self.points.insert(name.to_string(), known.collect());
+    }
+
+    /// Keeps elements under a name.
+    pub fn keep_cells(&mut self, bodies: &Bodies, name: &str, elements: &[u64]) {
+        let cells = elements
+            .iter()
+            .filter_map(|e| bodies.of_element.get(e).map(|c| c.0));
+        self.cells.insert(name.to_string(), cells.collect());
+    }
+
+    /// Keeps faces under a name.
+    pub fn keep_facets(&mut self, name: &str, by: &BTreeMap<usize, Vec<FacetRef>>) {
+        let list: Vec<FacetRef> = by.values().flatten().copied().collect();
+        self.facets.insert(name.to_string(), list);
+    }
+
     /// The tables of the problem that join sets of several bodies.
     pub fn tables(&self) -> Vec<String> {
         let table = |(name, parts): (&String, &Vec<String>)| {

@@ -85,7 +85,8 @@ impl Simulation {
     /// Makes an accepted attempt the last state, and enters it into the ledger.
     pub(super) fn book(&mut self, accepted: Accepted) -> history::Effort {
         let effort = accepted.summary();
-        let contact_work = match accepted.followed {
+        let followed = accepted.followed || self.pressed_at_start();
+        let contact_work = match followed {
             true => self.contact_work(&accepted),
             false => 0.0,
         };
@@ -122,7 +123,7 @@ impl Simulation {
         summary
             .energy
             .enter(flow, kinetic, strain + stored, &contact);
-        if accepted.followed {
+        if followed {
             // Less what the interfaces have entered of it.
             let entered =
                 summary.energy.of_interfaces() - before + stored - coupled_before - coupled;
@@ -130,6 +131,17 @@ impl Simulation {
         }
         summary.energy_quality.note(&summary.energy);
         effort
+    }
+
+    /// Whether this is the first increment, at rest, with a normal law that presses where the gap is zero. Surfaces that touch as they are meshed are not in
+    /// balance then, and the way to where they are costs nothing.
+    fn pressed_at_start(&self) -> bool {
+        self.summary.increments == 0
+            && self.model.steps[self.step].dynamic.is_none()
+            && self.model.interfaces.iter().any(|i| {
+                let touching = i.laws.normal.as_dyn().pressure(0.0);
+                touching.is_some_and(|p| p.value > 0.0)
+            })
     }
 
     /// Work that contact took over an increment by the trapezoidal rule, as that of loads is entered.

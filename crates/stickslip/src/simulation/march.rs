@@ -221,9 +221,7 @@ impl Simulation {
         running.stepper.accept(trial, iterations);
         let plan = &self.model.output;
         let last = running.stepper.next().is_none();
-        let due = last
-            || plan.times.contains(&trial.to)
-            || increment.is_multiple_of(plan.every);
+        let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
         let pending = Pending {
             trial,
             accepted,

@@ -375,11 +375,13 @@ impl Simulation {
         self.constraints(self.state.t).fixed
     }
 
-    /// What acts on the points from outside, by dof `[N]`: loads and reactions of supports. In equilibrium it is what bodies and interfaces
-    /// resist with.
+    /// What acts on the points from outside, by dof `[N]`: loads, reactions of supports, and equations. In equilibrium it is what bodies,
+    /// springs and interfaces resist with.
     pub fn external_forces(&self) -> Vec<f64> {
         let both = self.forces.iter().zip(&self.load);
-        both.map(|(reaction, load)| reaction + load).collect()
+        let mut out: Vec<f64> = both.map(|(reaction, load)| reaction + load).collect();
+        self.model.couplings.add_equation_forces(&mut out);
+        out
     }
 
     /// The number of the point whose forces are farthest from balance, if any are.
@@ -391,7 +393,9 @@ impl Simulation {
             let free = (0..dofs.dim).map(|c| dofs.of(p, c)).filter(|&d| !fixed[d]);
             free.map(|d| self.forces[d].powi(2)).sum()
         };
-        let worst = points.map(|p| (size(p), p)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let worst = points
+            .map(|p| (size(p), p))
+            .max_by(|a, b| a.0.total_cmp(&b.0))?;
         (worst.0 > 0.0).then(|| self.model.mesh.point_ids[worst.1])
     }
 

@@ -1,6 +1,6 @@
 //! Explicit dynamics: springs in place of multipliers.
 
-use super::force::{Hold, moved_by};
+use super::all::{Hold, moved_by};
 use super::{Couplings, Tie};
 use crate::system::{Links, Schedule};
 

@@ -4,6 +4,7 @@
 //! on the side of contact, so that it may connect bodies that are factored one by one, come and go with the steps, and be the same for every
 //! way to solve.
 
+mod all;
 mod axial_spring;
 mod equation;
 mod explicit;
@@ -12,9 +13,9 @@ mod motion;
 mod row;
 mod spring;
 
+pub use all::{Coupling, Couplings, CouplingsMemory, Tie};
 pub use axial_spring::AxialSpring;
 pub use equation::{Equation, Term};
-pub use force::{Coupling, Couplings, CouplingsMemory, Tie};
 pub use row::Row;
 pub use spring::Spring;
 

@@ -1,6 +1,6 @@
 //! The forces of equations at the start of motion.
 
-use super::force::moved_by;
+use super::all::moved_by;
 use super::{Couplings, Tie};
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};

@@ -97,6 +97,11 @@ fn covered(
             used.extend(&support.amplitude);
         }
     }
+    for (name, coupling) in &problem.coupling {
+        if on(&step.couplings, name) {
+            used.extend(&coupling.amplitude);
+        }
+    }
     used.sort();
     used.dedup();
     let within = |rows: &[f64]| {

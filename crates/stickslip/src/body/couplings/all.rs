@@ -1,0 +1,331 @@
+use super::Row;
+use crate::system::{Links, Schedule};
+
+/// What the rows of a coupling do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tie {
+    /// Every sum has this value `[m]`.
+    Equation {
+        /// The value.
+        value: f64,
+    },
+    /// A spring acts against every sum.
+    Spring {
+        /// Its stiffness `[N/m]`.
+        stiffness: f64,
+    },
+}
+
+/// Rows with what they do, and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coupling {
+    /// Name in the problem file.
+    pub name: String,
+    /// The sums.
+    pub rows: Vec<Row>,
+    /// What they do.
+    pub tie: Tie,
+    /// When it acts. Of an equation the factor says how far its sums have come; of a spring it multiplies the stiffness.
+    pub schedule: Schedule,
+    /// `true` if the factor multiplies the value of the equation; `false` if it leads to the value from what the sum was when it began to act.
+    pub table: bool,
+}
+
+/// All couplings of a model, as one force.
+///
+/// An equation has a multiplier `λ`, the force that acts along its row. It is an unknown of Newton's method, eliminated row by row with a stiffness
+/// `ω` much above that of the bodies: `λ` goes on by `ω (g + B du)`, `g` what the equation is off. At the solution `g` is zero whatever `ω`, and equations
+/// that repeat others do no harm. That is the method of multipliers with an update in every iteration, where the constraints are linear.
+#[derive(Debug, Clone, Default)]
+pub struct Couplings {
+    pub(super) all: Vec<Coupling>,
+    /// By row, over all couplings.
+    pub(super) hold: Vec<Hold>,
+    /// What the sums of equations were when these began to act, by row `[m]`.
+    start: Vec<f64>,
+    pub(super) iterate: Iterate,
+    /// What counts.
+    pub memory: CouplingsMemory,
+    pub(super) explicit: bool,
+    pub(super) dim: usize,
+}
+
+/// How an equation is enforced.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Hold {
+    /// Stiffness by which its multiplier is eliminated `[N/m]`.
+    pub stiffness: f64,
+    /// Everything in it is prescribed: there is nothing to be enforced.
+    pub idle: bool,
+}
+
+/// What couplings knew after an accepted increment.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CouplingsMemory {
+    /// Multipliers of equations, by row `[N]`.
+    pub(super) multipliers: Vec<f64>,
+    /// Forces along the rows, those of springs as well `[N]`.
+    pub(super) forces: Vec<f64>,
+    /// What the sums of equations had to be, and the stiffness of springs, by row.
+    pub(super) targets: Vec<f64>,
+    /// Energy in springs `[J]`.
+    pub(super) stored: f64,
+    /// Work over the increment of equations whose value changes, and of springs whose stiffness does `[J]`.
+    pub(super) work: f64,
+}
+
+/// Multipliers of an attempt.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Iterate {
+    /// At the last iterate, with what the equations are off there, and now.
+    pub last: Vec<f64>,
+    pub off: Vec<f64>,
+    pub now: Vec<f64>,
+    pub off_now: Vec<f64>,
+}
+
+/// Stiffness by which multipliers are eliminated, relative to that of the bodies at the points of a row. Every iteration leaves about its inverse of
+/// what an equation is off; what rounding of displacements leaves of forces grows with it.
+const FIRM: f64 = 1e4;
+
+impl Couplings {
+    /// Couplings of the points of a space of this dimension.
+    pub fn new(all: Vec<Coupling>, dim: usize) -> Self {
+        let rows = all.iter().map(|c| c.rows.len()).sum();
+        let none = vec![0.0; rows];
+        let mut targets = Vec::with_capacity(rows);
+        for coupling in &all {
+            let first = match coupling.tie {
+                Tie::Equation { .. } => 0.0,
+                Tie::Spring { stiffness } => {
+                    let first = coupling.schedule.pieces.first();
+                    stiffness * first.map_or(1.0, |p| coupling.schedule.at(p.start))
+                }
+            };
+            targets.extend(coupling.rows.iter().map(|_| first));
+        }
+        Couplings {
+            all,
+            hold: vec![Hold::default(); rows],
+            start: none.clone(),
+            iterate: Iterate {
+                last: none.clone(),
+                off: none.clone(),
+                now: none.clone(),
+                off_now: none.clone(),
+            },
+            memory: CouplingsMemory {
+                multipliers: none.clone(),
+                forces: none,
+                targets,
+                ..CouplingsMemory::default()
+            },
+            explicit: false,
+            dim,
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// The couplings.
+    pub fn all(&self) -> &[Coupling] {
+        &self.all
+    }
+
+    /// The points they act on.
+    pub fn points(&self) -> impl Iterator<Item = usize> + '_ {
+        let dofs = self.rows().flat_map(|(.., row)| &row.dofs);
+        dofs.step_by(self.dim.max(1)).map(|dof| dof / self.dim)
+    }
+
+    /// All rows with their number and coupling.
+    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, &Coupling, &Row)> {
+        let rows = self
+            .all
+            .iter()
+            .flat_map(|c| c.rows.iter().map(move |r| (c, r)));
+        rows.enumerate().map(|(i, (c, r))| (i, c, r))
+    }
+
+    /// The rows that hold something at time `t`.
+    pub fn acting(&self, t: f64) -> impl Iterator<Item = &Row> {
+        self.rows()
+            .filter_map(move |(_, c, row)| c.schedule.active(t).then_some(row))
+    }
+
+    /// What the sum of an equation has to be at time `t` `[m]`, or the stiffness of a spring then `[N/m]`.
+    pub(super) fn target(&self, i: usize, coupling: &Coupling, t: f64) -> f64 {
+        let s = coupling.schedule.at(t);
+        match coupling.tie {
+            Tie::Spring { stiffness } => s * stiffness,
+            Tie::Equation { value } if coupling.table => s * value,
+            Tie::Equation { value } => self.start[i] + s * (value - self.start[i]),
+        }
+    }
+
+    /// Begins a step: equations that begin to act start from what their sums are at displacements `u`, and those that end hand out the forces
+    /// they let go with, by dof `[N]`, as loads.
+    pub fn begin_step(
+        &mut self,
+        (before, middle): (Option<f64>, f64),
+        u: &[f64],
+        let_go: &mut dyn FnMut(usize, f64),
+    ) {
+        let mut first = 0;
+        for coupling in &self.all {
+            let rows = first..first + coupling.rows.len();
+            first = rows.end;
+            if !matches!(coupling.tie, Tie::Equation { .. }) {
+                continue;
+            }
+            let was = before.is_some_and(|t| coupling.schedule.active(t));
+            let is = coupling.schedule.active(middle);
+            for (i, row) in rows.zip(&coupling.rows) {
+                if is && !was {
+                    self.start[i] = row.sum(u);
+                    self.memory.targets[i] = self.start[i];
+                }
+                if was && !is {
+                    let multiplier = std::mem::take(&mut self.memory.multipliers[i]);
+                    self.memory.forces[i] = 0.0;
+                    row.terms()
+                        .for_each(|(dof, a)| let_go(dof, -multiplier * a));
+                }
+            }
+        }
+    }
+
+    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
+    pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
+        let springs = self.all.iter().map(|c| match c.tie {
+            Tie::Spring { stiffness } => stiffness,
+            Tie::Equation { .. } => 0.0,
+        });
+        let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
+        // Where nothing has a stiffness any will do.
+        let typical = if typical > 0.0 { typical } else { 1.0 };
+        let mut hold = std::mem::take(&mut self.hold);
+        for (i, _, row) in self.rows() {
+            let mut free = false;
+            let mut compliance = 0.0;
+            for (dof, a) in moved_by(row, links) {
+                if !fixed[dof] && a != 0.0 {
+                    free = true;
+                    if diagonal[dof] > 0.0 {
+                        compliance += a * a / diagonal[dof];
+                    }
+                }
+            }
+            // What has no stiffness of its own, like a rigid body, follows whatever holds it.
+            let norm = row.norm();
+            let stiffness = match compliance > 0.0 {
+                true => 1.0 / compliance,
+                false => typical / (norm * norm),
+            };
+            hold[i] = Hold {
+                stiffness: FIRM * stiffness,
+                idle: !free,
+            };
+        }
+        self.hold = hold;
+    }
+
+    /// Adds the forces of the last accepted state, which is at `u`, to the internal ones, by dof.
+    pub fn add_initial(&self, t: f64, u: &[f64], out: &mut [f64]) {
+        for (i, coupling, row) in self.rows() {
+            if !coupling.schedule.active(t) {
+                continue;
+            }
+            let force = match coupling.tie {
+                Tie::Equation { .. } => self.memory.multipliers[i],
+                Tie::Spring { .. } => self.target(i, coupling, t) * row.sum(u),
+            };
+            row.terms().for_each(|(dof, a)| out[dof] += a * force);
+        }
+    }
+
+    /// Work over the last increment of equations whose value changes, and of springs whose stiffness does `[J]`.
+    pub fn work(&self) -> f64 {
+        self.memory.work
+    }
+
+    /// Multipliers take over from springs: they have the forces that these had. The energy of the springs that is gone, negative.
+    pub(super) fn keep_forces(&mut self) -> f64 {
+        let mut memory = std::mem::take(&mut self.memory);
+        let before = memory.stored;
+        memory.multipliers.clone_from(&memory.forces);
+        memory.stored = 0.0;
+        for (i, coupling, _) in self.rows() {
+            let target = memory.targets[i];
+            match coupling.tie {
+                Tie::Spring { .. } if target > 0.0 => {
+                    memory.stored += 0.5 * memory.forces[i].powi(2) / target;
+                }
+                Tie::Spring { .. } => {}
+                // The way back to where the equation holds costs work.
+                Tie::Equation { .. } => memory.targets[i] += self.iterate.off_now[i],
+            }
+        }
+        let change = memory.stored - before;
+        self.memory = memory;
+        change
+    }
+
+    /// Energy in springs at displacements `u` at the start of the analysis `[J]`.
+    pub fn begin_analysis(&mut self, t: f64, u: &[f64]) -> f64 {
+        let mut stored = 0.0;
+        for (i, coupling, row) in self.rows() {
+            if let Tie::Spring { .. } = coupling.tie {
+                stored += 0.5 * self.target(i, coupling, t) * row.sum(u).powi(2);
+            }
+        }
+        self.memory.stored = stored;
+        stored
+    }
+
+    /// The couplings with the sum of the forces along their rows at the last accepted state `[N]`, and the mean of the sums of displacements `[m]`. A
+    /// force is positive where it acts against a growing sum, as that of a stretched spring.
+    pub fn report<'a>(&'a self, u: &'a [f64]) -> impl Iterator<Item = (&'a str, f64, f64)> + 'a {
+        let mut first = 0;
+        self.all.iter().map(move |coupling| {
+            let rows = first..first + coupling.rows.len();
+            first = rows.end;
+            let count = rows.len() as f64;
+            let force = self.memory.forces[rows].iter().sum();
+            let sum: f64 = coupling.rows.iter().map(|r| r.sum(u)).sum();
+            (coupling.name.as_str(), force, sum / count)
+        })
+    }
+
+    /// Adds what equations do to the displacements at the last accepted state, by dof `[N]`.
+    pub fn add_equation_forces(&self, out: &mut [f64]) {
+        let rows = self
+            .all
+            .iter()
+            .flat_map(|c| c.rows.iter().map(move |r| (c, r)));
+        for ((coupling, row), force) in rows.zip(&self.memory.forces) {
+            if matches!(coupling.tie, Tie::Equation { .. }) {
+                row.terms().for_each(|(dof, a)| out[dof] -= a * force);
+            }
+        }
+    }
+}
+
+/// The terms of a row, those of rigid bodies by the dofs that move them.
+pub(super) fn moved_by(row: &Row, links: &Links) -> Vec<(usize, f64)> {
+    let mut out: Vec<(usize, f64)> = Vec::new();
+    let mut add = |dof: usize, a: f64| match out.iter_mut().find(|(d, _)| *d == dof) {
+        Some(term) => term.1 += a,
+        None => out.push((dof, a)),
+    };
+    for (dof, a) in row.terms() {
+        match links.row(dof) {
+            None => add(dof, a),
+            Some(hidden) => hidden.into_iter().for_each(|(d, f)| add(d, f * a)),
+        }
+    }
+    out
+}
