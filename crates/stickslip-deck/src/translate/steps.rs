@@ -129,14 +129,13 @@ pub(super) fn write(job: &mut Job) {
         if direct && first > 0.0 {
             sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
         } else {
-            let initial = if first > 0.0 && !explicit {
-                fraction(first)
-            } else {
-                1.0
+            // Explicit increments are found from the bodies; only the largest is given.
+            let initial = match (explicit, first > 0.0) {
+                (true, _) if largest > 0.0 => fraction(largest),
+                (false, true) => fraction(first),
+                _ => 1.0,
             };
-            if !explicit {
-                sizes.push(format!("initial = {}", toml::number(initial)));
-            }
+            sizes.push(format!("initial = {}", toml::number(initial)));
             if smallest > 0.0 {
                 sizes.push(format!(
                     "smallest = {}",
