@@ -15,6 +15,8 @@ pub enum Error {
     Run(RunError),
     /// A file cannot be read or written.
     Io(IoError),
+    /// The analysis was asked to stop, at this time `[the problem's unit of time]`; what was accepted so far stays.
+    Interrupted(f64),
 }
 
 /// One finding in a problem file.
@@ -214,6 +216,7 @@ impl fmt::Display for Error {
             Error::Mesh(e) => e.fmt(f),
             Error::Run(e) => e.fmt(f),
             Error::Io(e) => write!(f, "{}: {}", e.file.display(), e.message),
+            Error::Interrupted(time) => write!(f, "interrupted at time {time:.6e}"),
         }
     }
 }

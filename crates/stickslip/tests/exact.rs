@@ -74,7 +74,9 @@ fn the_force_does_not_depend_on_the_numerical_stiffness() {
                 (millimetres / limit - 1.0).abs() < 1e-3,
                 "factor {factor}: {millimetres}"
             );
-            assert_eq!(n, m, "factor {factor}");
+            // The outer edges of the cubes coincide: rounding decides on which side of the other's edge a corner falls while
+            // iterations are under way, and with it the size of the next residual. It may land on either side of the tolerance.
+            assert!((n - m).abs() <= 1.0, "factor {factor}: {n} and {m}");
         }
     }
 }

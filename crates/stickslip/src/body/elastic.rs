@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::geometry::{Table, by_nodes, coordinates, point};
 use super::kernel::{self, Scratch};
-use super::operator::Operator;
+use super::medium::Medium;
+use super::scheme::stiffness_rule;
 use super::waves::in_order;
 use super::{Formulation, Space};
 use crate::error::Diagnostic;
@@ -90,7 +91,7 @@ impl Elastic {
                     format!("body {name} names block {} twice", part.block),
                 ));
             }
-            by_nodes!(block.kind, check_cells(&mesh, block, space))?;
+            by_nodes!(block.kind, check_cells(&mesh, block, space, formulation))?;
         }
         let mut points: Vec<usize> = parts
             .iter()
@@ -152,10 +153,16 @@ impl Elastic {
     pub fn element_matrices(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
         for (part, acting) in self.parts.iter().zip(&self.acting) {
             let block = &self.mesh.blocks[part.block];
-            let operator = Operator::new(acting, self.space, self.formulation);
             by_nodes!(
                 block.kind,
-                matrices(&self.mesh, block, self.space, &operator, visit)
+                matrices(
+                    &self.mesh,
+                    block,
+                    self.space,
+                    self.formulation,
+                    acting,
+                    visit
+                )
             );
         }
     }
@@ -165,10 +172,11 @@ fn matrices<const N: usize>(
     mesh: &Mesh,
     block: &Block,
     space: Space,
-    operator: &Operator,
+    formulation: Formulation,
+    acting: &Stiffness,
     visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
 ) {
-    let table = Table::<N>::new(block.kind, space);
+    let medium = Medium::<N>::new(block.kind, space, formulation, acting);
     let width = (N * space.dim()).pow(2);
     in_order(
         block.connectivity.len() / N,
@@ -177,7 +185,7 @@ fn matrices<const N: usize>(
             let mut scratch = Scratch::<N>::new();
             for (c, out) in part.chunks_exact_mut(width).enumerate() {
                 let x = coordinates(&mesh.points, block, first + c);
-                kernel::stiffness(&table, &x, space, operator, &mut scratch, out);
+                kernel::stiffness(&medium, &x, &mut scratch, out);
             }
         },
         |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),
@@ -185,8 +193,14 @@ fn matrices<const N: usize>(
 }
 
 /// The first cell whose volume is not positive at a quadrature point.
-fn check_cells<const N: usize>(mesh: &Mesh, block: &Block, space: Space) -> Result<(), Diagnostic> {
-    let table = Table::<N>::new(block.kind, space);
+fn check_cells<const N: usize>(
+    mesh: &Mesh,
+    block: &Block,
+    space: Space,
+    formulation: Formulation,
+) -> Result<(), Diagnostic> {
+    let rule = stiffness_rule(block.kind, space, formulation);
+    let table = Table::<N>::with_rule(block.kind, rule);
     let bad = (0..block.connectivity.len() / N)
         .into_par_iter()
         .find_map_first(|cell| {

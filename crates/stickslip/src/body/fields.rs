@@ -23,7 +23,7 @@ impl Elastic {
         for (part, p) in self.parts.iter().enumerate() {
             let block = &self.mesh.blocks[p.block];
             let nodes = block.kind.node_count();
-            let fit = extrapolate::matrix(block.kind, self.space);
+            let fit = extrapolate::matrix(block.kind, self.space, self.formulation);
             let per_cell = fit[0].len();
             let mut q = 0;
             self.visit_stress(part, u, &mut |point| {

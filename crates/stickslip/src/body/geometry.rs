@@ -1,19 +1,14 @@
 //! Shape functions of a kind tabulated at its quadrature points, and their derivatives in a cell.
 
-use super::Space;
+use super::scheme::stiffness_rule;
+use super::{Formulation, Space};
 use crate::math::{Mat3, Vec3, inverse};
 use crate::mesh::Block;
 use crate::shape::{ElementKind, QuadraturePoint};
 
-/// The rule for integrals over a cell.
-///
-/// A tri3 turned about an axis gets the three points of tri6: with one, the ring would have a mode without energy
-/// besides its rigid one, and `∫ N r` would be off.
+/// The rule for integrals over a cell whatever its formulation, and for the stiffness in the standard one.
 pub(super) fn cell_rule(kind: ElementKind, space: Space) -> &'static [QuadraturePoint] {
-    match (kind, space) {
-        (ElementKind::Tri3, Space::Axisymmetric) => ElementKind::Tri6.reference().quadrature(),
-        _ => kind.reference().quadrature(),
-    }
+    stiffness_rule(kind, space, Formulation::Standard)
 }
 
 /// Shape functions and derivatives of one kind with `N` nodes at the points of its rule, component by component.
@@ -159,6 +154,7 @@ macro_rules! by_nodes {
             6 => $($function)::+::<6>($($argument),*),
             8 => $($function)::+::<8>($($argument),*),
             10 => $($function)::+::<10>($($argument),*),
+            15 => $($function)::+::<15>($($argument),*),
             20 => $($function)::+::<20>($($argument),*),
             n => unreachable!("no cell has {n} nodes"),
         }

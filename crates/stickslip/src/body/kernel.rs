@@ -1,8 +1,10 @@
 //! The stiffness matrix of one cell.
 
-use super::Space;
-use super::geometry::{Nodal, Point, Table, point};
-use super::operator::{Operator, Term};
+use super::geometry::{Nodal, Point, point};
+use super::medium::Medium;
+use super::operator::Term;
+use super::scheme::Scheme;
+use super::{Space, hourglass};
 
 /// Workspace of [`stiffness`], one a task.
 pub(super) struct Scratch<const N: usize> {
@@ -30,14 +32,13 @@ impl<const N: usize> Scratch<N> {
 
 /// Writes the stiffness of the cell with nodes `x` to `out`, shape `(N dim, N dim)` row by row, exactly symmetric.
 pub(super) fn stiffness<const N: usize>(
-    table: &Table<N>,
+    of: &Medium<N>,
     x: &Nodal<N>,
-    space: Space,
-    operator: &Operator,
     scratch: &mut Scratch<N>,
     out: &mut [f64],
 ) {
-    products(table, x, space, !operator.mean.is_empty(), scratch);
+    let (space, operator) = (of.space, &of.operator);
+    products(of, x, scratch);
     let dim = space.dim();
     for i in 0..dim {
         for j in i..dim {
@@ -58,6 +59,40 @@ pub(super) fn stiffness<const N: usize>(
     match dim {
         2 => write::<N, 2>(&scratch.entries, out),
         _ => write::<N, 3>(&scratch.entries, out),
+    }
+    match of.scheme {
+        Scheme::Uniform => {
+            let mean = hourglass::mean(&scratch.points);
+            let vectors = of
+                .hourglass
+                .vectors(x, &of.table, &scratch.points, &mean, of.shear);
+            for (v, directions) in vectors.iter().zip(of.hourglass.directions()) {
+                add_square(v, directions, dim, out);
+            }
+        }
+        Scheme::Incompatible => {
+            of.modes
+                .condense(x, &scratch.points, space, &operator.local, out);
+        }
+        Scheme::Plain | Scheme::MeanDilatation => {}
+    }
+}
+
+/// Adds `v vᵀ` in some directions.
+fn add_square<const N: usize>(
+    v: &[f64; N],
+    directions: std::ops::Range<usize>,
+    dim: usize,
+    out: &mut [f64],
+) {
+    let width = N * dim;
+    for (a, va) in v.iter().enumerate() {
+        for i in directions.clone() {
+            let row = &mut out[(a * dim + i) * width..][..width];
+            for (b, vb) in v.iter().enumerate() {
+                row[b * dim + i] += va * vb;
+            }
+        }
     }
 }
 
@@ -94,13 +129,9 @@ fn add<const N: usize>(
 }
 
 /// Fills `local` with `∫ ∂_k N_a ∂_l N_b`, and `mean` with the same of the cell's mean derivatives.
-fn products<const N: usize>(
-    table: &Table<N>,
-    x: &Nodal<N>,
-    space: Space,
-    means: bool,
-    scratch: &mut Scratch<N>,
-) {
+fn products<const N: usize>(of: &Medium<N>, x: &Nodal<N>, scratch: &mut Scratch<N>) {
+    let (table, space): (_, Space) = (&of.table, of.space);
+    let means = !of.operator.mean.is_empty();
     let used = space.derivatives();
     scratch.points.clear();
     scratch

@@ -5,25 +5,32 @@
 
 mod anchors;
 mod around;
+mod cells;
+pub mod couplings;
 mod elastic;
 mod extrapolate;
 mod facets;
 mod fields;
 mod geometry;
+mod hourglass;
+mod incompatible;
 pub mod internal;
 mod kernel;
 pub mod loads;
 mod mass;
+mod medium;
 mod moments;
 mod operator;
 mod recover;
 mod redistribution;
 mod rigid;
+mod scheme;
 mod space;
 mod waves;
 
 pub use anchors::{Anchors, Hold, spread};
 pub use around::Around;
+pub use cells::CellState;
 pub use elastic::{Elastic, Part};
 pub use facets::{positive_areas, tributary_areas};
 pub use mass::MassKind;

@@ -16,8 +16,11 @@
 //! ```text
 //! K_ab = C : G_ab + D : (Ḡ_ab - G_ab),   D[ik][jl] = (S_ik P_jl + P_ik S_jl) / 3 - (m·s / 9) P_ik P_jl
 //! ```
+//!
+//! With the mean of all strains it is `C : Ḡ_ab`.
 
-use super::{Formulation, Space};
+use super::Space;
+use super::scheme::Scheme;
 use crate::material::Stiffness;
 
 /// One term `value · G[k][l]` of the block entry `(i, j)`.
@@ -38,14 +41,13 @@ pub(super) struct Term {
 pub(super) struct Operator {
     /// Factors of `G`.
     pub local: Vec<Term>,
-    /// Factors of `Ḡ`; empty in the standard formulation.
+    /// Factors of `Ḡ`; empty if no means are taken.
     pub mean: Vec<Term>,
 }
 
 impl Operator {
     /// For the stiffness `c` as it acts in `space`.
-    pub fn new(c: &Stiffness, space: Space, formulation: Formulation) -> Self {
-        let mean_dilatation = formulation == Formulation::MeanDilatation;
+    pub fn new(c: &Stiffness, space: Space, scheme: Scheme) -> Self {
         let s: [f64; 6] = std::array::from_fn(|v| c[v][0] + c[v][1] + c[v][2]);
         let ms = s[0] + s[1] + s[2];
         let one = |v: usize| if v < 3 { 1.0 } else { 0.0 };
@@ -63,7 +65,11 @@ impl Operator {
                         continue;
                     };
                     let mut local = c[p][q];
-                    if mean_dilatation {
+                    if scheme == Scheme::Uniform {
+                        push(&mut operator.mean, i, j, kl, local, scale);
+                        continue;
+                    }
+                    if scheme == Scheme::MeanDilatation {
                         let mean =
                             (s[p] * one(q) + one(p) * s[q]) / 3.0 - ms / 9.0 * one(p) * one(q);
                         local -= mean;

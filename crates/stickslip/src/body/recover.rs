@@ -1,8 +1,11 @@
 //! From displacements back to strains, stresses, forces and energy.
 
-use super::geometry::{Nodal, Point, Table, by_nodes, coordinates, point};
+use super::geometry::{Nodal, Point, by_nodes, coordinates, point};
+use super::hourglass::MODES;
+use super::medium::Medium;
+use super::scheme::Scheme;
 use super::waves::in_order;
-use super::{Elastic, Formulation, Space};
+use super::{Elastic, Space, hourglass};
 use crate::material::Stiffness;
 use crate::mesh::{Block, CellRef};
 use crate::system::Dofs;
@@ -25,90 +28,147 @@ pub struct StressPoint {
 /// Most quadrature points a cell has: hex20.
 const MAX_POINTS: usize = 27;
 
-/// Strain, stress and derivatives at the quadrature points of one cell.
-struct Recovered<const N: usize> {
-    points: Vec<Point<N>>,
-    strain: [[f64; 6]; MAX_POINTS],
-    stress: [[f64; 6]; MAX_POINTS],
+/// Strain, stress and derivatives at the points of one cell that have stresses.
+pub(super) struct Recovered<const N: usize> {
+    /// Derivatives and volumes there; with uniform strain the means.
+    pub points: Vec<Point<N>>,
+    pub strain: [[f64; 6]; MAX_POINTS],
+    pub stress: [[f64; 6]; MAX_POINTS],
+    /// The mean dilatation of the cell.
+    dilatation: f64,
+    /// `√κ γ` of the motions without strain.
+    vectors: [[f64; N]; MODES],
+    /// How much of them there is, a direction each.
+    amplitudes: [[f64; 3]; MODES],
+}
+
+/// Strain at a point of a cell displaced by `u`, as the displacements give it.
+pub(super) fn strain_of<const N: usize>(p: &Point<N>, u: &Nodal<N>, space: Space) -> [f64; 6] {
+    let (dim, used) = (space.dim(), space.derivatives());
+    let mut strain = [0.0; 6];
+    for (i, ui) in u.iter().enumerate().take(dim) {
+        for (k, dk) in p.d.iter().enumerate().take(used) {
+            if let Some(v) = space.component(i, k) {
+                strain[v] += ui.iter().zip(dk).map(|(u, d)| u * d).sum::<f64>();
+            }
+        }
+    }
+    strain
+}
+
+/// `C ε`.
+pub(super) fn stress_of(c: &Stiffness, strain: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|v| c[v].iter().zip(strain).map(|(c, e)| c * e).sum())
 }
 
 impl<const N: usize> Recovered<N> {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Recovered {
             points: Vec::with_capacity(MAX_POINTS),
             strain: [[0.0; 6]; MAX_POINTS],
             stress: [[0.0; 6]; MAX_POINTS],
+            dilatation: 0.0,
+            vectors: [[0.0; N]; MODES],
+            amplitudes: [[0.0; 3]; MODES],
         }
     }
 
     /// Fills it for the cell with nodes `x` displaced by `u`.
-    fn compute(&mut self, of: &Medium<N>, x: &Nodal<N>, u: &Nodal<N>) {
+    pub fn compute(&mut self, of: &Medium<N>, x: &Nodal<N>, u: &Nodal<N>) {
         let space = of.space;
-        let (dim, used) = (space.dim(), space.derivatives());
         self.points.clear();
+        self.points
+            .extend((0..of.table.len()).map(|q| point(&of.table, q, x, space)));
+        if of.scheme == Scheme::Uniform {
+            let mean = hourglass::mean(&self.points);
+            self.vectors =
+                of.hourglass
+                    .vectors(x, &of.table, &self.points, &mean, of.shear);
+            let each = self.amplitudes.iter_mut().zip(&self.vectors);
+            for ((amplitude, v), directions) in each.zip(of.hourglass.directions()) {
+                for i in directions {
+                    amplitude[i] = v.iter().zip(&u[i]).map(|(v, u)| v * u).sum();
+                }
+            }
+            self.points.clear();
+            self.points.push(mean);
+        }
+        let count = self.points.len();
         let (mut volume, mut dilatation) = (0.0, 0.0);
-        for q in 0..of.table.len() {
-            let p = point(&of.table, q, x, space);
-            let mut strain = [0.0; 6];
-            for (i, ui) in u.iter().enumerate().take(dim) {
-                for (k, dk) in p.d.iter().enumerate().take(used) {
-                    if let Some(v) = space.component(i, k) {
-                        strain[v] += ui.iter().zip(dk).map(|(u, d)| u * d).sum::<f64>();
-                    }
-                }
-            }
+        for (p, strain) in self.points.iter().zip(&mut self.strain) {
+            *strain = strain_of(p, u, space);
             volume += p.volume;
-            dilatation += p.volume * trace(&strain);
-            self.strain[q] = strain;
-            self.points.push(p);
+            dilatation += p.volume * trace(strain);
         }
-        for (strain, stress) in self
-            .strain
-            .iter_mut()
-            .zip(&mut self.stress)
-            .take(of.table.len())
-        {
-            if of.formulation == Formulation::MeanDilatation {
-                let shift = (dilatation / volume - trace(strain)) / 3.0;
-                for e in &mut strain[..3] {
-                    *e += shift;
-                }
+        self.dilatation = dilatation / volume;
+        if of.scheme == Scheme::MeanDilatation {
+            for strain in &mut self.strain[..count] {
+                shift(strain, self.dilatation);
             }
-            *stress = std::array::from_fn(|v| {
-                of.acting[v].iter().zip(&*strain).map(|(c, e)| c * e).sum()
-            });
         }
+        self.set_stress(of);
+        if of.scheme == Scheme::Incompatible {
+            of.modes.add_strains(
+                x,
+                &self.points,
+                space,
+                &of.operator.local,
+                &self.stress[..count],
+                &mut self.strain[..count],
+            );
+            self.set_stress(of);
+        }
+    }
+
+    fn set_stress(&mut self, of: &Medium<N>) {
+        for (strain, stress) in self.strain.iter().zip(&mut self.stress).take(self.points.len()) {
+            *stress = stress_of(&of.acting, strain);
+        }
+    }
+
+    /// The strain at another point of the cell last computed, whose strains are those of its displacements `u` but for the
+    /// dilatation.
+    pub fn strain_at(&self, of: &Medium<N>, p: &Point<N>, u: &Nodal<N>) -> [f64; 6] {
+        let mut strain = strain_of(p, u, of.space);
+        if of.scheme == Scheme::MeanDilatation {
+            shift(&mut strain, self.dilatation);
+        }
+        strain
     }
 
     /// Strain energy of the cell.
-    fn energy(&self) -> f64 {
-        self.points
+    pub fn energy(&self) -> f64 {
+        let inside: f64 = self
+            .points
             .iter()
             .zip(self.strain.iter().zip(&self.stress))
             .map(|(p, (e, s))| 0.5 * p.volume * e.iter().zip(s).map(|(e, s)| e * s).sum::<f64>())
-            .sum()
+            .sum();
+        let beside: f64 = self.amplitudes.as_flattened().iter().map(|a| a * a).sum();
+        inside + 0.5 * beside
+    }
+
+    /// Volume of the cell.
+    pub fn volume(&self) -> f64 {
+        self.points.iter().map(|p| p.volume).sum()
     }
 
     /// Internal force of the cell, `dim` components a node. With mean dilatation `B̄ᵀ σ` amounts to replacing the
-    /// mean stress at each point by its mean over the cell.
-    fn force(&self, of: &Medium<N>, out: &mut [f64]) {
+    /// mean stress at each point by its mean over the cell. Modes inside the cell add nothing: they are in equilibrium.
+    pub fn force(&self, of: &Medium<N>, out: &mut [f64]) {
         let (dim, used) = (of.space.dim(), of.space.derivatives());
-        let volume: f64 = self.points.iter().map(|p| p.volume).sum();
         let mean: f64 = self
             .points
             .iter()
             .zip(&self.stress)
             .map(|(p, s)| p.volume * trace(s))
             .sum::<f64>()
-            / volume;
+            / self.volume();
         out.fill(0.0);
         for (p, stress) in self.points.iter().zip(&self.stress) {
             let mut stress = *stress;
-            if of.formulation == Formulation::MeanDilatation {
-                let shift = (mean - trace(&stress)) / 3.0;
-                for s in &mut stress[..3] {
-                    *s += shift;
-                }
+            if of.scheme == Scheme::MeanDilatation {
+                shift(&mut stress, mean);
             }
             for i in 0..dim {
                 for (k, dk) in p.d.iter().enumerate().take(used) {
@@ -121,6 +181,15 @@ impl<const N: usize> Recovered<N> {
                 }
             }
         }
+        if of.scheme == Scheme::Uniform {
+            for (vector, amplitude) in self.vectors.iter().zip(&self.amplitudes) {
+                for (v, out) in vector.iter().zip(out.chunks_exact_mut(dim)) {
+                    for (o, a) in out.iter_mut().zip(amplitude) {
+                        *o += v * a;
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -128,12 +197,12 @@ fn trace(v: &[f64; 6]) -> f64 {
     v[0] + v[1] + v[2]
 }
 
-/// What all cells of a part share.
-struct Medium<'a, const N: usize> {
-    table: Table<N>,
-    space: Space,
-    formulation: Formulation,
-    acting: &'a Stiffness,
+/// Gives a tensor the trace `to`.
+fn shift(v: &mut [f64; 6], to: f64) {
+    let by = (to - trace(v)) / 3.0;
+    for v in &mut v[..3] {
+        *v += by;
+    }
 }
 
 /// The values of the cell's points in a dof vector, component by component.
@@ -158,23 +227,18 @@ impl Elastic {
         }
     }
 
-    fn medium<const N: usize>(&self, part: usize) -> Medium<'_, N> {
-        let block = &self.mesh.blocks[self.parts[part].block];
-        Medium {
-            table: Table::new(block.kind, self.space),
-            space: self.space,
-            formulation: self.formulation,
-            acting: &self.acting[part],
-        }
+    fn medium<const N: usize>(&self, part: usize) -> Medium<N> {
+        let kind = self.mesh.blocks[self.parts[part].block].kind;
+        Medium::new(kind, self.space, self.formulation, &self.acting[part])
     }
 
-    /// Runs `extract` on every cell of a part in parallel and `consume` on its `width` results in order.
-    fn each_cell<const N: usize>(
+    /// Runs `extract` (with the nodes of the cell and their displacements) on every cell of a part in parallel and `consume` on its `width` results in order.
+    pub(super) fn each_cell<const N: usize>(
         &self,
         part: usize,
         u: &[f64],
         width: usize,
-        extract: impl Fn(&Medium<N>, &Nodal<N>, &Recovered<N>, &mut [f64]) + Sync,
+        extract: impl Fn(&Medium<N>, [&Nodal<N>; 2], &Recovered<N>, &mut [f64]) + Sync,
         consume: impl FnMut(usize, &[f64]) + Send,
     ) {
         let block = &self.mesh.blocks[self.parts[part].block];
@@ -189,7 +253,7 @@ impl Elastic {
                     let x = coordinates(&self.mesh.points, block, first + c);
                     let v = gather(u, dofs, block, first + c);
                     recovered.compute(&medium, &x, &v);
-                    extract(&medium, &x, &recovered, out);
+                    extract(&medium, [&x, &v], &recovered, out);
                 }
             },
             consume,
@@ -239,7 +303,7 @@ impl Elastic {
             2,
             |_, _, recovered, values| {
                 values[0] = recovered.energy();
-                values[1] = recovered.points.iter().map(|p| p.volume).sum();
+                values[1] = recovered.volume();
             },
             |_, values| all.push([values[0], values[1]]),
         );
@@ -271,7 +335,8 @@ impl Elastic {
             .sum()
     }
 
-    /// Stress and strain at every quadrature point at the displacements `u` `[m]`; parts, cells and points in order.
+    /// Stress and strain at every quadrature point at the displacements `u` `[m]`; parts, cells and points in order. A cell with the
+    /// mean of all strains has one point, its centre.
     pub fn stress_at_quadrature(&self, u: &[f64]) -> Vec<StressPoint> {
         let mut all = Vec::new();
         for (part, p) in self.parts.iter().enumerate() {
@@ -303,14 +368,14 @@ impl Elastic {
     ) {
         const WIDTH: usize = 16;
         let block = self.parts[part].block;
-        let points = Table::<N>::new(self.mesh.blocks[block].kind, self.space).len();
+        let points = self.medium::<N>(part).stations();
         self.each_cell::<N>(
             part,
             u,
             points * WIDTH,
-            |medium, x, recovered, values| {
+            |medium, [x, _], recovered, values| {
                 for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
-                    let n = &medium.table.values[q];
+                    let n = medium.values(q);
                     for (o, row) in out.iter_mut().zip(x) {
                         *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
                     }

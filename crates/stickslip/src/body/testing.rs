@@ -9,7 +9,7 @@ use crate::material::{Anisotropic, Elasticity, Isotropic, Stiffness};
 use crate::math::{Vec3, add, scale};
 use crate::mesh::{Block, Mesh};
 use crate::registry::Samples;
-use crate::shape::ElementKind;
+use crate::shape::{ElementKind, QuadraturePoint};
 use crate::system::Force;
 
 pub const PLANE_STRAIN: Space = Space::PlaneStrain { thickness: 0.5 };
@@ -28,6 +28,16 @@ pub fn combinations() -> Vec<(ElementKind, Space, Formulation)> {
             all.push((kind, space, Formulation::Standard));
             if space != PLANE_STRESS {
                 all.push((kind, space, Formulation::MeanDilatation));
+            }
+            // The rest changes some kinds only.
+            let bilinear = matches!(kind, ElementKind::Quad4 | ElementKind::Hex8);
+            let points = |rule: &[QuadraturePoint]| rule.len();
+            let reference = kind.reference();
+            if points(reference.reduced_quadrature()) != points(reference.quadrature()) {
+                all.push((kind, space, Formulation::Reduced));
+            }
+            if bilinear {
+                all.push((kind, space, Formulation::IncompatibleModes));
             }
         }
     }
@@ -48,7 +58,7 @@ pub fn anisotropic() -> Stiffness {
     Anisotropic::samples()[0].stiffness().expect("sound")
 }
 
-/// A grid of `n` cells on the unit square or cube, simplices by splitting, whose corners are moved by `map`; edges
+/// A grid of `n` cells on the unit square or cube, simplices and wedges by splitting, whose corners are moved by `map`; edges
 /// stay straight.
 pub fn grid(kind: ElementKind, n: [usize; 3], map: &dyn Fn(Vec3) -> Vec3) -> Mesh {
     let dim = kind.dim();
@@ -96,6 +106,10 @@ pub fn grid(kind: ElementKind, n: [usize; 3], map: &dyn Fn(Vec3) -> Vec3) -> Mes
                             }
                             corners.push(tet);
                         }
+                    }
+                    ElementKind::Wedge6 | ElementKind::Wedge15 => {
+                        corners.push([0, 1, 3, 4, 5, 7].map(at).to_vec());
+                        corners.push([0, 3, 2, 4, 7, 6].map(at).to_vec());
                     }
                     _ => corners.push([0, 1, 3, 2, 4, 5, 7, 6].map(at).to_vec()),
                 }

@@ -4,9 +4,11 @@ use super::enforcement::{EnforcementModel, Multipliers, pressure};
 use super::kinematics::Stencil;
 use super::law::Wear;
 use super::law::damping::DampingModel;
-use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint};
+use super::law::friction::{FrictionLaw, FrictionModel, FrictionPoint, Limit};
 use super::law::normal::{NormalLaw, NormalModel};
+use super::law::own::Own;
 use super::law::slip::{SlipModel, SlipRule, SlipState, Tangential};
+use crate::math::Slope;
 
 /// The laws of an interface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,6 +27,8 @@ pub struct Laws {
     pub tied: bool,
     /// What sliding wears off, if that is followed.
     pub wear: Option<Wear>,
+    /// Laws of the program that take the place of `normal` and `friction`.
+    pub own: Own,
 }
 
 /// What one evaluation of the laws needs beside the stencil.
@@ -69,6 +73,17 @@ pub struct Circumstances {
     pub held: Option<Held>,
     /// Part of the limit of friction that acts `[-]`; one but in a continuation.
     pub mobilised: f64,
+    /// What laws that are asked for all points at once have said.
+    pub told: Told,
+}
+
+/// Answers of laws that are asked for all points at once.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Told {
+    /// Pressure at the gap.
+    pub pressure: Option<Slope>,
+    /// Limit of the shear traction.
+    pub limit: Option<Limit>,
 }
 
 /// A status that a point is held in until the rest has settled. The branch of the laws that belongs to it goes on where they would leave it, so
@@ -153,11 +168,38 @@ impl Laws {
         }
         format!(
             "normal {}, friction {}, slip {}, {}",
-            self.normal.kind(),
-            self.friction.kind(),
+            self.own
+                .normal
+                .as_ref()
+                .map_or(self.normal.kind(), |_| "own"),
+            self.own
+                .friction
+                .as_ref()
+                .map_or(self.friction.kind(), |_| "own"),
             self.slip.kind(),
             self.enforcement.kind()
         )
+    }
+
+    /// The normal law that counts.
+    pub fn normal_law(&self) -> &dyn NormalLaw {
+        match &self.own.normal {
+            Some(own) => own,
+            None => self.normal.as_dyn(),
+        }
+    }
+
+    /// The friction law that counts.
+    pub fn friction_law(&self) -> &dyn FrictionLaw {
+        match &self.own.friction {
+            Some(own) => own,
+            None => self.friction.as_dyn(),
+        }
+    }
+
+    /// Whether the normal law has no pressure of its own at a gap. A law of the program is not asked: it has one.
+    pub fn set_valued(&self) -> bool {
+        self.own.normal.is_none() && self.normal.as_dyn().pressure(0.0).is_none()
     }
 
     /// Whether the multipliers are unknowns of Newton's iteration.
@@ -169,12 +211,12 @@ impl Laws {
 
     /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
     pub fn needs_normal_stiffness(&self) -> bool {
-        self.tied || self.normal.as_dyn().pressure(0.0).is_none()
+        self.tied || self.set_valued()
     }
 
     /// Whether shear traction needs a stiffness of sticking.
     pub fn needs_tangential_stiffness(&self) -> bool {
-        self.tied || (self.friction.as_dyn().frictional() && self.slip.as_dyn().sticks())
+        self.tied || (self.friction_law().frictional() && self.slip.as_dyn().sticks())
     }
 
     /// Evaluates the laws at a stencil.
@@ -194,7 +236,7 @@ impl Laws {
         }
         let mut response = self.press(stencil.gap - at.rest, at, unknown);
         let pressure = response.traction[0];
-        let friction: &dyn FrictionLaw = self.friction.as_dyn();
+        let friction = self.friction_law();
         let pressed = pressure > 0.0 || at.held.is_some();
         if pressed {
             response.status = if friction.frictional() {
@@ -217,9 +259,10 @@ impl Laws {
 
     /// The normal part: pressure and its derivatives.
     fn press(&self, gap: f64, at: &Circumstances, unknown: bool) -> Response {
-        let normal: &dyn NormalLaw = self.normal.as_dyn();
+        let normal = self.normal_law();
+        let set_valued = || at.told.pressure.is_none() && normal.pressure(gap).is_none();
         let mut response = Response::default();
-        if unknown && normal.pressure(gap).is_none() {
+        if unknown && set_valued() {
             let keep = 1.0 - at.weight / at.normal_stiffness;
             let p = keep * at.multiplier[0] + (1.0 - keep) * at.centre[0] - at.weight * gap;
             if p > 0.0 || at.held.is_some() {
@@ -229,12 +272,13 @@ impl Laws {
             }
             return response;
         }
-        if at.held.is_some() && normal.pressure(gap).is_none() {
+        if at.held.is_some() && set_valued() {
             response.traction[0] = -at.normal_stiffness * gap;
             response.d_gap[0][0] = -at.normal_stiffness;
             return response;
         }
-        let p = pressure(normal, gap, at.normal_stiffness);
+        let asked = || pressure(normal, gap, at.normal_stiffness);
+        let p = at.told.pressure.unwrap_or_else(asked);
         response.traction[0] = p.value;
         response.d_gap[0][0] = p.slope;
         self.damp(at, &mut response);
@@ -262,6 +306,35 @@ impl Laws {
             response.d_gap[0][0] * (1.0 + extra.d_pressure) - extra.d_rate / at.dt;
     }
 
+    /// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.
+    pub fn question(&self, stencil: &Stencil, at: &Circumstances) -> Option<FrictionPoint> {
+        if self.tied || at.held == Some(Held::Open) || !self.friction_law().frictional() {
+            return None;
+        }
+        let pressure = self.press(stencil.gap - at.rest, at, at.unknown).traction[0];
+        let motion = Tangential {
+            skew: stencil.skew,
+            ..Tangential::default()
+        };
+        let path = motion.length(at.slip);
+        (pressure > 0.0 || at.held.is_some())
+            .then(|| Self::friction_point(stencil, at, pressure, path))
+    }
+
+    fn friction_point(
+        stencil: &Stencil,
+        at: &Circumstances,
+        pressure: f64,
+        path: f64,
+    ) -> FrictionPoint {
+        FrictionPoint {
+            pressure: pressure.max(0.0),
+            penetration: (-stencil.gap).max(0.0),
+            speed: path / at.dt,
+            sticking: at.sticking,
+        }
+    }
+
     /// The tangential part, added to a response with pressure.
     fn shear(&self, stencil: &Stencil, at: &Circumstances, unknown: bool, response: &mut Response) {
         let keep = if unknown && at.tangential_stiffness.is_finite() {
@@ -287,12 +360,11 @@ impl Laws {
             slack: at.slack,
         };
         let path = motion.length(motion.slip);
-        let mut limit = self.friction.as_dyn().limit(&FrictionPoint {
-            pressure: response.traction[0].max(0.0),
-            penetration: (-stencil.gap).max(0.0),
-            speed: path / at.dt,
-            sticking: at.sticking,
-        });
+        let asked = || {
+            let point = Self::friction_point(stencil, at, response.traction[0], path);
+            self.friction_law().limit(&point)
+        };
+        let mut limit = at.told.limit.unwrap_or_else(asked);
         limit.value *= at.mobilised;
         limit.d_pressure *= at.mobilised;
         limit.d_penetration *= at.mobilised;

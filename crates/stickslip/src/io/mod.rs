@@ -3,6 +3,7 @@
 //!
 //! This module knows meshes and named fields, never what they mean.
 
+pub mod abaqus;
 mod atomic;
 pub mod csv;
 pub mod gmsh;

@@ -1,3 +1,4 @@
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::bulk::Bulk;
@@ -7,6 +8,9 @@ use crate::system::{
     Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
     StepFailure, Tally,
 };
+
+/// Failures after which no other way is tried.
+const HOPELESS: [Cause; 3] = [Cause::NotFinite, Cause::Reach, Cause::Interrupted];
 
 /// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
 pub struct System<'a> {
@@ -42,7 +46,7 @@ pub struct Converged {
 }
 
 /// Newton's method with a line search and multiplier updates.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Newton {
     /// Settings.
     pub settings: Settings,
@@ -50,6 +54,8 @@ pub struct Newton {
     pub statistics: Statistics,
     /// What was tried in the last solution when plain iteration had failed, in this order.
     pub fallbacks: Vec<Fallback>,
+    /// Asked in every iteration whether the solution shall be given up.
+    pub interrupt: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
     course: Course,
 }
 
@@ -86,6 +92,11 @@ impl Newton {
         }
     }
 
+    /// Whether the solution shall be given up.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.as_ref().is_some_and(|asked| asked())
+    }
+
     /// Finds equilibrium at `at.t` from the guess `at.u`; every interface starts from its committed history.
     pub fn solve(
         &mut self,
@@ -103,7 +114,7 @@ impl Newton {
         hold(system, false);
         restart(system, at, &guess);
         let failure = match self.rounds(system, from, at, log) {
-            Err(failure) if !matches!(failure.cause, Cause::NotFinite | Cause::Reach) => failure,
+            Err(failure) if !HOPELESS.contains(&failure.cause) => failure,
             outcome => return outcome,
         };
         for course in [
@@ -116,8 +127,10 @@ impl Newton {
             self.course = course;
             let outcome = self.follow(course, system, from, at, &guess, log);
             self.course = Course::Plain;
-            let Some(outcome) = outcome else {
-                continue;
+            let outcome = match outcome {
+                None => continue,
+                Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
+                Some(outcome) => outcome,
             };
             self.statistics.fallbacks += 1;
             self.fallbacks.push(Fallback {
@@ -218,6 +231,9 @@ impl Newton {
         // Residual at which steps began to have to gain; they have to until a hundredth of it is left.
         let mut strict: f64 = 0.0;
         for iteration in 0..=settings.max_iterations {
+            if self.interrupted() {
+                return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
+            }
             let relative = balance.relative();
             residuals.push(relative);
             let multipliers = out.multiplier_residual;

@@ -1,6 +1,7 @@
 use serde_json::Value;
 
 use super::{prose, schema};
+use crate::body::couplings::CouplingKind;
 use crate::body::loads::LoadKind;
 use crate::contact::discretisation::DiscretisationModel;
 use crate::contact::enforcement::EnforcementModel;
@@ -68,6 +69,7 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<DiscretisationModel>("[interface.NAME] discretisation.KIND"),
         listing::<KinematicsModel>("[interface.NAME] kinematics.KIND"),
         listing::<LoadKind>("[load.NAME.KIND]"),
+        listing::<CouplingKind>("[coupling.NAME.KIND]"),
         listing::<SchemeModel>("[step.dynamic] scheme.KIND"),
     ]
 }

@@ -11,6 +11,7 @@ mod amplitude;
 mod body;
 mod build;
 mod check;
+mod coupling;
 mod document;
 mod dynamic;
 mod families;
@@ -18,6 +19,7 @@ mod initial;
 mod interface;
 mod key;
 mod load;
+mod mass;
 mod model;
 mod nearest;
 mod obstacle;
@@ -45,12 +47,15 @@ use crate::material::Material;
 
 pub use amplitude::AmplitudeTable;
 pub use body::{Body, GmshFile, MeshSource, Rayleigh};
+pub use build::Meshes;
+pub use coupling::Coupling;
 pub use document::Document;
 pub use dynamic::Dynamic;
 pub use families::{FamilyListing, ModelListing, families};
 pub use initial::Initial;
 pub use interface::{FacetShape, Interface};
 pub use load::Load;
+pub use mass::Mass;
 pub use model::{Model, SpaceKind};
 pub use obstacle::Obstacle;
 pub use output::Output;
@@ -99,6 +104,12 @@ pub struct Problem {
     /// Forces and springs, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub load: BTreeMap<String, Load>,
+    /// Masses at points, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mass: BTreeMap<String, Mass>,
+    /// Equations between displacements and springs between points, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub coupling: BTreeMap<String, Coupling>,
     /// Factors over time, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub amplitude: BTreeMap<String, AmplitudeTable>,

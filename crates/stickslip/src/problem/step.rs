@@ -1,7 +1,10 @@
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Dynamic;
+use crate::contact::interface::Change;
 
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
 /// order of the file; a step starts from the state at the end of the one before.
@@ -25,6 +28,12 @@ pub struct Step {
     /// The interfaces active in this step; all if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interfaces: Option<Vec<String>>,
+    /// The couplings active in this step; all if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub couplings: Option<Vec<String>>,
+    /// Laws that change from this step on, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub change: BTreeMap<String, Change>,
     /// How the step is divided.
     #[serde(default)]
     pub increments: Increments,

@@ -1,6 +1,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::system::Component;
+
 /// `[support.NAME]`: displacements prescribed on a set. Components that are not given stay free.
 ///
 /// Over the step in which it becomes active, a support moves linearly from the displacement the points have to the
@@ -25,18 +27,6 @@ pub struct Support {
     /// An `[amplitude.NAME]` over the time of the analysis, by which the displacements are multiplied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<String>,
-}
-
-/// A direction of space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Component {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along z.
-    Z,
 }
 
 impl Support {

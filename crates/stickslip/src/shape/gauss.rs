@@ -1,7 +1,9 @@
-//! Gauss rules on `[-1, 1]^d` as tensor products of the line rules.
+//! Gauss rules on `[-1, 1]^d` as tensor products of the line rules, and on wedges as products of a triangle's and a line's.
 
 use super::QuadraturePoint;
 
+/// Point and weight of the 1-point rule, exact for linear functions.
+const ONE: [(f64, f64); 1] = [(0.0, 2.0)];
 /// Points and weights of the 2-point rule, exact for cubics.
 const TWO: [(f64, f64); 2] = [(-ROOT_THIRD, 1.0), (ROOT_THIRD, 1.0)];
 /// Points and weights of the 3-point rule, exact for quintics.
@@ -48,6 +50,70 @@ pub(super) static QUAD_2X2: [QuadraturePoint; 4] = product(&TWO, 2);
 pub(super) static QUAD_3X3: [QuadraturePoint; 9] = product(&THREE, 2);
 pub(super) static HEX_2X2X2: [QuadraturePoint; 8] = product(&TWO, 3);
 pub(super) static HEX_3X3X3: [QuadraturePoint; 27] = product(&THREE, 3);
+pub(super) static QUAD_1: [QuadraturePoint; 1] = product(&ONE, 2);
+pub(super) static HEX_1: [QuadraturePoint; 1] = product(&ONE, 3);
+
+/// Points and weights on a triangle of area 1/2: one point, exact for linear functions.
+const CENTRE: [(f64, f64, f64); 1] = [(1.0 / 3.0, 1.0 / 3.0, 0.5)];
+/// Three points, exact for quadratics.
+const INSIDE: [(f64, f64, f64); 3] = [
+    (1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0),
+    (2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
+    (1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0),
+];
+/// Six points in two orbits `(x, x)`, `(1 - 2 x, x)`, `(x, 1 - 2 x)`, exact to degree four
+/// ([`dunavant_1985`](crate::references::dunavant_1985)).
+const ORBITS: [(f64, f64, f64); 6] = [
+    (NEAR, NEAR, NEAR_WEIGHT),
+    (1.0 - 2.0 * NEAR, NEAR, NEAR_WEIGHT),
+    (NEAR, 1.0 - 2.0 * NEAR, NEAR_WEIGHT),
+    (FAR, FAR, FAR_WEIGHT),
+    (1.0 - 2.0 * FAR, FAR, FAR_WEIGHT),
+    (FAR, 1.0 - 2.0 * FAR, FAR_WEIGHT),
+];
+const NEAR: f64 = 0.445_948_490_915_964_9;
+const NEAR_WEIGHT: f64 = 0.111_690_794_839_005_73;
+const FAR: f64 = 0.091_576_213_509_770_74;
+const FAR_WEIGHT: f64 = 0.054_975_871_827_660_934;
+
+/// The product of a rule on the triangle and one along the line; the triangle runs fastest.
+const fn prism<const N: usize>(
+    triangle: &[(f64, f64, f64)],
+    line: &[(f64, f64)],
+) -> [QuadraturePoint; N] {
+    let mut rule = [QuadraturePoint {
+        xi: [0.0; 3],
+        weight: 0.0,
+    }; N];
+    let mut q = 0;
+    while q < N {
+        let (x, y, area) = triangle[q % triangle.len()];
+        let (z, length) = line[q / triangle.len()];
+        rule[q] = QuadraturePoint {
+            xi: [x, y, z],
+            weight: area * length,
+        };
+        q += 1;
+    }
+    rule
+}
+
+pub(super) static WEDGE_1X2: [QuadraturePoint; 2] = prism(&CENTRE, &TWO);
+pub(super) static WEDGE_3X2: [QuadraturePoint; 6] = prism(&INSIDE, &TWO);
+pub(super) static WEDGE_3X3: [QuadraturePoint; 9] = prism(&INSIDE, &THREE);
+pub(super) static WEDGE_6X3: [QuadraturePoint; 18] = prism(&ORBITS, &THREE);
+
+/// A rule on the wedge of the degree that [`collapsed`] has on the triangle, and quintic along it.
+pub(super) fn fine_wedge() -> Vec<QuadraturePoint> {
+    let triangle = collapsed(2);
+    let along = |(z, w): (f64, f64)| {
+        triangle.clone().into_iter().map(move |p| QuadraturePoint {
+            xi: [p.xi[0], p.xi[1], z],
+            weight: p.weight * w,
+        })
+    };
+    THREE.into_iter().flat_map(along).collect()
+}
 
 /// A rule on the unit simplex: 4 points a direction on the cube, collapsed onto a corner. On a triangle exact to degree six, on a
 /// tetrahedron to degree five.

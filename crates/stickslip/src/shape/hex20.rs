@@ -121,4 +121,8 @@ impl ReferenceElement for Hex20 {
     fn quadrature(&self) -> &'static [QuadraturePoint] {
         &HEX_3X3X3
     }
+
+    fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {
+        &super::gauss::HEX_2X2X2
+    }
 }

@@ -80,4 +80,8 @@ impl ReferenceElement for Hex8 {
     fn quadrature(&self) -> &'static [QuadraturePoint] {
         &HEX_2X2X2
     }
+
+    fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {
+        &super::gauss::HEX_1
+    }
 }

@@ -1,12 +1,12 @@
 use super::{ElementKind, ReferenceElement};
 use super::{
     hex8::Hex8, hex20::Hex20, line2::Line2, line3::Line3, quad4::Quad4, quad8::Quad8, tet4::Tet4,
-    tet10::Tet10, tri3::Tri3, tri6::Tri6,
+    tet10::Tet10, tri3::Tri3, tri6::Tri6, wedge6::Wedge6, wedge15::Wedge15,
 };
 
 impl ElementKind {
     /// Every kind, by dimension and order.
-    pub const ALL: [ElementKind; 10] = [
+    pub const ALL: [ElementKind; 12] = [
         ElementKind::Line2,
         ElementKind::Line3,
         ElementKind::Tri3,
@@ -17,6 +17,8 @@ impl ElementKind {
         ElementKind::Tet10,
         ElementKind::Hex8,
         ElementKind::Hex20,
+        ElementKind::Wedge6,
+        ElementKind::Wedge15,
     ];
 
     /// Its shape functions, faces and quadrature.
@@ -32,6 +34,8 @@ impl ElementKind {
             ElementKind::Tet10 => &Tet10,
             ElementKind::Hex8 => &Hex8,
             ElementKind::Hex20 => &Hex20,
+            ElementKind::Wedge6 => &Wedge6,
+            ElementKind::Wedge15 => &Wedge15,
         }
     }
 
@@ -40,7 +44,12 @@ impl ElementKind {
         match self {
             ElementKind::Line2 | ElementKind::Line3 => 1,
             ElementKind::Tri3 | ElementKind::Tri6 | ElementKind::Quad4 | ElementKind::Quad8 => 2,
-            ElementKind::Tet4 | ElementKind::Tet10 | ElementKind::Hex8 | ElementKind::Hex20 => 3,
+            ElementKind::Tet4
+            | ElementKind::Tet10
+            | ElementKind::Hex8
+            | ElementKind::Hex20
+            | ElementKind::Wedge6
+            | ElementKind::Wedge15 => 3,
         }
     }
 
@@ -50,9 +59,10 @@ impl ElementKind {
             ElementKind::Line2 => 2,
             ElementKind::Line3 | ElementKind::Tri3 => 3,
             ElementKind::Quad4 | ElementKind::Tet4 => 4,
-            ElementKind::Tri6 => 6,
+            ElementKind::Tri6 | ElementKind::Wedge6 => 6,
             ElementKind::Quad8 | ElementKind::Hex8 => 8,
             ElementKind::Tet10 => 10,
+            ElementKind::Wedge15 => 15,
             ElementKind::Hex20 => 20,
         }
     }
@@ -70,6 +80,7 @@ impl ElementKind {
             ElementKind::Quad4 | ElementKind::Quad8 => ElementKind::Quad4,
             ElementKind::Tet4 | ElementKind::Tet10 => ElementKind::Tet4,
             ElementKind::Hex8 | ElementKind::Hex20 => ElementKind::Hex8,
+            ElementKind::Wedge6 | ElementKind::Wedge15 => ElementKind::Wedge6,
         }
     }
 
@@ -96,13 +107,15 @@ impl ElementKind {
             ElementKind::Tet10 => "tet10",
             ElementKind::Hex8 => "hex8",
             ElementKind::Hex20 => "hex20",
+            ElementKind::Wedge6 => "wedge6",
+            ElementKind::Wedge15 => "wedge15",
         }
     }
 
     /// Reference coordinates of the centre.
     pub fn centre(self) -> [f64; 3] {
         match self.linear() {
-            ElementKind::Tri3 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            ElementKind::Tri3 | ElementKind::Wedge6 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
             ElementKind::Tet4 => [0.25; 3],
             _ => [0.0; 3],
         }

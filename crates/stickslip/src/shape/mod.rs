@@ -1,9 +1,10 @@
 //! Reference elements: shape functions, their derivatives, faces and quadrature. One file per element.
 //!
 //! Node order, face order and reference domains follow Gmsh (see its manual, *Node ordering*): lines on `[-1, 1]`,
-//! quadrilaterals and hexahedra on `[-1, 1]^d`, triangles and tetrahedra on the unit simplex. The exceptions are
-//! tet10 and hex20, whose nodes follow VTK (tet10: edges 01 12 20 03 13 23; hex20: edges 01 12 23 30, 45 56 67 74,
-//! 04 15 26 37); the Gmsh reader translates.
+//! quadrilaterals and hexahedra on `[-1, 1]^d`, triangles and tetrahedra on the unit simplex, wedges on the product of
+//! triangle and line. The exceptions are tet10, hex20 and wedge15, whose nodes follow VTK (tet10: edges 01 12 20 03 13 23;
+//! hex20: edges 01 12 23 30, 45 56 67 74, 04 15 26 37; wedge15: edges 01 12 20, 34 45 53, 03 14 25), and faces of hexahedra
+//! and wedges, which are numbered as in Abaqus; the Gmsh reader translates.
 
 mod gauss;
 mod hex20;
@@ -18,6 +19,8 @@ mod tet10;
 mod tet4;
 mod tri3;
 mod tri6;
+mod wedge15;
+mod wedge6;
 
 #[cfg(test)]
 mod tests;
@@ -58,6 +61,10 @@ pub enum ElementKind {
     Hex8,
     /// 20-node serendipity hexahedron.
     Hex20,
+    /// 6-node wedge: a triangle times a line.
+    Wedge6,
+    /// 15-node serendipity wedge.
+    Wedge15,
 }
 
 /// Most nodes any element has.
@@ -101,6 +108,10 @@ pub trait ReferenceElement: Sync {
     fn faces(&self) -> &'static [Face];
     /// The rule for the stiffness: exact for an undistorted element.
     fn quadrature(&self) -> &'static [QuadraturePoint];
+    /// The rule of reduced integration; that of the stiffness where there is no other.
+    fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {
+        self.quadrature()
+    }
 }
 
 /// A rule that integrates products of two shape functions exactly over an undistorted cell, around an axis too: for masses.
@@ -109,6 +120,7 @@ pub fn mass_rule(kind: ElementKind) -> Vec<QuadraturePoint> {
         ElementKind::Line2 | ElementKind::Line3 => gauss::LINE_3.to_vec(),
         ElementKind::Quad4 | ElementKind::Quad8 => gauss::QUAD_3X3.to_vec(),
         ElementKind::Hex8 | ElementKind::Hex20 => gauss::HEX_3X3X3.to_vec(),
+        ElementKind::Wedge6 | ElementKind::Wedge15 => gauss::fine_wedge(),
         ElementKind::Tri3 | ElementKind::Tri6 => gauss::collapsed(2),
         ElementKind::Tet4 | ElementKind::Tet10 => gauss::collapsed(3),
     }

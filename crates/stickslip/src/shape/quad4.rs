@@ -61,4 +61,8 @@ impl ReferenceElement for Quad4 {
     fn quadrature(&self) -> &'static [QuadraturePoint] {
         &QUAD_2X2
     }
+
+    fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {
+        &super::gauss::QUAD_1
+    }
 }

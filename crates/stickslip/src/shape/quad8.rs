@@ -108,4 +108,8 @@ impl ReferenceElement for Quad8 {
     fn quadrature(&self) -> &'static [QuadraturePoint] {
         &QUAD_3X3
     }
+
+    fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {
+        &super::gauss::QUAD_2X2
+    }
 }

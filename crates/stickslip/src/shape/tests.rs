@@ -128,6 +128,10 @@ fn second_and_third_derivatives_match_differences() {
 
 /// `∫ x^a y^b z^c` over the reference element.
 fn monomial(kind: ElementKind, powers: [u32; 3]) -> f64 {
+    if kind.linear() == ElementKind::Wedge6 {
+        let triangle = monomial(ElementKind::Tri3, [powers[0], powers[1], 0]);
+        return triangle * monomial(ElementKind::Line2, [powers[2], 0, 0]);
+    }
     if kind.is_simplex() {
         let factorial = |n: u32| (1..=n).map(f64::from).product::<f64>();
         let total = powers.iter().sum::<u32>() + kind.dim() as u32;
@@ -144,36 +148,77 @@ fn monomial(kind: ElementKind, powers: [u32; 3]) -> f64 {
         .product()
 }
 
+/// How far a rule is from the integrals of all monomials of at most these degrees: in total in the directions of a simplex, in each
+/// direction elsewhere.
+fn error_of(rule: &[QuadraturePoint], kind: ElementKind, degree: u32, along: u32) -> f64 {
+    let wedge = kind.linear() == ElementKind::Wedge6;
+    let highest = |direction: usize| match direction {
+        d if d >= kind.dim() => 0,
+        2 if wedge => along,
+        _ => degree,
+    };
+    let mut worst: f64 = 0.0;
+    for a in 0..=highest(0) {
+        for b in 0..=highest(1) {
+            for c in 0..=highest(2) {
+                let total = if wedge { a + b } else { a + b + c };
+                if (kind.is_simplex() || wedge) && total > degree {
+                    continue;
+                }
+                let sum: f64 = rule
+                    .iter()
+                    .map(|q| {
+                        let power = |i: usize, p: u32| q.xi[i].powi(p as i32);
+                        q.weight * power(0, a) * power(1, b) * power(2, c)
+                    })
+                    .sum();
+                worst = worst.max((sum - monomial(kind, [a, b, c])).abs());
+            }
+        }
+    }
+    worst
+}
+
 #[test]
 fn quadrature_integrates_polynomials() {
     for kind in ElementKind::ALL {
-        // The degree: in total on simplices, in each direction on products.
-        let degree = match (kind.is_simplex(), kind.order()) {
-            (true, order) => order as u32,
-            (false, 1) => 3,
-            (false, _) => 5,
+        let (degree, along) = match (kind.linear(), kind.order()) {
+            (ElementKind::Wedge6, 1) => (2, 3),
+            (ElementKind::Wedge6, _) => (4, 5),
+            (_, order) if kind.is_simplex() => (order as u32, 0),
+            (_, 1) => (3, 0),
+            _ => (5, 0),
         };
-        let highest = |direction: usize| if direction < kind.dim() { degree } else { 0 };
-        for a in 0..=highest(0) {
-            for b in 0..=highest(1) {
-                for c in 0..=highest(2) {
-                    if kind.is_simplex() && a + b + c > degree {
-                        continue;
-                    }
-                    let sum: f64 = kind
-                        .reference()
-                        .quadrature()
-                        .iter()
-                        .map(|q| {
-                            let power = |i: usize, p: u32| q.xi[i].powi(p as i32);
-                            q.weight * power(0, a) * power(1, b) * power(2, c)
-                        })
-                        .sum();
-                    let exact = monomial(kind, [a, b, c]);
-                    assert!((sum - exact).abs() < 1e-14, "{kind} {a} {b} {c}");
-                }
-            }
-        }
+        let error = error_of(kind.reference().quadrature(), kind, degree, along);
+        assert!(error < 1e-14, "{kind} {error}");
+    }
+}
+
+#[test]
+fn reduced_rules_integrate_what_their_points_allow() {
+    use ElementKind::*;
+    for (kind, points, degree, along) in [
+        (Quad4, 1, 1, 0),
+        (Quad8, 4, 3, 0),
+        (Hex8, 1, 1, 0),
+        (Hex20, 8, 3, 0),
+        (Wedge6, 2, 1, 3),
+        (Wedge15, 9, 2, 5),
+        (Tet10, 4, 2, 0),
+    ] {
+        let rule = kind.reference().reduced_quadrature();
+        assert_eq!(rule.len(), points, "{kind}");
+        assert!(error_of(rule, kind, degree, along) < 1e-14, "{kind}");
+    }
+}
+
+#[test]
+fn mass_rules_integrate_products_of_shape_functions() {
+    for kind in ElementKind::ALL {
+        // The highest power in one direction of a shape function, in total on a simplex.
+        let order = kind.order() as u32;
+        let error = error_of(&mass_rule(kind), kind, 2 * order, 2 * order);
+        assert!(error < 1e-14, "{kind} {error}");
     }
 }
 

@@ -79,6 +79,7 @@ impl Simulation {
         for interface in &mut self.model.interfaces {
             interface.commit(&stage);
         }
+        self.model.couplings.commit(&stage);
     }
 
     /// Makes an accepted attempt the last state, and enters it into the ledger.
@@ -108,14 +109,23 @@ impl Simulation {
         let strain = accepted
             .strain
             .unwrap_or_else(|| strain_energy(&self.matrix, &self.state.u));
+        // The energy of couplings counts with that of the bodies.
+        let couplings = &self.model.couplings;
+        let (stored, coupled) = (couplings.energy().stored, couplings.work());
+        let coupled_before = std::mem::replace(&mut self.coupled, stored);
+        let flow = Flow {
+            work: accepted.flow.work + coupled,
+            ..accepted.flow
+        };
         let contact: Vec<_> = self.model.interfaces.iter().map(|i| i.energy()).collect();
         let before = summary.energy.of_interfaces();
         summary
             .energy
-            .enter(accepted.flow, kinetic, strain, &contact);
+            .enter(flow, kinetic, strain + stored, &contact);
         if accepted.followed {
             // Less what the interfaces have entered of it.
-            let entered = summary.energy.of_interfaces() - before;
+            let entered =
+                summary.energy.of_interfaces() - before + stored - coupled_before - coupled;
             summary.energy.lose(contact_work - entered);
         }
         summary.energy_quality.note(&summary.energy);

@@ -247,6 +247,9 @@ impl Simulation {
         for point in self.loose.points() {
             kept[point] = true;
         }
+        for point in self.model.couplings.points() {
+            kept[point] = true;
+        }
         for link in self.model.links.all() {
             kept[link.points.clone()].fill(false);
             kept[link.hidden..link.hidden + 2].fill(true);
@@ -331,6 +334,8 @@ impl Simulation {
         let dt = trial.to - trial.from;
         let external = self.external(trial.to);
         let constraints = self.constraints(trial.to);
+        let model = &mut self.model;
+        (model.couplings).fit(&self.diagonal, &constraints.fixed, &model.links);
         let Some(condensed) = &mut self.condensed else {
             return Err(StepFailure::new(Cause::NotFinite, "nothing is condensed"));
         };
@@ -389,7 +394,10 @@ impl Simulation {
             rate: None,
             constraints,
             links: &self.model.links,
-            contact: (self.loose).with(inertia::contact(&mut self.model.interfaces)),
+            contact: (self.loose).with(inertia::contact(
+                &mut self.model.interfaces,
+                &mut self.model.couplings,
+            )),
         };
         let converged = self
             .newton
@@ -436,6 +444,7 @@ impl Simulation {
             .iter()
             .map(|i| i.memory.clone())
             .collect();
+        pending.couplings = self.model.couplings.memory.clone();
         let Condensed {
             condensation,
             state,

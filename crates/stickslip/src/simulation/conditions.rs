@@ -4,9 +4,15 @@ use super::run::Simulation;
 use crate::system::{Constraints, Force};
 
 impl Simulation {
-    /// Remembers from where supports that begin to act start, and with which force those that end let go.
+    /// Exchanges the laws that change, and remembers from where supports that begin to act start, and with which force those that end let go.
     pub(super) fn begin_step(&mut self) {
         let step = &self.model.steps[self.step];
+        for (name, change) in &step.changes {
+            let all = self.model.interfaces.iter_mut();
+            for interface in all.filter(|i| i.name == *name) {
+                self.summary.energy.initial += interface.change(change);
+            }
+        }
         let middle = 0.5 * (step.start + step.end);
         let before = self.step.checked_sub(1).map(|i| {
             let s = &self.model.steps[i];
@@ -31,8 +37,17 @@ impl Simulation {
         }
         self.previous = None;
         self.released.clear();
+        let links = &self.model.links;
+        let released = &mut self.released;
+        let mut let_go = |dof: usize, force: f64| match links.row(dof) {
+            None => released.push((dof, force)),
+            Some(row) => released.extend(row.map(|(d, factor)| (d, factor * force))),
+        };
+        let span = (before, middle);
+        (self.model.couplings).begin_step(span, &self.state.u, &mut let_go);
         if step.dynamic.is_some() {
             // In motion what lets go lets go at once.
+            self.released.clear();
             return;
         }
         let mut seen = vec![false; self.state.u.len()];

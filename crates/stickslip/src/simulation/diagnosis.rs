@@ -111,7 +111,7 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
     modes.collect()
 }
 
-/// The bodies that supports and springs acting at `t` leave free to move.
+/// The bodies that supports, springs and couplings acting at `t` leave free to move.
 pub(super) fn free_bodies(simulation: &Simulation, t: f64) -> Vec<FreeBody> {
     let model = &simulation.model;
     let mut held = simulation.constraints(t).fixed;
@@ -124,6 +124,7 @@ pub(super) fn free_bodies(simulation: &Simulation, t: f64) -> Vec<FreeBody> {
             held[dof] |= stiffness > 0.0;
         }
     }
+    let rows: Vec<_> = model.couplings.acting(t).collect();
     let mut out = Vec::new();
     for (index, body) in model.bodies.iter().enumerate() {
         let modes = match body.rigid {
@@ -154,7 +155,9 @@ pub(super) fn free_bodies(simulation: &Simulation, t: f64) -> Vec<FreeBody> {
                             .filter(|(_, held)| **held)
                             .map(|((a, b), _)| a * b)
                             .sum();
-                        sum * sa * sb
+                        // What a coupling resists, whatever is at its other end.
+                        let coupled: f64 = rows.iter().map(|r| r.sum(a) * r.sum(b)).sum();
+                        (sum + coupled) * sa * sb
                     })
                     .collect()
             })

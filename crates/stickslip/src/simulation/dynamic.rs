@@ -53,7 +53,7 @@ impl Simulation {
         let suits = self
             .motion
             .as_ref()
-            .is_some_and(|m| m.inertia.suits(dynamic));
+            .is_some_and(|m| m.inertia.suits(&self.model, dynamic));
         let inertia = match self.motion.take() {
             Some(motion) if suits => motion.inertia,
             old => {
@@ -112,6 +112,7 @@ impl Simulation {
                 .add_initial(&stage, &mut contact)
                 .map_err(|e| e.at(t))?;
         }
+        (self.model.couplings).add_initial(t, &self.state.u, &mut contact);
         self.model.links.transfer(&mut contact);
         Ok(contact)
     }
@@ -129,6 +130,16 @@ impl Simulation {
             .collect();
         let fixed = self.constraints(t).fixed;
         self.state.a = inertia.acceleration(&force, &fixed).map_err(|e| e.at(t))?;
+        // Prescribed dofs have no acceleration, which is as good as known; those of light points follow from the interfaces.
+        self.model
+            .couplings
+            .start_motion(
+                (t, &self.model.links),
+                &inertia.light,
+                &mut |f| inertia.acceleration(f, &fixed),
+                (&mut self.state.a, &mut self.contact),
+            )
+            .map_err(|e| e.at(t))?;
         self.model.links.impose(&mut self.state.a);
         Ok(())
     }
@@ -146,7 +157,7 @@ impl Simulation {
         let Some(mut motion) = self.motion.take() else {
             return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
         };
-        let outcome = self.advance(
+        let outcome = self.integrate(
             &mut motion,
             trial,
             dynamic,
@@ -158,7 +169,7 @@ impl Simulation {
         outcome
     }
 
-    fn advance(
+    fn integrate(
         &mut self,
         motion: &mut Motion,
         trial: Trial,
@@ -221,6 +232,7 @@ impl Simulation {
             return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
         };
         let condensed = self.ready_to_move(&constraints.fixed, (matrix, key));
+        (self.model.couplings).fit(diagonal, &constraints.fixed, &self.model.links);
         let converged = if condensed {
             self.solve_condensed(
                 (diagonal, key),
@@ -250,7 +262,7 @@ impl Simulation {
                 constraints,
                 links: &model.links,
                 rate: Some(rate),
-                contact: inertia::contact(&mut model.interfaces),
+                contact: inertia::contact(&mut model.interfaces, &mut model.couplings),
             };
             newton.solve(&mut system, &from, &mut at, &mut |p| seen.push(*p))
         };
@@ -368,7 +380,7 @@ impl Simulation {
             constraints,
             links: &model.links,
             rate: Some(rate),
-            contact: inertia::contact(&mut model.interfaces),
+            contact: inertia::contact(&mut model.interfaces, &mut model.couplings),
         };
         let converged = newton.solve(&mut system, from, at, &mut |p| seen.push(*p))?;
         let started = std::time::Instant::now();

@@ -12,7 +12,7 @@ use super::run::Simulation;
 use super::spin::{Spin, mobility};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
-use crate::system::{Assembler, Constraints};
+use crate::system::{Assembler, Constraints, Force};
 use crate::time::scheme::Method;
 
 /// What explicit increments need beside the state.
@@ -210,6 +210,9 @@ impl Simulation {
         for interface in &mut self.model.interfaces {
             self.summary.energy.initial += interface.use_springs(true);
         }
+        let couplings = &mut self.model.couplings;
+        couplings.use_springs(true);
+        couplings.fit_springs(&explicit.inverse, explicit.frequency, &self.model.links);
         let dt = self
             .stable_increment(&explicit)
             .min(step.increments.largest);
@@ -243,6 +246,7 @@ impl Simulation {
                 .map(|(f, u)| f * u)
                 .sum::<f64>();
         let energy = &mut self.summary.energy;
+        let strain = strain + self.model.couplings.energy().stored;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         self.model.links.transfer(&mut explicit.force);
@@ -274,10 +278,14 @@ impl Simulation {
     }
 
     pub(super) fn contact_frequency(&self, explicit: &Explicit) -> f64 {
+        let step = &self.model.steps[self.step];
         let all = self.model.interfaces.iter();
         let links = &self.model.links;
-        all.map(|i| i.highest_frequency(&explicit.inverse, links))
-            .sum()
+        let interfaces: f64 = all
+            .map(|i| i.highest_frequency(&explicit.inverse, links))
+            .sum();
+        let t = self.state.t + super::dynamic::AFTER * (step.end - step.start);
+        interfaces + (self.model.couplings).highest_frequency(t, &explicit.inverse, links)
     }
 
     fn stable_increment(&self, explicit: &Explicit) -> f64 {

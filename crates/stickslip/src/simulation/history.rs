@@ -89,6 +89,10 @@ pub(super) fn row(
             row.push(format!("{}.CWEARVOL", interface.name), volume);
         }
     }
+    for (name, force, sum) in simulation.model.couplings.report(&simulation.state.u) {
+        row.push(format!("{name}.F"), force);
+        row.push(format!("{name}.U"), sum);
+    }
     for support in &simulation.model.supports {
         push_reaction(&mut row, &support.name, simulation, support);
     }

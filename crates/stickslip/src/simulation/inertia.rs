@@ -3,6 +3,7 @@
 use super::model::{ContactMass, Dynamic, Model};
 use super::spin::mobility;
 use crate::body::MassKind;
+use crate::body::couplings::Couplings;
 use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, GmresSettings, Isotropic, gmres};
 use crate::system::{Cause, Force, Links, StepFailure};
@@ -11,7 +12,8 @@ use crate::time::scheme::Alphas;
 /// What resists acceleration and velocity.
 pub(super) struct Inertia {
     mass_kind: MassKind,
-    contact_mass: Option<ContactMass>,
+    /// Whether the points of each interface have none.
+    redistributed: Vec<bool>,
     /// `M`, over all dofs.
     mass: BlockCsr,
     /// The same in fewer numbers, where no rigid body turns.
@@ -45,13 +47,8 @@ impl Inertia {
     pub fn new(model: &Model, stiffness: &BlockCsr, dynamic: &Dynamic, before: u64) -> Self {
         let dim = model.dofs.dim;
         let mut light = vec![false; model.dofs.points];
-        for interface in &model.interfaces {
-            let wanted = match dynamic.contact_mass {
-                Some(ContactMass::Redistributed) => true,
-                Some(ContactMass::AsMeshed) => false,
-                // A compliant law stops a mass gently.
-                None => interface.laws.normal.as_dyn().pressure(0.0).is_none(),
-            };
+        let redistributed = redistributed(model, dynamic);
+        for (interface, &wanted) in model.interfaces.iter().zip(&redistributed) {
             if wanted {
                 // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
                 // as a secondary one does against a wall.
@@ -60,6 +57,8 @@ impl Inertia {
                 }
             }
         }
+        // What is fixed to a point keeps it from following others without inertia.
+        model.masses.iter().for_each(|(p, _)| light[*p] = false);
         let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
             if body.rigid.is_some() {
@@ -69,10 +68,13 @@ impl Inertia {
             }
         }
         add_rigid_mass(model, &mut mass);
+        for &(point, m) in &model.masses {
+            (0..dim).for_each(|i| mass.add_diagonal(model.dofs.of(point, i), m));
+        }
         let damping = damping(model, stiffness, &mass);
         Inertia {
             mass_kind: dynamic.mass,
-            contact_mass: dynamic.contact_mass,
+            redistributed,
             masses: Isotropic::of(&mass),
             mass,
             damping,
@@ -99,8 +101,8 @@ impl Inertia {
     }
 
     /// Whether it serves a step with these settings.
-    pub fn suits(&self, dynamic: &Dynamic) -> bool {
-        self.mass_kind == dynamic.mass && self.contact_mass == dynamic.contact_mass
+    pub fn suits(&self, model: &Model, dynamic: &Dynamic) -> bool {
+        self.mass_kind == dynamic.mass && self.redistributed == redistributed(model, dynamic)
     }
 
     /// The last key given to a matrix.
@@ -244,6 +246,17 @@ impl Inertia {
     }
 }
 
+/// Interfaces whose points have their mass given to their neighbours.
+fn redistributed(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
+    let wanted = |interface: &Interface| match dynamic.contact_mass {
+        Some(ContactMass::Redistributed) => true,
+        Some(ContactMass::AsMeshed) => false,
+        // A compliant law stops a mass gently.
+        None => interface.laws.normal.as_dyn().pressure(0.0).is_none(),
+    };
+    model.interfaces.iter().map(wanted).collect()
+}
+
 /// The factors of mass, damping and stiffness in the matrix of an increment.
 fn factors(alphas: Alphas, dt: f64, weight: f64) -> [f64; 3] {
     let Alphas {
@@ -259,11 +272,14 @@ fn factors(alphas: Alphas, dt: f64, weight: f64) -> [f64; 3] {
     ]
 }
 
-/// Lumped masses of the elastic bodies, by point.
+/// Lumped masses of the elastic bodies and of what is fixed to points, by point.
 pub(super) fn lumped(model: &Model) -> Vec<f64> {
     let mut masses = vec![0.0; model.dofs.points];
     for body in model.elastic() {
         body.elastic.add_lumped_mass(&mut masses);
+    }
+    for &(point, m) in &model.masses {
+        masses[point] += m;
     }
     masses
 }
@@ -321,7 +337,15 @@ pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
     0.5 * dot(u, &times(stiffness, u))
 }
 
-/// All interfaces as forces.
-pub(super) fn contact(interfaces: &mut [Interface]) -> Vec<&mut dyn Force> {
-    interfaces.iter_mut().map(|i| i as &mut dyn Force).collect()
+/// All interfaces and couplings as forces.
+pub(super) fn contact<'a>(
+    interfaces: &'a mut [Interface],
+    couplings: &'a mut Couplings,
+) -> Vec<&'a mut dyn Force> {
+    let mut forces: Vec<&mut dyn Force> =
+        interfaces.iter_mut().map(|i| i as &mut dyn Force).collect();
+    if !couplings.is_empty() {
+        forces.push(couplings);
+    }
+    forces
 }

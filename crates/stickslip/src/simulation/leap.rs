@@ -97,6 +97,7 @@ impl Simulation {
             interface.prepare(&stage)?;
             interface.assemble(&stage, &mut explicit.out)?;
         }
+        self.model.couplings.assemble(&stage, &mut explicit.out)?;
         self.model.links.transfer(&mut explicit.out.residual);
         let external = if explicit.loaded {
             self.external(trial.to)

@@ -270,7 +270,9 @@ impl Simulation {
             return outcome;
         };
         match outcome {
-            Err(failure) if failure.cause == Cause::Reach => Err(failure),
+            Err(failure) if matches!(failure.cause, Cause::Reach | Cause::Interrupted) => {
+                Err(failure)
+            }
             Err(failure) => {
                 let adrift = anchors.adrift();
                 self.loose.anchors = None;

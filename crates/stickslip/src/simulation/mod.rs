@@ -18,6 +18,7 @@ mod leap;
 mod ledger;
 mod limits;
 mod loose;
+mod march;
 mod model;
 mod pending;
 mod quality;
@@ -31,6 +32,7 @@ pub use files::{ResultFiles, fields};
 pub use history::Row;
 pub use ledger::EnergyLedger;
 pub use limits::{GateMode, Limits};
+pub use march::Interrupt;
 pub use model::{
     Body, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid, Solution, Step, Support,
 };

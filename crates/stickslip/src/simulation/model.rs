@@ -2,9 +2,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::limits::Limits;
+use crate::body::couplings::Couplings;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
-use crate::contact::interface::Interface;
+use crate::contact::interface::{Change, Interface};
 use crate::math::Mat3;
 use crate::mesh::Mesh;
 use crate::newton::{Places, Settings};
@@ -31,6 +32,10 @@ pub struct Model {
     pub loads: Vec<Load>,
     /// Springs to ground.
     pub springs: Vec<Spring>,
+    /// Masses at points beside those of the cells `[kg]`.
+    pub masses: Vec<(usize, f64)>,
+    /// Equations between displacements and springs between points.
+    pub couplings: Couplings,
     /// Supports and prescribed displacements.
     pub supports: Vec<Support>,
     /// Interfaces.
@@ -245,6 +250,8 @@ pub struct Step {
     pub fixed: bool,
     /// How motion is integrated; `None` in a quasi-static step.
     pub dynamic: Option<Dynamic>,
+    /// Interfaces, by name, whose laws change at its start.
+    pub changes: Vec<(String, Change)>,
 }
 
 impl Step {

@@ -1,10 +1,12 @@
 //! Accepted increments on their way into the results.
 
+use std::collections::VecDeque;
 use std::time::Instant;
 
 use super::accepted::Accepted;
 use super::history;
 use super::run::{Advance, Event, Observer, Simulation};
+use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::Memory;
 use crate::error::Error;
 use crate::newton::Progress;
@@ -26,6 +28,8 @@ pub(super) struct Pending {
     pub seen: Vec<Progress>,
     /// What the interfaces knew after it; empty if it is reported at once.
     pub memories: Vec<Memory>,
+    /// The same of the couplings.
+    pub couplings: CouplingsMemory,
     /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
     pub found: Option<(Amplitudes, Vec<f64>)>,
 }
@@ -42,6 +46,15 @@ impl Pending {
             tally: self.accepted.tally,
         }
     }
+}
+
+/// Increments whose interiors are known, on their way to the observers.
+pub(super) struct Recovered {
+    queue: VecDeque<Pending>,
+    /// What the interfaces know after the last of them.
+    now: Vec<Memory>,
+    /// And the couplings.
+    coupled: CouplingsMemory,
 }
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
@@ -66,39 +79,64 @@ impl Simulation {
         self.move_ahead(&mut pending);
         self.pending.push(pending);
         if last || self.pending.len() >= TOGETHER {
-            self.flush(observers)?;
+            self.recover_pending();
         }
         Ok(())
     }
 
     /// Finds the interiors of all pending increments and reports them.
     pub(super) fn flush(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        self.recover_pending();
+        while self.report_next(observers)? {}
+        Ok(())
+    }
+
+    /// Finds the interiors of all pending increments.
+    pub(super) fn recover_pending(&mut self) {
         if self.pending.is_empty() {
-            return Ok(());
+            return;
         }
         let mut pending = std::mem::take(&mut self.pending);
         self.recover(&mut pending);
         // The interfaces tell what they knew after each of them.
         let interfaces = self.model.interfaces.iter_mut();
-        let now: Vec<Memory> = interfaces.map(|i| std::mem::take(&mut i.memory)).collect();
+        self.recovered = Some(Recovered {
+            queue: pending.into(),
+            now: interfaces.map(|i| std::mem::take(&mut i.memory)).collect(),
+            coupled: std::mem::take(&mut self.model.couplings.memory),
+        });
+    }
+
+    /// Reports the next of the increments whose interiors are known; `false` if there is none.
+    pub(super) fn report_next(
+        &mut self,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let Some(mut recovered) = self.recovered.take() else {
+            return Ok(false);
+        };
         let mut outcome = Ok(());
-        for mut one in pending {
-            let memories = std::mem::take(&mut one.memories);
-            for (interface, memory) in self.model.interfaces.iter_mut().zip(memories) {
-                interface.memory = memory;
-            }
+        if let Some(mut one) = recovered.queue.pop_front() {
+            self.remember(std::mem::take(&mut one.memories));
+            self.model.couplings.memory = std::mem::take(&mut one.couplings);
             outcome = self.complete(&mut one);
             if outcome.is_ok() {
                 outcome = self.report(one, observers);
             }
-            if outcome.is_err() {
-                break;
-            }
         }
-        for (interface, memory) in self.model.interfaces.iter_mut().zip(now) {
+        if recovered.queue.is_empty() || outcome.is_err() {
+            self.remember(recovered.now);
+            self.model.couplings.memory = recovered.coupled;
+        } else {
+            self.recovered = Some(recovered);
+        }
+        outcome.map(|()| true)
+    }
+
+    fn remember(&mut self, memories: Vec<Memory>) {
+        for (interface, memory) in self.model.interfaces.iter_mut().zip(memories) {
             interface.memory = memory;
         }
-        outcome
     }
 
     /// Enters an increment into the ledger and tells the observers.

@@ -7,8 +7,9 @@ use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
 use super::loose::Loose;
-use super::model::{Dynamic, Model, Solution, Step};
-use super::pending::Pending;
+use super::march::March;
+use super::model::{Model, Solution, Step};
+use super::pending::{Pending, Recovered};
 use super::summary::{FallbackSummary, Phases, Summary};
 use super::{diagnosis, doctor, history, quality};
 use crate::body::Around;
@@ -17,8 +18,7 @@ use crate::linear::BlockCsr;
 use crate::newton::condensed::{Condensation, Gaps, Library};
 use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, Force, State, StepFailure, Tally};
-use crate::time::scheme::Method;
-use crate::time::{Stepper, Trial};
+use crate::time::Trial;
 
 /// A model being run.
 pub struct Simulation {
@@ -48,10 +48,14 @@ pub struct Simulation {
     /// Condensed bodies of implicit increments, by the key of their matrix.
     pub(super) moving: Vec<(u64, Condensation, Gaps)>,
     pub(super) pending: Vec<Pending>,
+    pub(super) recovered: Option<Recovered>,
+    pub(super) march: March,
     pub(super) library: Arc<Library>,
     /// What interfaces add to the residual, and the external forces, at the last accepted state.
     pub(super) contact: Vec<f64>,
     pub(super) load: Vec<f64>,
+    /// Energy in couplings at the last accepted state.
+    pub(super) coupled: f64,
     pub(super) motion: Option<Motion>,
     pub(super) explicit: Option<Explicit>,
     pub(super) previous: Option<(f64, Vec<f64>)>,
@@ -62,7 +66,7 @@ pub struct Simulation {
     pub(super) step: usize,
     /// Bodies that only contact can hold.
     pub(super) loose: Loose,
-    started: Instant,
+    pub(super) started: Instant,
 }
 
 /// What observers are told.
@@ -151,6 +155,7 @@ impl Simulation {
             around,
             contact: vec![0.0; n],
             load: vec![0.0; n],
+            coupled: 0.0,
             motion: None,
             explicit: None,
             state: State {
@@ -176,6 +181,8 @@ impl Simulation {
             condensed: None,
             moving: Vec::new(),
             pending: Vec::new(),
+            recovered: None,
+            march: March::default(),
             library,
             previous: None,
             held: BTreeMap::new(),
@@ -185,7 +192,10 @@ impl Simulation {
             started,
             model,
         };
-        let strain = strain_energy(&simulation.matrix, &simulation.state.u);
+        let State { t, u, .. } = &simulation.state;
+        let strain =
+            strain_energy(&simulation.matrix, u) + simulation.model.couplings.begin_analysis(*t, u);
+        simulation.coupled = simulation.model.couplings.energy().stored;
         simulation.summary.energy.initial = strain;
         simulation.summary.energy.strain = strain;
         simulation.summary.energy_quality.limit = simulation.model.energy_limit;
@@ -196,16 +206,28 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Runs all steps.
+    /// Runs all steps, or what is left of them.
+    ///
+    /// # Errors
+    /// [`Error::Run`] if the analysis cannot go on, [`Error::Interrupted`] if it was asked to stop (see [`Simulation::set_interrupt`]), and
+    /// what observers return. In each case the results so far stay, and the observers have seen [`Event::End`].
     pub fn run(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        self.started = Instant::now();
-        let outcome = self.run_steps(observers);
+        while self.advance(observers)? {}
+        Ok(())
+    }
+
+    /// What is to be said at the end, well or not.
+    pub(super) fn close(
+        &mut self,
+        outcome: Result<bool, Error>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
         if let Err(Error::Run(error)) = &outcome {
             self.conclude(error);
         }
         self.summary.finish(
             &self.newton.statistics,
-            self.started.elapsed().as_secs_f64(),
+            self.elapsed(),
             outcome.as_ref().err(),
         );
         self.summary.artificial_energy = self.artificial_energy();
@@ -218,44 +240,8 @@ impl Simulation {
         outcome
     }
 
-    fn run_steps(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        for step in 0..self.model.steps.len() {
-            self.step = step;
-            self.begin_step();
-            self.begin_acting();
-            match self.model.steps[step].dynamic {
-                Some(dynamic) => {
-                    self.explicit = None;
-                    self.condensed = None;
-                    for interface in &mut self.model.interfaces {
-                        self.summary.energy.initial += interface.use_springs(false);
-                    }
-                    match dynamic.method {
-                        Method::Implicit(_) => {
-                            self.start_motion(&dynamic)?;
-                            self.choose_candidates();
-                        }
-                        Method::Explicit { .. } => {
-                            self.wake();
-                            self.start_explicit(&dynamic)?;
-                        }
-                    }
-                }
-                None => {
-                    self.rest();
-                    self.know();
-                    self.choose_candidates();
-                    self.condense()?;
-                }
-            }
-            self.tell_notes(observers)?;
-            self.run_step(observers)?;
-        }
-        Ok(())
-    }
-
     /// A quasi-static step knows no velocities: what motion there was ends.
-    fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         let energy = &mut self.summary.energy;
         energy.numerical += energy.kinetic;
         energy.kinetic = 0.0;
@@ -267,106 +253,11 @@ impl Simulation {
             interface.set_masses(&[]);
             self.summary.energy.initial += interface.use_springs(false);
         }
-    }
-
-    fn run_step(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        let step = self.model.steps[self.step].clone();
-        let mut stepper = Stepper::new(step.start, step.milestones.clone(), step.increments);
-        if step.dynamic.is_some() {
-            stepper = stepper.doubling();
-        }
-        let mut increment = 0;
-        let mut attempt = 1;
-        loop {
-            if let Some(bound) = self.bound() {
-                stepper.bound(bound);
-            }
-            let Some(trial) = stepper.next() else {
-                break;
-            };
-            if step.dynamic.is_none() {
-                self.meet(trial, observers)?;
-            }
-            let chart = doctor::Chart::of(&self.newton.statistics);
-            let outcome = match step.dynamic {
-                None => self.attempt_static(trial, observers),
-                Some(
-                    dynamic @ Dynamic {
-                        method: Method::Implicit(alphas),
-                        ..
-                    },
-                ) => self.attempt_implicit(trial, &dynamic, alphas, observers),
-                Some(_) => self.attempt_explicit(trial),
-            };
-            self.notes.extend(self.factors.notes());
-            self.note_fallbacks(&step, &trial);
-            self.tell_notes(observers)?;
-            let outcome = self.judge_loose(outcome);
-            match outcome {
-                Ok(_) if self.carried_on(trial, observers)? => {}
-                Ok(accepted) => {
-                    increment += 1;
-                    let iterations = if accepted.hard {
-                        usize::MAX
-                    } else {
-                        accepted.iterations
-                    };
-                    stepper.accept(trial, iterations);
-                    let plan = &self.model.output;
-                    let last = stepper.next().is_none();
-                    let due = last
-                        || plan.times.contains(&trial.to)
-                        || (plan.every > 0 && increment % plan.every == 0);
-                    let pending = Pending {
-                        trial,
-                        accepted,
-                        increment,
-                        attempt,
-                        fields: due,
-                        row: due || increment % plan.history_every == 0,
-                        seen: Vec::new(),
-                        memories: Vec::new(),
-                        found: None,
-                    };
-                    if pending.row {
-                        let advance = pending.advance();
-                        for observer in observers.iter_mut() {
-                            observer.see(self, Event::Accepted(&advance))?;
-                        }
-                    }
-                    self.go_on(pending, last, observers)?;
-                    if step.milestones.contains(&trial.to) {
-                        // Tables have their corners here.
-                        self.forget_direction();
-                    }
-                    attempt = 1;
-                }
-                Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
-                Err(failure) if self.firmer(trial, &failure, observers)? => {}
-                Err(failure) if self.may_follow(&step, &failure) => {
-                    self.follow(trial, observers)?
-                }
-                Err(failure) => {
-                    self.flush(observers)?;
-                    let seen = std::mem::take(&mut self.seen);
-                    self.tell(&seen, observers);
-                    self.examine(&trial, (attempt, chart), &failure);
-                    attempt += 1;
-                    self.reject(&step, &trial, &failure);
-                    if !stepper.reject(trial) {
-                        return Err(self.give_up(failure).into());
-                    }
-                    for observer in observers.iter_mut() {
-                        observer.see(self, Event::Cutback(&trial, &failure))?;
-                    }
-                }
-            }
-        }
-        Ok(())
+        self.summary.energy.initial += self.model.couplings.use_springs(false);
     }
 
     /// Takes note of what was tried beside plain iteration.
-    fn note_fallbacks(&mut self, step: &Step, trial: &Trial) {
+    pub(super) fn note_fallbacks(&mut self, step: &Step, trial: &Trial) {
         let summary = &mut self.summary;
         for tried in self.newton.fallbacks.drain(..) {
             let outcome = if tried.converged {
@@ -393,7 +284,7 @@ impl Simulation {
     }
 
     /// Lets the doctor look at an attempt that failed.
-    fn examine(
+    pub(super) fn examine(
         &mut self,
         trial: &Trial,
         (attempt, chart): (usize, doctor::Chart),
@@ -406,7 +297,7 @@ impl Simulation {
     }
 
     /// Sees to it that there is a finding about what ended the run.
-    fn conclude(&mut self, error: &RunError) {
+    pub(super) fn conclude(&mut self, error: &RunError) {
         let findings = &self.summary.findings;
         if findings
             .iter()
@@ -418,7 +309,7 @@ impl Simulation {
     }
 
     /// Takes note of an attempt that failed.
-    fn reject(&mut self, step: &Step, trial: &Trial, failure: &StepFailure) {
+    pub(super) fn reject(&mut self, step: &Step, trial: &Trial, failure: &StepFailure) {
         // What the last increment did is no guide any more.
         self.forget_direction();
         let summary = &mut self.summary;
@@ -435,7 +326,7 @@ impl Simulation {
         }
     }
 
-    fn give_up(&mut self, failure: StepFailure) -> RunError {
+    pub(super) fn give_up(&mut self, failure: StepFailure) -> RunError {
         if let Some(finding) = self.summary.findings.last_mut() {
             finding.severity = doctor::Severity::Error;
         }

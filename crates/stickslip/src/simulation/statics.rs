@@ -33,6 +33,7 @@ impl Simulation {
                 *a = now + ratio * (now - then);
             }
         }
+        (self.model.couplings).fit(&self.diagonal, &fixed, &self.model.links);
         let mut seen: Vec<Progress> = Vec::new();
         let converged = {
             let Simulation {
@@ -58,7 +59,10 @@ impl Simulation {
                 rate: None,
                 constraints,
                 links: &model.links,
-                contact: loose.with(inertia::contact(&mut model.interfaces)),
+                contact: loose.with(inertia::contact(
+                    &mut model.interfaces,
+                    &mut model.couplings,
+                )),
             };
             newton.solve(&mut system, state, &mut at, &mut |p| seen.push(*p))
         };

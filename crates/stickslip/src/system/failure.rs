@@ -19,6 +19,8 @@ pub enum Cause {
     Reach,
     /// Points change status, and the time at which they do is wanted more precisely.
     Event,
+    /// The analysis was asked to stop.
+    Interrupted,
 }
 
 /// A place to look at.

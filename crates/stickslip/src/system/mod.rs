@@ -13,7 +13,7 @@ mod schedule;
 pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
 pub use constraints::Constraints;
-pub use dofs::Dofs;
+pub use dofs::{Component, Dofs};
 pub use failure::{Cause, Culprit, Evidence, StepFailure};
 pub use fields::{Field, Fields, Location};
 pub use force::{Augmentation, Energy, Force, Rate, Role, Stage, State, Tally};

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use pulp::Simd;
 
 use super::super::geometry::Table;
+use super::super::scheme::{Scheme, stiffness_rule};
 use super::super::{Formulation, Space};
 use super::lane::{Lane, Nodes};
 use super::law::{General, Law};
@@ -40,10 +41,10 @@ impl<const N: usize, const D: usize, const V: usize> Generic<N, D, V> {
         acting: &Stiffness,
     ) -> Self {
         Generic {
-            table: Table::new(kind, space),
+            table: Table::with_rule(kind, stiffness_rule(kind, space, formulation)),
             law: General(*acting),
             space,
-            mean: formulation == Formulation::MeanDilatation,
+            mean: Scheme::of(kind, formulation) == Scheme::MeanDilatation,
         }
     }
 

@@ -1,6 +1,9 @@
 //! Which kernel computes which cells of a part.
 
+use super::super::medium::Medium;
+use super::super::scheme::Scheme;
 use super::super::{Elastic, Formulation, Space};
+use super::cellwise::Cellwise;
 use super::generic::Generic;
 use super::hex8::{Hex8, Parallelepiped};
 use super::law::{General, Isotropic, Law};
@@ -22,12 +25,21 @@ pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> 
     let acting = &body.acting[part];
     let (kind, space, formulation) = (block.kind, body.space, body.formulation);
     let all = 0..(block.connectivity.len() / kind.node_count()) as u32;
+    let scheme = Scheme::of(kind, formulation);
+    if matches!(scheme, Scheme::Uniform | Scheme::Incompatible) {
+        let kernel: Box<dyn Kernel> = match kind.dim() {
+            2 => Box::new(Swept(Cellwise::<4, 2>(Medium::new(kind, space, formulation, acting)))),
+            _ => Box::new(Swept(Cellwise::<8, 3>(Medium::new(kind, space, formulation, acting)))),
+        };
+        return vec![(kernel, all.collect())];
+    }
     if kind == ElementKind::Hex8 {
+        let mean = scheme == Scheme::MeanDilatation;
         let (parallel, other) =
             all.partition(|&cell| is_parallelepiped(&body.mesh.points, block, cell));
         return vec![
-            (hexahedron(acting, formulation, true), parallel),
-            (hexahedron(acting, formulation, false), other),
+            (hexahedron(acting, mean, true), parallel),
+            (hexahedron(acting, mean, false), other),
         ];
     }
     vec![(simple(kind, space, formulation, acting), all.collect())]
@@ -52,31 +64,33 @@ fn simple(
     match (kind.node_count(), kind.dim()) {
         (3, _) => generic!(3, 2),
         (4, 2) => generic!(4, 2),
-        (6, _) => generic!(6, 2),
+        (6, 2) => generic!(6, 2),
+        (6, _) => generic!(6, 3),
         (8, 2) => generic!(8, 2),
         (4, _) => match Isotropic::of(acting) {
             Some(law) => Box::new(Swept::<_, 4, 3>(Tet4::new(law))),
             None => Box::new(Swept::<_, 4, 3>(Tet4::new(General(*acting)))),
         },
         (10, _) => generic!(10, 3),
+        (15, _) => generic!(15, 3),
         (20, _) => generic!(20, 3),
         (n, _) => unreachable!("no cell has {n} nodes"),
     }
 }
 
-fn hexahedron(acting: &Stiffness, formulation: Formulation, parallel: bool) -> Box<dyn Kernel> {
+fn hexahedron(acting: &Stiffness, mean: bool, parallel: bool) -> Box<dyn Kernel> {
     match Isotropic::of(acting) {
-        Some(law) => hexahedron_of(law, formulation, parallel),
-        None => hexahedron_of(General(*acting), formulation, parallel),
+        Some(law) => hexahedron_of(law, mean, parallel),
+        None => hexahedron_of(General(*acting), mean, parallel),
     }
 }
 
-fn hexahedron_of<L: Law>(law: L, formulation: Formulation, parallel: bool) -> Box<dyn Kernel> {
-    match (formulation, parallel) {
-        (Formulation::Standard, false) => Box::new(Swept(Hex8::<_, false>::new(law))),
-        (Formulation::Standard, true) => Box::new(Swept(Parallelepiped::<_, false>::new(law))),
-        (Formulation::MeanDilatation, false) => Box::new(Swept(Hex8::<_, true>::new(law))),
-        (Formulation::MeanDilatation, true) => Box::new(Swept(Parallelepiped::<_, true>::new(law))),
+fn hexahedron_of<L: Law>(law: L, mean: bool, parallel: bool) -> Box<dyn Kernel> {
+    match (mean, parallel) {
+        (false, false) => Box::new(Swept(Hex8::<_, false>::new(law))),
+        (false, true) => Box::new(Swept(Parallelepiped::<_, false>::new(law))),
+        (true, false) => Box::new(Swept(Hex8::<_, true>::new(law))),
+        (true, true) => Box::new(Swept(Parallelepiped::<_, true>::new(law))),
     }
 }
 

@@ -12,6 +12,7 @@
 //!
 //! Chunks and the order of every sum are fixed, so that the bits do not depend on the number of threads.
 
+mod cellwise;
 mod chunk;
 mod gather;
 mod generic;

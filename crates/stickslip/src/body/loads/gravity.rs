@@ -1,10 +1,9 @@
-use super::{Action, Domain, LoadModel, Region, Target};
+use super::{Action, Domain, LoadModel, Region, Target, combine, mismatch};
 use crate::error::Diagnostic;
 use crate::math::scale;
-use crate::mesh::CellRef;
 use crate::registry::Samples;
 
-/// Weight: the density of the material times an acceleration, on cells.
+/// Weight: the density of the material times an acceleration, on cells, and that of point masses at them.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Gravity {
@@ -19,19 +18,18 @@ impl LoadModel for Gravity {
 
     fn action(&self, target: &Target, domain: &Domain) -> Result<Action, Diagnostic> {
         let g = domain.vector("acceleration", &self.acceleration)?;
-        if let Target::Cells(cells) = target {
-            let light =
-                |c: &CellRef| !(domain.densities.get(c.block).is_some_and(|&rho| rho > 0.0));
-            if cells.iter().any(light) {
-                return Err(
-                    Diagnostic::new("", "gravity acts on a body without density")
-                        .help("give the density of its material"),
-                );
-            }
-        }
-        domain.over_cells(target, &|block| {
+        domain.heavy(target, "gravity")?;
+        let weight = domain.over_cells(target, &|block| {
             scale(domain.densities.get(block).copied().unwrap_or(0.0), g)
-        })
+        })?;
+        let (Action::Forces(mut forces), Target::Cells(cells)) = (weight, target) else {
+            return Err(mismatch(Region::Cells));
+        };
+        let dofs = domain.dofs();
+        for (p, mass) in domain.masses_at(cells) {
+            forces.extend((0..dofs.dim).map(|i| (dofs.of(p, i), mass * g[i])));
+        }
+        Ok(Action::Forces(combine(forces)))
     }
 }
 

@@ -5,6 +5,7 @@
 //! full circumference of an axisymmetric one.
 
 mod body_force;
+mod centrifugal;
 mod force;
 mod gravity;
 mod nodal_force;
@@ -13,6 +14,7 @@ mod spring;
 mod traction;
 
 pub use body_force::BodyForce;
+pub use centrifugal::Centrifugal;
 pub use force::{Load, Spring};
 pub use gravity::Gravity;
 pub use nodal_force::NodalForce;
@@ -59,6 +61,8 @@ pub struct Domain<'a> {
     pub space: Space,
     /// Mass per volume of each block `[kg/m³]`.
     pub densities: &'a [f64],
+    /// Masses at points beside those of the cells, ascending, each once `[kg]`.
+    pub masses: &'a [(usize, f64)],
 }
 
 /// What a load kind comes down to; dofs ascending, each once.
@@ -94,6 +98,8 @@ crate::family! {
         BodyForce(BodyForce) = "body-force",
         /// Weight.
         Gravity(Gravity) = "gravity",
+        /// Centrifugal force.
+        Centrifugal(Centrifugal) = "centrifugal",
         /// Force at each point.
         NodalForce(NodalForce) = "nodal-force",
         /// Springs to ground at each point.
@@ -107,6 +113,31 @@ impl Domain<'_> {
             dim: self.space.dim(),
             points: self.mesh.points.len(),
         }
+    }
+
+    /// Point masses at the points of cells.
+    fn masses_at(&self, cells: &[CellRef]) -> Vec<(usize, f64)> {
+        if self.masses.is_empty() {
+            return Vec::new();
+        }
+        let points = self.mesh.points_of_cells(cells);
+        let mut marked = vec![false; self.mesh.points.len()];
+        points.into_iter().for_each(|p| marked[p] = true);
+        let masses = self.masses.iter().filter(|(p, _)| marked[*p]);
+        masses.copied().collect()
+    }
+
+    /// Refuses cells without density.
+    fn heavy(&self, target: &Target, what: &str) -> Result<(), Diagnostic> {
+        let Target::Cells(cells) = target else {
+            return Ok(());
+        };
+        let light = |c: &CellRef| !(self.densities.get(c.block).is_some_and(|&rho| rho > 0.0));
+        if cells.iter().any(light) {
+            let message = format!("{what} acts on a body without density");
+            return Err(Diagnostic::new("", message).help("give the density of its material"));
+        }
+        Ok(())
     }
 
     /// A vector parameter, checked and padded with zeros.

@@ -55,6 +55,7 @@ fn consistent_loads_sum_to_the_total_force() {
     for (mesh, space) in cases() {
         let dim = mesh.dim;
         let domain = Domain {
+            masses: &[],
             mesh: &mesh,
             space,
             densities: &[3.0],
@@ -128,6 +129,7 @@ fn body_force_around_an_axis_is_weighted_by_the_radius() {
     // ∫ r f_z dV by the nodal forces' moment: N is linear, so the first moment is exact for every kind.
     for (mesh, space) in cases().into_iter().filter(|c| c.1 == Space::Axisymmetric) {
         let domain = Domain {
+            masses: &[],
             mesh: &mesh,
             space,
             densities: &[1.0],
@@ -154,6 +156,7 @@ fn pressure_all_around_is_in_balance() {
             PLANE_STRAIN
         };
         let domain = Domain {
+            masses: &[],
             mesh: &mesh,
             space,
             densities: &[],
@@ -170,6 +173,7 @@ fn pressure_all_around_is_in_balance() {
 fn wrong_vectors_and_sets_are_refused() {
     let mesh = grid(ElementKind::Quad4, [1, 1, 0], &|x| x);
     let domain = Domain {
+        masses: &[],
         mesh: &mesh,
         space: PLANE_STRAIN,
         densities: &[0.0],

@@ -3,12 +3,13 @@
 use super::{Interface, Primary};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil, tangents};
+use crate::contact::law::friction::FrictionPoint;
 use crate::contact::mortar::FaceIntegral;
 use crate::contact::obstacle::Pose;
 use crate::contact::pairing::{
     FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
 };
-use crate::contact::response::{Circumstances, Response, Status};
+use crate::contact::response::{Circumstances, Response, Status, Told};
 use crate::contact::search::Box3;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{
@@ -35,7 +36,24 @@ const ROUNDING: f64 = 32.0;
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
 pub(super) const TOUCHING: f64 = 1e-6;
 
+/// What is wanted of laws that are asked for all points at once, instead of a response.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asking {
+    Nothing,
+    Gaps,
+    Friction,
+}
+
+/// What a law is asked at a point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Question {
+    pub point: usize,
+    pub gap: f64,
+    pub friction: FrictionPoint,
+}
+
 /// What all points of one evaluation share.
+#[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
     pub x: &'a [Vec3],
     pub before: &'a [Vec3],
@@ -56,6 +74,9 @@ pub(super) struct Scene<'a> {
     pub initial: bool,
     pub tangent: bool,
     pub surrogate: bool,
+    /// What such laws have said, by point; empty where none is asked so.
+    pub told: &'a [Told],
+    pub asking: Asking,
 }
 
 /// The outcome at one point. What has a size of its own lies in a [`Batch`].
@@ -126,10 +147,13 @@ pub(super) struct Batch {
     rated: [Vec<f64>; 2],
     /// The gradient of the gap of a mortar's point by node.
     gradients: Vec<Vec3>,
+    /// What laws are to be asked for all points at once.
+    pub questions: Vec<Question>,
 }
 
 impl Batch {
     pub fn clear(&mut self) {
+        self.questions.clear();
         self.dofs.clear();
         self.sides.clear();
         self.force.clear();
@@ -744,6 +768,7 @@ impl Interface {
             closing: self.closing(i, stencil.gap, scene.dt),
             held: self.held(i, &stencil.frame_before, dim),
             mobilised: self.memory.mobilised.unwrap_or(1.0),
+            told: scene.told.get(i).copied().unwrap_or_default(),
         };
         for row in &mut batch.rated {
             row.clear();
@@ -762,6 +787,19 @@ impl Interface {
             }
             None => at,
         };
+        let friction = match scene.asking {
+            Asking::Nothing => None,
+            Asking::Gaps => Some(FrictionPoint::default()),
+            Asking::Friction => self.laws.question(stencil, &at),
+        };
+        if scene.asking != Asking::Nothing {
+            batch.questions.extend(friction.map(|friction| Question {
+                point: i,
+                gap: stencil.gap - at.rest,
+                friction,
+            }));
+            return Evaluation::default();
+        }
         let response = self.laws.respond(stencil, &at);
         Evaluation {
             n: batch.dofs.len() - first,

@@ -1,10 +1,12 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
+mod change;
 mod curvature;
 mod evaluate;
 mod faces;
 mod meeting;
 mod oscillation;
+mod own;
 mod quality;
 mod reach;
 mod report;
@@ -19,6 +21,7 @@ mod tests;
 
 use rayon::prelude::*;
 
+pub use change::Change;
 pub use meeting::Meeting;
 pub use oscillation::neighbours;
 pub use quality::{Balance, Quality};
@@ -422,12 +425,35 @@ impl Interface {
             tangent: wants.tangent,
             surrogate: wants.surrogate,
             initial: wants.initial,
+            told: &[],
+            asking: evaluate::Asking::Nothing,
         };
         let count = self.points.len();
         anchors.resize(count, None);
         out.points.resize(count, Evaluation::default());
         out.batches
             .resize_with(count.div_ceil(CHUNK), Batch::default);
+        let told = self.ask(&scene, &mut out, &mut anchors);
+        let scene = evaluate::Scene {
+            told: &told,
+            ..scene
+        };
+        self.evaluate_points(&scene, &mut out, &mut anchors);
+        let memory = &mut self.memory;
+        memory.x = x;
+        memory.before = before;
+        memory.boxes = boxes;
+        memory.integrals = integrals;
+        memory.anchors = anchors;
+        out
+    }
+
+    fn evaluate_points(
+        &self,
+        scene: &evaluate::Scene,
+        out: &mut Evaluations,
+        anchors: &mut [Option<Anchor>],
+    ) {
         let last = &self.memory.last.points;
         out.points
             .par_chunks_mut(CHUNK)
@@ -438,16 +464,9 @@ impl Interface {
                 batch.clear();
                 for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
                     let i = chunk * CHUNK + k;
-                    *e = self.evaluate(i, &scene, last.get(i), anchor, batch);
+                    *e = self.evaluate(i, scene, last.get(i), anchor, batch);
                 }
             });
-        let memory = &mut self.memory;
-        memory.x = x;
-        memory.before = before;
-        memory.boxes = boxes;
-        memory.integrals = integrals;
-        memory.anchors = anchors;
-        out
     }
 }
 
@@ -625,12 +644,12 @@ impl Force for Interface {
 
     fn soften(&mut self, factor: Option<f64>) -> bool {
         self.memory.softening = factor;
-        self.laws.friction.as_dyn().frictional()
+        self.laws.friction_law().frictional()
     }
 
     fn mobilise(&mut self, part: Option<f64>) -> bool {
         self.memory.mobilised = part;
-        self.laws.friction.as_dyn().frictional()
+        self.laws.friction_law().frictional()
     }
 
     fn restless(&self) -> usize {
@@ -742,7 +761,7 @@ impl Force for Interface {
             return;
         }
         memory.creep = 0.0;
-        let frictional = self.laws.friction.as_dyn().frictional();
+        let frictional = self.laws.friction_law().frictional();
         let creeps = frictional && !self.laws.slip.as_dyn().sticks();
         let mut traces = vec![[0.0; 2]; memory.committed.len()];
         for (i, ((h, e), trace)) in memory

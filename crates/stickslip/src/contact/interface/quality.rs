@@ -59,7 +59,7 @@ impl Interface {
             oscillation: self.oscillation(),
             ..Quality::default()
         };
-        let law = self.laws.normal.as_dyn();
+        let law = self.laws.normal_law();
         let exact = self.laws.needs_normal_stiffness();
         let sticks = self.laws.needs_tangential_stiffness();
         let updated = matches!(
@@ -76,7 +76,11 @@ impl Interface {
             let (p, area) = (&self.points[i], self.area_of(i));
             let shear = norm(h.shear);
             if h.pressure > 0.0 {
-                let wanted = law.gap(h.pressure - h.damping).value;
+                // The pressure of a law of the program is the law's; asking for its inverse would take long.
+                let wanted = match self.laws.own.normal {
+                    Some(_) => h.gap,
+                    None => law.gap(h.pressure - h.damping).value,
+                };
                 let over = (wanted - h.gap - rounding).max(0.0);
                 let under = (h.gap - wanted - rounding).max(0.0);
                 q.penetration = q.penetration.max(over);
@@ -98,7 +102,7 @@ impl Interface {
                 };
                 q.violation_work += area * shear * left;
             }
-            if h.status != Status::Open && self.laws.friction.as_dyn().frictional() {
+            if h.status != Status::Open && self.laws.friction_law().frictional() {
                 most = most.max(e.response.limit);
                 over_limit = over_limit.max(shear - e.response.limit);
             }

@@ -41,14 +41,13 @@ fn output_frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
 impl Interface {
     /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield.
     pub(super) fn stored_energy(&self) -> f64 {
-        let law = self.laws.normal.as_dyn();
+        let own = self.law_energies();
         self.memory
             .committed
             .iter()
             .zip(&self.memory.last.points)
             .enumerate()
             .map(|(i, (h, e))| {
-                let own = law.energy(h.gap);
                 let spring = if e.normal_stiffness.is_finite() && self.laws.needs_normal_stiffness()
                 {
                     // what is left of the constraint's violation, a spring from λ to p
@@ -57,18 +56,28 @@ impl Interface {
                 } else {
                     0.0
                 };
-                self.area_of(i) * (own + spring)
+                self.area_of(i) * (own[i] + spring)
             })
             .sum()
     }
 
     /// Recoverable energy of the normal law alone `[J]`.
     pub fn law_energy(&self) -> f64 {
-        let law = self.laws.normal.as_dyn();
-        let committed = self.memory.committed.iter().enumerate();
-        committed
-            .map(|(i, h)| self.area_of(i) * law.energy(h.gap))
-            .sum()
+        let energies = self.law_energies();
+        let energies = energies.iter().enumerate();
+        energies.map(|(i, own)| self.area_of(i) * own).sum()
+    }
+
+    /// The same by point and per area `[J/m²]`.
+    fn law_energies(&self) -> Vec<f64> {
+        let gaps = self.memory.committed.iter().map(|h| h.gap);
+        match &self.laws.own.normal {
+            Some(own) => own.energies(&gaps.collect::<Vec<_>>()),
+            None => {
+                let law = self.laws.normal_law();
+                gaps.map(|gap| law.energy(gap)).collect()
+            }
+        }
     }
 
     /// Forces on the secondary at the last committed state `u`.
@@ -190,7 +199,7 @@ impl Interface {
             }
         }
         // energy and depth: factors of the two accumulated numbers on the secondary and on the primary
-        let friction = self.laws.friction.as_dyn().frictional();
+        let friction = self.laws.friction_law().frictional();
         let wear = self.laws.wear;
         let wear = wear.map(|w| [w.coefficient, w.primary_coefficient]);
         let kinds = [

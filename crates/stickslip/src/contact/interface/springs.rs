@@ -46,7 +46,7 @@ impl Interface {
         let mut rows: Vec<f64> = vec![0.0; self.nodes.len()];
         let sides = if self.rigid() { 1.0 } else { 2.0 };
         let enforcement = self.laws.enforcement.as_dyn();
-        let law = self.laws.normal.as_dyn();
+        let law = self.laws.normal_law();
         for (i, point) in self.points.iter().enumerate() {
             let last = self.memory.last.points.get(i);
             let own = if self.laws.needs_normal_stiffness() {

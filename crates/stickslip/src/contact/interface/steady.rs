@@ -137,7 +137,7 @@ impl Interface {
     /// times, the second does not where friction is moderate (Júdice and Pires; Murty).
     pub(super) fn reconsider_held(&mut self) -> usize {
         let memory = &mut self.memory;
-        let set_valued = self.laws.normal.as_dyn().pressure(0.0).is_none();
+        let set_valued = self.laws.set_valued();
         let mut held = 0;
         let mut refused = Vec::new();
         // Points that left the outer edge on the way, but lie over the surface and in it where the way has ended, get another chance.

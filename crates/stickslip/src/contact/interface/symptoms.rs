@@ -69,7 +69,7 @@ impl Interface {
             evidence.cell = Some(facets[f].cell);
         }
         if let Some(before) = memory.trial.points.get(i) {
-            evidence.kink = kink(self.laws.normal.as_dyn(), before.gap, e.gap);
+            evidence.kink = kink(self.laws.normal_law(), before.gap, e.gap);
         }
         evidence
     }

@@ -15,7 +15,7 @@ pub(super) enum Kind {
 const INCOMPLETE: &str = "set Mesh.SecondOrderIncomplete = 1 in the .geo file (or gmsh -setnumber \
      Mesh.SecondOrderIncomplete 1) and mesh again, for elements without nodes inside faces and cells";
 const HIGH: &str = "elements are of order 1 or 2: set Mesh.ElementOrder and mesh again";
-const MIXED: &str = "solids are tetrahedra or hexahedra: mesh with tetrahedra, or with transfinite and recombined volumes";
+const MIXED: &str = "solids are tetrahedra, hexahedra or prisms: mesh with tetrahedra, or with transfinite and recombined volumes";
 
 /// The element of a type number of the Gmsh format.
 pub(super) fn kind(gmsh_type: i64) -> Kind {
@@ -39,11 +39,15 @@ pub(super) fn kind(gmsh_type: i64) -> Kind {
                 0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
             ],
         ),
+        6 => Kind::Solid(Wedge6, &[]),
+        // Gmsh's edges: 01 02 03 12 14 25 34 35 45.
+        18 => Kind::Solid(
+            Wedge15,
+            &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
+        ),
         10 => Kind::Refused("9-node quadrilateral", INCOMPLETE),
         12 => Kind::Refused("27-node hexahedron", INCOMPLETE),
-        6 => Kind::Refused("6-node prism", MIXED),
-        13 => Kind::Refused("18-node prism", MIXED),
-        18 => Kind::Refused("15-node prism", MIXED),
+        13 => Kind::Refused("18-node prism", INCOMPLETE),
         7 => Kind::Refused("5-node pyramid", MIXED),
         14 => Kind::Refused("14-node pyramid", MIXED),
         19 => Kind::Refused("13-node pyramid", MIXED),
@@ -51,7 +55,7 @@ pub(super) fn kind(gmsh_type: i64) -> Kind {
         29..=31 | 92 | 93 => Kind::Refused("solid element of order 3 or more", HIGH),
         _ => Kind::Refused(
             "element outside the family",
-            "lines, triangles, quadrilaterals, tetrahedra and hexahedra of order 1 or 2 are read",
+            "lines, triangles, quadrilaterals, tetrahedra, hexahedra and prisms of order 1 or 2 are read",
         ),
     }
 }

@@ -345,9 +345,9 @@ fn errors_name_the_line_and_the_remedy() {
             "Mesh.SaveAll",
         ),
         (
-            triangle(NODES, "1 6 2 0 1 1 2 3 1 2 3"),
+            triangle(NODES, "1 7 2 0 1 1 2 3 1 2"),
             12,
-            "6-node prism",
+            "5-node pyramid",
             "tetrahedra",
         ),
         (

@@ -149,8 +149,16 @@ impl Writer {
     }
 
     fn cells(&mut self, mesh: &Mesh) {
-        let connectivity = mesh.blocks.iter().flat_map(|block| &block.connectivity);
-        self.integers("connectivity", connectivity.map(|&point| point as i64));
+        let mut connectivity = Vec::new();
+        for block in &mesh.blocks {
+            let cells = block.connectivity.chunks_exact(block.kind.node_count());
+            match vtk_order(block.kind) {
+                [] => connectivity.extend(cells.flatten().map(|&point| point as i64)),
+                order => connectivity
+                    .extend(cells.flat_map(|cell| order.iter().map(|&i| cell[i] as i64))),
+            }
+        }
+        self.integers("connectivity", connectivity.into_iter());
         let mut end = 0;
         let mut offsets = Vec::new();
         let mut types = Vec::new();
@@ -198,6 +206,18 @@ fn vtk_type(kind: ElementKind) -> u8 {
         ElementKind::Tet10 => 24,
         ElementKind::Hex8 => 12,
         ElementKind::Hex20 => 25,
+        ElementKind::Wedge6 => 13,
+        ElementKind::Wedge15 => 26,
+    }
+}
+
+/// The nodes of a cell in VTK's order, and back again: it is its own inverse. Empty if the orders agree.
+///
+/// VTK's linear wedge has its first triangle facing out of the cell, while its quadratic one, as ours, has it facing in.
+fn vtk_order(kind: ElementKind) -> &'static [usize] {
+    match kind {
+        ElementKind::Wedge6 => &[0, 2, 1, 3, 5, 4],
+        _ => &[],
     }
 }
 

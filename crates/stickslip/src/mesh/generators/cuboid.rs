@@ -22,7 +22,8 @@ pub struct Cuboid {
     /// Number of cells along x, y and z. Needed unless `x`, `y` and `z` are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cells: Option<[usize; 3]>,
-    /// Element: hex8, hex20, tet4 or tet10. A cell is split into six tetrahedra.
+    /// Element: hex8, hex20, tet4, tet10, wedge6 or wedge15. A cell is split into six tetrahedra, or into two wedges that stand on
+    /// triangles in the xy plane.
     #[serde(default = "hex8")]
     pub element: ElementKind,
     /// How the cells grow along x, y and z.
@@ -112,6 +113,8 @@ impl Samples for Cuboid {
             ElementKind::Tet10,
             ElementKind::Hex8,
             ElementKind::Hex20,
+            ElementKind::Wedge6,
+            ElementKind::Wedge15,
         ]
         .into_iter()
         .map(|element| Cuboid {

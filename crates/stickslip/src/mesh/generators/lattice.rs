@@ -14,7 +14,7 @@ pub(super) type Key = [usize; 4];
 /// More cells than this are taken for a slip of the pen.
 pub(super) const MOST_CELLS: usize = 20_000_000;
 
-/// Which diagonal splits a quadrilateral into two triangles. Of no effect on other elements.
+/// Which diagonal splits a quadrilateral into two triangles. Of no effect on other plane elements.
 #[derive(
     Debug,
     Clone,
@@ -99,6 +99,12 @@ impl Lattice {
                     .help(format!("choose one of {}", fitting.join(", "))),
             );
         }
+        if element.linear() == ElementKind::Wedge6 && cells.iter().any(|c| c.axes != [0, 1, 2]) {
+            return Err(MeshError::new(format!(
+                "patches in several directions cannot be made of {element}"
+            ))
+            .help("choose tetrahedra or hexahedra: triangles of one patch would meet quadrilaterals of another"));
+        }
         let mut nodes: Vec<Key> = Vec::new();
         for cell in cells {
             fill(element, diagonal, cell, &mut nodes);
@@ -172,14 +178,15 @@ fn fill(element: ElementKind, diagonal: Diagonal, cell: &LatticeCell, nodes: &mu
         nodes.push(key);
     };
     let reference = element.reference().nodes();
-    if !element.is_simplex() {
+    let wedge = element.linear() == ElementKind::Wedge6;
+    if !element.is_simplex() && !wedge {
         for node in reference {
             // -1, 0, 1 become 0, 1, 2.
             push(node.map(|x| (x + 1.0) as usize), cell.reversed);
         }
         return;
     }
-    let simplices: &[Simplex] = if element.dim() == 3 {
+    let simplices: &[Simplex] = if element.dim() == 3 && !wedge {
         &SIX
     } else if goes_up(diagonal, cell) {
         &UP
@@ -193,10 +200,14 @@ fn fill(element: ElementKind, diagonal: Diagonal, cell: &LatticeCell, nodes: &mu
         }
         for &[x, y, z] in reference {
             // Corner offsets are even: the middles of edges are integers.
-            let w = [1.0 - x - y - z, x, y, z];
-            let offset = std::array::from_fn(|i| {
+            let third = if wedge { 0.0 } else { z };
+            let w = [1.0 - x - y - third, x, y, third];
+            let mut offset: [usize; 3] = std::array::from_fn(|i| {
                 (0..4).map(|k| w[k] * c[k][i] as f64).sum::<f64>() as usize
             });
+            if wedge {
+                offset[2] = (z + 1.0) as usize;
+            }
             push(offset, false);
         }
     }

@@ -516,11 +516,12 @@ impl Iteration<'_> {
                 let mut out = Vec::with_capacity(chunk.len() * size);
                 let mut yielding = vec![T::of(0.0); n];
                 let mut local = Vec::new();
+                let mut met: Vec<usize> = Vec::new();
                 for &(p, q) in chunk {
                     let r = &rows[p];
                     let width = r.at.len();
                     // W Bᵀ e
-                    let mut met = [usize::MAX; 2];
+                    met.clear();
                     for (&at, &b) in r.at.iter().zip(&r.rows[q * width..(q + 1) * width]) {
                         if at == NONE || b == 0.0 {
                             continue;
@@ -534,18 +535,16 @@ impl Iteration<'_> {
                         if met.contains(&part) {
                             T::add_scaled(target, b, column);
                         } else {
-                            met[usize::from(met[0] != usize::MAX)] = part;
+                            met.push(part);
                             T::set_scaled(target, b, column);
                         }
                     }
                     let in_part = |i: usize| {
                         met.iter().any(|&m| {
-                            m != usize::MAX
-                                && (self.active.starts[m]..self.active.starts[m + 1]).contains(&i)
+                            (self.active.starts[m]..self.active.starts[m + 1]).contains(&i)
                         })
                     };
-                    let all = met.iter().filter(|m| **m != usize::MAX).count()
-                        == self.condensation.parts.len();
+                    let all = met.len() == self.condensation.parts.len();
                     for other in rows {
                         let width = other.at.len();
                         local.clear();

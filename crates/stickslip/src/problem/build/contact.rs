@@ -160,6 +160,7 @@ impl Make<'_> {
                 enforcement: table.enforcement.clone(),
                 tied: table.tied,
                 wear: table.wear,
+                own: Default::default(),
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),
@@ -236,11 +237,11 @@ impl Surfaces<'_> {
             normal = add_scaled(normal, da, p.normal);
         }
         let cell = self.mesh.cell_kind(facet.cell);
-        // height of a prism is volume over base, of a pyramid (triangle, tetrahedron) dim times that
-        let factor = if cell.is_simplex() {
-            cell.dim() as f64
-        } else {
-            1.0
+        // height of a prism is volume over base, of a pyramid (triangle, tetrahedron) dim times that, of a wedge on its side twice that
+        let factor = match (cell.linear(), kind.linear()) {
+            _ if cell.is_simplex() => cell.dim() as f64,
+            (ElementKind::Wedge6, ElementKind::Quad4) => 2.0,
+            _ => 1.0,
         };
         Beneath {
             normal,

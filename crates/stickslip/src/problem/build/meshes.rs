@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
 use super::super::{Body, MeshSource, Problem};
-use super::problem_error;
+use super::{Meshes, problem_error};
 use crate::body::Part;
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::io::gmsh;
@@ -27,7 +28,7 @@ pub(super) struct BuiltBody {
     pub parts: Vec<Part>,
 }
 
-pub(super) fn build(problem: &Problem, folder: &Path) -> Result<Built, Error> {
+pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<Built, Error> {
     let mut materials: BTreeMap<&str, (Stiffness, f64)> = BTreeMap::new();
     for (name, material) in &problem.material {
         let model = material.as_dyn();
@@ -37,11 +38,11 @@ pub(super) fn build(problem: &Problem, folder: &Path) -> Result<Built, Error> {
         })?;
         materials.insert(name, (stiffness, model.density()));
     }
-    let mut files = BTreeMap::new();
+    let mut files: Meshes = BTreeMap::new();
     let mut mesh = Mesh::default();
     let mut bodies = Vec::new();
     for (name, body) in &problem.body {
-        let mut own = source(name, body, folder, &mut files)?;
+        let mut own = source(name, body, (folder, given), &mut files)?;
         place(body, &mut own);
         if own.dim != problem.model.space.dim() {
             return Err(problem_error(vec![
@@ -87,8 +88,8 @@ pub(super) fn build(problem: &Problem, folder: &Path) -> Result<Built, Error> {
 fn source(
     name: &str,
     body: &Body,
-    folder: &Path,
-    files: &mut BTreeMap<PathBuf, Mesh>,
+    (folder, given): (&Path, &Meshes),
+    files: &mut Meshes,
 ) -> Result<Mesh, Error> {
     match &body.mesh {
         MeshSource::Generate(generator) => Ok(generator.as_dyn().generate().map_err(|e| {
@@ -99,12 +100,17 @@ fn source(
         })?),
         MeshSource::Gmsh(file) => {
             let path = folder.join(&file.file);
-            if !files.contains_key(&path) {
-                files.insert(path.clone(), gmsh::read(&path)?);
-            }
-            let mesh = &files[&path];
+            let mesh = match given.get(Path::new(&file.file)) {
+                Some(mesh) => mesh,
+                None => {
+                    if !files.contains_key(&path) {
+                        files.insert(path.clone(), Arc::new(gmsh::read(&path)?));
+                    }
+                    &files[&path]
+                }
+            };
             let Some(group) = &file.group else {
-                return Ok(mesh.clone());
+                return Ok(Mesh::clone(mesh));
             };
             let Some(cells) = mesh.cell_sets.get(group) else {
                 let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();

@@ -1,6 +1,7 @@
 //! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
 
 mod contact;
+mod couplings;
 mod faces;
 mod initial;
 mod meshes;
@@ -9,19 +10,24 @@ mod schedules;
 mod sets;
 mod snap;
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{Problem, SpaceKind};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error, ProblemError};
+use crate::mesh::Mesh;
 use crate::newton::Settings;
 use crate::simulation::{Body, Model, OutputPlan, Prescribed, Probe, Support};
 use crate::system::{Dofs, Links};
 use rigid::RigidBodies;
 use schedules::Timeline;
 use sets::Sets;
+
+/// Meshes from memory, by the name under which a problem asks for them as a file: `gmsh = { file = "NAME" }`.
+pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
 
 impl Problem {
     /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
@@ -30,24 +36,37 @@ impl Problem {
     /// [`Error::Problem`] with findings that carry keys but no places (see [`Document::error`](super::Document::error)),
     /// [`Error::Mesh`] for a mesh that cannot be used, [`Error::Io`] for a file that cannot be read.
     pub fn build(&self, folder: &Path) -> Result<Model, Error> {
+        self.build_with(folder, &Meshes::default())
+    }
+
+    /// The same with meshes from memory: the name of a mesh file that is among them is not looked for on disk.
+    ///
+    /// # Errors
+    /// Those of [`Problem::build`].
+    pub fn build_with(&self, folder: &Path, meshes: &Meshes) -> Result<Model, Error> {
         let findings = self.check();
         if !findings.is_empty() {
             return Err(problem_error(findings));
         }
-        let model = self.build_moved(folder, snap::Moves::default())?;
+        let model = self.build_moved(folder, meshes, snap::Moves::default())?;
         let start = model.steps.first().map_or(0.0, |s| s.start);
         let moves = snap::moves(self, &model.interfaces, start);
         if moves.notes.is_empty() {
             return Ok(model);
         }
         // All that follows from coordinates is made anew.
-        self.build_moved(folder, moves)
+        self.build_moved(folder, meshes, moves)
     }
 
     /// The model with some points of the mesh moved.
-    fn build_moved(&self, folder: &Path, moves: snap::Moves) -> Result<Model, Error> {
+    fn build_moved(
+        &self,
+        folder: &Path,
+        given: &Meshes,
+        moves: snap::Moves,
+    ) -> Result<Model, Error> {
         let space = space(self);
-        let mut built = meshes::build(self, folder)?;
+        let mut built = meshes::build(self, folder, given)?;
         snap::apply(&moves, &mut built.mesh)?;
         let mesh = Arc::new(built.mesh);
         let stiff = self.body.values().filter(|b| b.rigid).count();
@@ -93,12 +112,15 @@ impl Problem {
         };
         let sets = Sets::new(self, &mesh, &bodies)?;
         let timeline = Timeline::new(self);
+        let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
+            masses: &masses,
             mesh: &mesh,
             space,
             densities: &densities,
         };
         let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
+        let couplings = couplings::build(self, &sets, &mesh, &timeline)?;
         let supports = supports(self, &sets, &rigid, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
@@ -112,6 +134,8 @@ impl Problem {
             bodies,
             loads,
             springs,
+            masses,
+            couplings,
             supports,
             interfaces,
             initials,
@@ -206,6 +230,25 @@ fn loads(
         }
     }
     Ok((loads, springs))
+}
+
+/// Masses at points, ascending, each once.
+fn masses(problem: &Problem, sets: &Sets, rigid: &RigidBodies) -> Result<Vec<(usize, f64)>, Error> {
+    let mut all = std::collections::BTreeMap::<usize, f64>::new();
+    for (name, table) in &problem.mass {
+        let key = format!("mass.{name}.set");
+        for point in sets.points(&table.set, &key)? {
+            if rigid.links.of_point(point).is_some() {
+                let message = format!("`{}` has points of a rigid body", table.set);
+                let help = "give the body a density with which it has the whole mass";
+                return Err(problem_error(vec![
+                    Diagnostic::new(&key, message).help(help),
+                ]));
+            }
+            *all.entry(point).or_default() += table.mass;
+        }
+    }
+    Ok(all.into_iter().collect())
 }
 
 fn supports(

@@ -90,6 +90,34 @@ impl Timeline {
         })
     }
 
+    /// Equations begin and end like supports.
+    pub fn equation(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
+        let table = table(problem, amplitude);
+        let active = coupled(problem, name);
+        self.schedule(&active, |on, _, was| match (on, &table) {
+            (false, _) => Course::Off,
+            (true, Some(table)) => Course::Table(table.clone()),
+            (true, None) => Course::Ramp(if was { 1.0 } else { 0.0 }, 1.0),
+        })
+    }
+
+    /// Springs that are there in the first step are there from the beginning; later they come and go like loads.
+    pub fn spring(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
+        let table = table(problem, amplitude);
+        let active = coupled(problem, name);
+        let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
+        let mut first = true;
+        self.schedule(&active, |on, factor, _| {
+            let at_once = sudden.next().unwrap_or(false) || std::mem::take(&mut first);
+            match (on, &table) {
+                (true, Some(table)) => Course::Table(table.clone()),
+                (true, None) => Course::Ramp(if at_once { 1.0 } else { factor }, 1.0),
+                (false, _) if factor != 0.0 && !at_once => Course::Ramp(factor, 0.0),
+                (false, _) => Course::Off,
+            }
+        })
+    }
+
     pub fn interface(&self, problem: &Problem, name: &str) -> Schedule {
         let active: Vec<bool> = problem
             .step
@@ -163,6 +191,9 @@ impl Timeline {
                     increments,
                     milestones,
                     fixed: inc.fixed.is_some(),
+                    changes: (step.change.iter())
+                        .map(|(name, change)| (name.clone(), change.clone()))
+                        .collect(),
                     dynamic: step.dynamic.as_ref().map(|d| Dynamic {
                         method: d.scheme.as_dyn().method(),
                         mass: d.mass,
@@ -175,6 +206,12 @@ impl Timeline {
             })
             .collect()
     }
+}
+
+/// Whether a coupling is active, by step.
+fn coupled(problem: &Problem, name: &str) -> Vec<bool> {
+    let steps = problem.step.iter();
+    steps.map(|s| listed(s.couplings.as_ref(), name)).collect()
 }
 
 fn table(problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {

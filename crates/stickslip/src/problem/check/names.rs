@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::nearest::suggest;
 use super::super::{Problem, Select};
 use super::Findings;
+use crate::registry::Family;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     declared(problem, findings);
@@ -32,6 +33,25 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             "amplitudes",
             &problem.amplitude,
         );
+    }
+    for (name, coupling) in &problem.coupling {
+        let kind = coupling.kind.kind();
+        for (below, named) in coupling.kind.as_dyn().sets() {
+            let mut key = vec!["coupling", name.as_str(), kind];
+            key.extend(below.split('.'));
+            set(problem, findings, &key, named);
+        }
+        let key = ["coupling", name, "amplitude"];
+        one_of(
+            findings,
+            &key,
+            coupling.amplitude.as_deref(),
+            "amplitudes",
+            &problem.amplitude,
+        );
+    }
+    for (name, mass) in &problem.mass {
+        set(problem, findings, &["mass", name, "set"], &mass.set);
     }
     for (name, initial) in &problem.initial {
         set(problem, findings, &["initial", name, "set"], &initial.set);

@@ -24,13 +24,20 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         listed(findings, &at("supports"), &step.supports, &p.support);
         listed(findings, &at("loads"), &step.loads, &p.load);
         listed(findings, &at("interfaces"), &step.interfaces, &p.interface);
+        listed(findings, &at("couplings"), &step.couplings, &p.coupling);
         // Free flight is a motion as well.
         if step.dynamic.is_none() && idle(problem, step) {
             findings.add(
                 &["step", &i],
-                "nothing acts in this step: no support, no load, no interface",
+                "nothing acts in this step: no support, no load, no interface, no coupling",
                 "list what is active, or leave the lists out to activate all that is declared",
             );
+        }
+        for name in step.change.keys().filter(|n| !p.interface.contains_key(*n)) {
+            let names: Vec<&str> = p.interface.keys().map(String::as_str).collect();
+            let message = format!("`{name}` is not among the interfaces");
+            let help = suggest(name, "interfaces", &names);
+            findings.add(&["step", &i, "change", name], message, help);
         }
         increments(findings, &at("increments"), &step.increments);
     }
@@ -66,6 +73,7 @@ fn idle(problem: &Problem, step: &Step) -> bool {
     count(&step.supports, &problem.support) == 0
         && count(&step.loads, &problem.load) == 0
         && count(&step.interfaces, &problem.interface) == 0
+        && count(&step.couplings, &problem.coupling) == 0
 }
 
 fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {

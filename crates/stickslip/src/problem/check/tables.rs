@@ -45,9 +45,10 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         select(problem, findings, name, &set.select);
     }
     for (name, interface) in &problem.interface {
-        laws(findings, name, interface);
+        laws(findings, &["interface", name], interface);
         velocity(problem, findings, name, interface);
     }
+    changes(problem, findings);
     supports(problem, findings);
     for (name, amplitude) in &problem.amplitude {
         times(
@@ -197,7 +198,41 @@ fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Selec
     }
 }
 
-fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
+/// The laws that interfaces have after a change are laws as well.
+fn changes(problem: &Problem, findings: &mut Findings) {
+    let mut now = problem.interface.clone();
+    for (i, step) in problem.step.iter().enumerate() {
+        let i = i.to_string();
+        for (name, change) in &step.change {
+            let Some(interface) = now.get_mut(name) else {
+                continue;
+            };
+            let table = ["step", i.as_str(), "change", name.as_str()];
+            if interface.tied {
+                let message = "the surfaces are tied: laws have no meaning";
+                findings.add(&table, message, "remove the change, or `tied`");
+                continue;
+            }
+            if let Some(normal) = &change.normal {
+                interface.normal = normal.clone();
+            }
+            if let Some(friction) = &change.friction {
+                interface.friction = friction.clone();
+            }
+            // What is wrong without it has been said.
+            let mut found = Findings(Vec::new());
+            laws(&mut found, &table, interface);
+            let before = &problem.interface[name];
+            let mut known = Findings(Vec::new());
+            laws(&mut known, &table, before);
+            found.0.retain(|f| !known.0.contains(f));
+            findings.0.append(&mut found.0);
+        }
+    }
+}
+
+/// What is wrong with the laws of an interface; `table` is where they are chosen.
+fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     let Interface {
         normal,
         damping,
@@ -206,7 +241,8 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         enforcement,
         ..
     } = interface;
-    let mut add = |stage, kind, faults| findings.faults(&["interface", name, stage, kind], faults);
+    let at = |last: &[&'static str]| -> Vec<&str> { [table, last].concat() };
+    let mut add = |stage, kind, faults| findings.faults(&at(&[stage, kind]), faults);
     add("normal", normal.kind(), normal.as_dyn().faults());
     add("damping", damping.kind(), damping.as_dyn().faults());
     add("friction", friction.kind(), friction.as_dyn().faults());
@@ -223,7 +259,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         || interface.facets == Some(FacetShape::Triangles);
     if by_points && interface.discretisation().as_dyn().weighted().is_some() {
         findings.add(
-            &["interface", name, "discretisation"],
+            &at(&["discretisation"]),
             "kinematics `pop-1995` and `facets = \"triangles\"` are for contact elements of a point and a facet",
             "remove the key, or write discretisation.node-to-facet = {}",
         );
@@ -249,19 +285,19 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         };
         if plain != *interface {
             findings.add(
-                &["interface", name, "tied"],
+                &at(&["tied"]),
                 "laws and velocities have no meaning where surfaces are tied",
                 "remove normal, damping, friction, slip and primary-velocity, or `tied`",
             );
         }
     }
     if let Some(wear) = &interface.wear {
-        findings.faults(&["interface", name, "wear"], wear.faults());
+        findings.faults(&at(&["wear"]), wear.faults());
     }
     let triangles = interface.kinematics.as_dyn().triangles();
     if triangles && interface.facets == Some(FacetShape::Bilinear) {
         findings.add(
-            &["interface", name, "facets"],
+            &at(&["facets"]),
             format!(
                 "kinematics `{}` needs triangles",
                 interface.kinematics.kind()
@@ -277,7 +313,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
         && (set_valued || friction.as_dyn().frictional())
     {
         findings.add(
-            &["interface", name, "discretisation"],
+            &at(&["discretisation"]),
             "two-sided contact with multipliers has more conditions than unknowns",
             "choose enforcement.penalty, or a compliant normal law without friction",
         );
@@ -285,7 +321,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
     // A multiplier takes whatever pressure closes the gap: damping would change nothing.
     if damping.as_dyn().active() && set_valued && multipliers {
         findings.add(
-            &["interface", name, "damping"],
+            &at(&["damping"]),
             "damping needs a pressure that follows from the gap",
             "choose a compliant normal law or enforcement.penalty",
         );
@@ -293,7 +329,7 @@ fn laws(findings: &mut Findings, name: &str, interface: &Interface) {
     // An exact law has no penetration of its own: what there is comes from the enforcement and means nothing.
     if friction.as_dyn().needs_penetration() && set_valued {
         findings.add(
-            &["interface", name, "friction"],
+            &at(&["friction"]),
             format!(
                 "friction `{}` depends on the penetration, which normal `{}` does not allow",
                 friction.kind(),

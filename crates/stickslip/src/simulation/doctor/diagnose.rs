@@ -39,7 +39,7 @@ pub(in crate::simulation) fn diagnose(
             .advise("repair the mesh there, or take smaller increments"),
         Cause::TooFar => Finding::new(DoctorCause::TooFar, Severity::Note, ""),
         Cause::Reach => Finding::new(DoctorCause::BeyondReach, Severity::Note, ""),
-        Cause::Event => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
+        Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
     };
     if finding.message.is_empty() {
         finding.message = failure.message.clone();

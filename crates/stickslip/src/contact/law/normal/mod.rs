@@ -1,11 +1,13 @@
 //! Normal laws: pressure against gap.
 
+mod exponential;
 mod linear;
 mod micro_contact;
 mod power_law;
 mod tabular;
 mod unilateral;
 
+pub use exponential::Exponential;
 pub use linear::Linear;
 pub use micro_contact::MicroContact;
 pub use power_law::PowerLaw;
@@ -40,6 +42,8 @@ crate::family! {
         PowerLaw(PowerLaw) = "power-law",
         /// Statistical micro-contact.
         MicroContact(MicroContact) = "micro-contact",
+        /// Exponential compliance.
+        Exponential(Exponential) = "exponential",
         /// A measured curve.
         Tabular(Tabular) = "tabular",
     }

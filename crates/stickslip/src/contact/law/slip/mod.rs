@@ -10,7 +10,7 @@ pub use return_mapping::ReturnMapping;
 ///
 /// The frame of the paper's kinematics is not orthogonal: `skew` is the cosine of the angle between its directions and
 /// lengths are measured by `|v|² = v₁² + v₂² + 2 skew v₁ v₂`. It is zero for all other kinematics.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tangential {
     /// Displacement of the secondary relative to the primary surface since the last accepted state `[m]`.
     pub slip: [f64; 2],

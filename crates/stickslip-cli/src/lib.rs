@@ -1,0 +1,98 @@
+//! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
+//!
+//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged.
+//! Results and listings go to standard output, diagnostics to standard error.
+
+mod commands;
+mod print;
+mod progress;
+mod render;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Frictional contact of elastic bodies, in 2D and 3D.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(commands::run::Arguments),
+    Sweep(commands::sweep::Arguments),
+    Check(commands::check::Arguments),
+    Compare(commands::compare::Arguments),
+    Explain(commands::explain::Arguments),
+    Curve(commands::curve::Arguments),
+    Models(commands::models::Arguments),
+    Schema(commands::schema::Arguments),
+    Report(commands::report::Arguments),
+    Plot(commands::plot::Arguments),
+}
+
+/// The input is wrong; also the code of a wrong command line.
+const INPUT: u8 = 1;
+/// Results fail a check or the quality gate.
+const CHECK: u8 = 2;
+
+/// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
+pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(e) => {
+            // Help and version are "errors" that go to standard output and succeed. A closed pipe is nobody's fault.
+            let _ = e.print();
+            return ExitCode::from(if e.use_stderr() { INPUT } else { 0 });
+        }
+    };
+    let outcome = match arguments.command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Sweep(arguments) => commands::sweep::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Compare(arguments) => commands::compare::run(&arguments),
+        Command::Explain(arguments) => commands::explain::run(&arguments),
+        Command::Curve(arguments) => commands::curve::run(&arguments),
+        Command::Models(arguments) => commands::models::run(&arguments),
+        Command::Schema(arguments) => commands::schema::run(&arguments),
+        Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Plot(arguments) => commands::plot::run(&arguments),
+    };
+    match outcome {
+        Ok(code) => code,
+        Err(failure) => {
+            render::failure(&failure);
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// The number of an exit code, for programs that call [`main_with`].
+pub fn number(code: ExitCode) -> u8 {
+    // The standard library does not tell; there are not many.
+    (0..=u8::MAX)
+        .find(|&n| ExitCode::from(n) == code)
+        .unwrap_or(INPUT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exit_codes_have_their_numbers() {
+        for n in [0, INPUT, CHECK, 3, 255] {
+            assert_eq!(number(ExitCode::from(n)), n);
+        }
+    }
+
+    #[test]
+    fn a_wrong_command_line_is_an_error_of_input() {
+        assert_eq!(number(main_with(["stickslip", "--no-such-flag"])), INPUT);
+        assert_eq!(number(main_with(["stickslip", "--version"])), 0);
+    }
+}

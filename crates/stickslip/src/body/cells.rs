@@ -1,0 +1,96 @@
+//! What is printed of a cell: stresses at its integration points, and its energy.
+
+use super::geometry::{Table, by_nodes, point};
+use super::recover::stress_of;
+use super::scheme::{Scheme, printed_rule};
+use super::{Elastic, StressPoint};
+use crate::mesh::CellRef;
+use crate::shape::QuadraturePoint;
+
+/// Numbers a point.
+const WIDTH: usize = 16;
+
+/// The state of one cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellState {
+    /// The cell.
+    pub cell: CellRef,
+    /// Strain energy `[J]`, by the points of the stiffness; that of the stiffness against hourglassing included.
+    pub energy: f64,
+    /// Volume `[m³]`, with thickness or all around the axis.
+    pub volume: f64,
+    /// Its integration points as CalculiX and Abaqus have and number them: local coordinates in the order ξ, η, ζ, ξ fastest;
+    /// in wedges the triangle faster than its axis.
+    ///
+    /// hex8 and hex8 with incompatible modes 8, reduced 1; hex20 27, reduced 8; tet4 1; tet10 4; wedge6 2; wedge15 9; in the plane
+    /// tri3 1, tri6 3, quad4 4 (reduced 1), quad8 9 (reduced 4). Volumes are those of that rule. Where the stiffness is made at
+    /// other points (wedges but reduced ones), the strains are evaluated here nevertheless.
+    pub points: Vec<StressPoint>,
+}
+
+impl Elastic {
+    /// Visits every cell at the displacements `u` `[m]` (by dof of the whole mesh), parts and cells in order.
+    pub fn each_cell_state(&self, u: &[f64], visit: &mut (dyn FnMut(&CellState) + Send)) {
+        for (part, p) in self.parts.iter().enumerate() {
+            by_nodes!(
+                self.mesh.blocks[p.block].kind,
+                Elastic::part_states(self, part, u, visit)
+            );
+        }
+    }
+
+    fn part_states<const N: usize>(
+        &self,
+        part: usize,
+        u: &[f64],
+        visit: &mut (dyn FnMut(&CellState) + Send),
+    ) {
+        let block = self.parts[part].block;
+        let kind = self.mesh.blocks[block].kind;
+        let rule: &[QuadraturePoint] = printed_rule(kind, self.formulation);
+        let table = Table::<N>::with_rule(kind, rule);
+        self.each_cell::<N>(
+            part,
+            u,
+            2 + rule.len() * WIDTH,
+            |medium, [x, v], recovered, values| {
+                values[0] = recovered.energy();
+                values[1] = recovered.volume();
+                // Strains that are more than those of the displacements are at hand: these schemes have the points of the rule.
+                let own = matches!(medium.scheme, Scheme::Uniform | Scheme::Incompatible);
+                for (q, out) in values[2..].chunks_exact_mut(WIDTH).enumerate() {
+                    let (n, volume, strain) = if own {
+                        let p = &recovered.points[q];
+                        (medium.values(q), p.volume, recovered.strain[q])
+                    } else {
+                        let p = point(&table, q, x, self.space);
+                        let strain = recovered.strain_at(medium, &p, v);
+                        (&table.values[q], p.volume, strain)
+                    };
+                    for (o, row) in out.iter_mut().zip(x) {
+                        *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
+                    }
+                    out[3] = volume;
+                    out[4..10].copy_from_slice(&strain);
+                    out[10..16].copy_from_slice(&stress_of(&medium.acting, &strain));
+                }
+            },
+            |cell, values| {
+                let cell = CellRef { block, cell };
+                let point = |v: &[f64]| StressPoint {
+                    cell,
+                    x: [v[0], v[1], v[2]],
+                    volume: v[3],
+                    strain: std::array::from_fn(|i| v[4 + i]),
+                    stress: std::array::from_fn(|i| v[10 + i]),
+                };
+                visit(&CellState {
+                    cell,
+                    energy: values[0],
+                    volume: values[1],
+                    points: values[2..].chunks_exact(WIDTH).map(point).collect(),
+                });
+            },
+        );
+    }
+}

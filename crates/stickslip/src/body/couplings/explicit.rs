@@ -1,0 +1,97 @@
+//! Explicit dynamics: springs in place of multipliers.
+
+use super::force::{Hold, moved_by};
+use super::{Couplings, Tie};
+use crate::system::{Links, Schedule};
+
+impl Couplings {
+    /// Enforces equations by springs, or by multipliers again. The springs start where their force is that of the multiplier. The energy `[J]` that they
+    /// had and that is forgotten now is returned, negative.
+    pub fn use_springs(&mut self, springs: bool) -> f64 {
+        if self.explicit == springs {
+            return 0.0;
+        }
+        self.explicit = springs;
+        if springs {
+            return 0.0;
+        }
+        self.keep_forces()
+    }
+
+    /// Stiffnesses of the springs in place of equations: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
+    /// of the bodies, which makes increments shorter by a third at most.
+    pub fn fit_springs(&mut self, inverse_mass: &[f64], highest: f64, links: &Links) {
+        let mut hold = std::mem::take(&mut self.hold);
+        // Equations at the same place, or on the same rigid body, share what there is.
+        let mut met = std::collections::BTreeMap::<(bool, usize), usize>::new();
+        let place = |dof: usize| match links.of_point(dof / self.dim) {
+            Some(body) => (true, body),
+            None => (false, dof),
+        };
+        for (_, coupling, row) in self.rows() {
+            if matches!(coupling.tie, Tie::Equation { .. }) {
+                row.terms()
+                    .for_each(|(dof, _)| *met.entry(place(dof)).or_default() += 1);
+            }
+        }
+        for (i, _, row) in self.rows() {
+            let shared = row.terms().filter_map(|(dof, _)| met.get(&place(dof)));
+            let shared = shared.copied().max().unwrap_or(1) as f64;
+            let terms: Vec<(usize, f64)> = row.terms().collect();
+            let all: f64 = terms.iter().map(|(_, a)| a.abs()).sum();
+            let rows = terms
+                .iter()
+                .map(|&(dof, a)| a.abs() * all * inverse_mass[dof]);
+            let rigid = moved_by(row, links).len() != terms.len();
+            // Of a rigid body what all its points do adds up.
+            let unit = match rigid {
+                true => rows.sum::<f64>(),
+                false => rows.fold(0.0, f64::max),
+            };
+            hold[i] = Hold {
+                stiffness: if unit > 0.0 {
+                    highest / (unit * shared)
+                } else {
+                    0.0
+                },
+                idle: unit == 0.0,
+            };
+        }
+        self.hold = hold;
+    }
+
+    /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof: by the rows of the
+    /// stiffness (Gershgorin).
+    pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
+        let mut rows = std::collections::BTreeMap::<usize, f64>::new();
+        for (i, coupling, row) in self.rows() {
+            if !coupling.schedule.active(t) {
+                continue;
+            }
+            let stiffness = match coupling.tie {
+                Tie::Equation { .. } => self.hold[i].stiffness,
+                Tie::Spring { stiffness } => stiffness * most(&coupling.schedule),
+            };
+            let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
+            for (dof, a) in row.terms() {
+                *rows.entry(dof).or_default() += stiffness * a.abs() * all;
+            }
+        }
+        let mut highest = 0.0_f64;
+        let mut rigid = vec![0.0; links.all().len()];
+        for (dof, k) in rows {
+            let squared = k * inverse_mass[dof];
+            match links.of_point(dof / self.dim) {
+                None => highest = highest.max(squared),
+                Some(body) => rigid[body] += squared,
+            }
+        }
+        rigid.into_iter().fold(highest, f64::max)
+    }
+}
+
+/// The largest factor of a spring's stiffness.
+fn most(schedule: &Schedule) -> f64 {
+    let ends = schedule.pieces.iter().flat_map(|p| [p.start, p.end]);
+    ends.map(|t| schedule.at(t)).fold(0.0, f64::max)
+}

@@ -1,0 +1,34 @@
+//! Laws that are exchanged between two steps.
+
+use super::Interface;
+use crate::contact::law::friction::FrictionModel;
+use crate::contact::law::normal::NormalModel;
+
+/// `change.INTERFACE` of a step: laws that hold from this step on. What is not given stays. Points keep their pressure, status and the shear that they
+/// carry; the new laws are asked from the first increment on.
+#[derive(
+    Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Change {
+    /// How the surfaces resist being pressed together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<NormalModel>,
+    /// How much shear the interface carries.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionModel>,
+}
+
+impl Interface {
+    /// Takes other laws, between two increments. The energy `[J]` by which the law now stores more is returned.
+    pub fn change(&mut self, change: &Change) -> f64 {
+        let before = self.stored_energy();
+        if let Some(normal) = &change.normal {
+            self.laws.normal = normal.clone();
+        }
+        if let Some(friction) = &change.friction {
+            self.laws.friction = friction.clone();
+        }
+        self.stored_energy() - before
+    }
+}

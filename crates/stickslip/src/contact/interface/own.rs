@@ -1,0 +1,75 @@
+//! Laws of the program, asked for all points of an evaluation at once.
+
+use std::sync::Arc;
+
+use super::evaluate::{Anchor, Asking, Question, Scene};
+use super::{Evaluations, Interface};
+use crate::contact::law::own::{LimitFunction, OwnFriction, OwnNormal, PressureFunction};
+use crate::contact::response::Told;
+
+impl Interface {
+    /// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
+    /// begins.
+    pub fn bring(
+        &mut self,
+        normal: Option<Arc<dyn PressureFunction>>,
+        friction: Option<Arc<dyn LimitFunction>>,
+    ) {
+        let sizes = self.points.iter().map(|p| p.size).sum::<f64>();
+        let length = sizes / self.points.len().max(1) as f64;
+        self.laws.own.normal = normal.map(|f| OwnNormal::new(f, length));
+        self.laws.own.friction = friction.map(OwnFriction::new);
+    }
+
+    /// What laws of the program say at the points of a scene; nothing where there are none.
+    ///
+    /// The points are gone through once for each of the laws, to find what it is asked: that costs geometry twice, but calls the
+    /// function once.
+    pub(super) fn ask(
+        &self,
+        scene: &Scene,
+        out: &mut Evaluations,
+        anchors: &mut [Option<Anchor>],
+    ) -> Vec<Told> {
+        let own = &self.laws.own;
+        if !own.any() || self.laws.tied {
+            return Vec::new();
+        }
+        let mut told = vec![Told::default(); self.points.len()];
+        if let Some(normal) = &own.normal {
+            let questions = self.questions(scene, &told, Asking::Gaps, out, anchors);
+            let gaps: Vec<f64> = questions.iter().map(|q| q.gap).collect();
+            for (q, answer) in questions.iter().zip(normal.pressures(&gaps)) {
+                told[q.point].pressure = Some(answer);
+            }
+        }
+        if let Some(friction) = &own.friction {
+            let questions = self.questions(scene, &told, Asking::Friction, out, anchors);
+            let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
+            for (q, answer) in questions.iter().zip(friction.limits(&points)) {
+                told[q.point].limit = Some(answer);
+            }
+        }
+        told
+    }
+
+    fn questions(
+        &self,
+        scene: &Scene,
+        told: &[Told],
+        asking: Asking,
+        out: &mut Evaluations,
+        anchors: &mut [Option<Anchor>],
+    ) -> Vec<Question> {
+        let scene = Scene {
+            told,
+            asking,
+            tangent: false,
+            surrogate: false,
+            ..*scene
+        };
+        self.evaluate_points(&scene, out, anchors);
+        let batches = out.batches.iter();
+        batches.flat_map(|b| b.questions.iter().copied()).collect()
+    }
+}
