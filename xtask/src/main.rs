@@ -2,6 +2,8 @@
 
 mod browser;
 mod chatter;
+mod dist;
+mod fuzz;
 mod peers;
 mod robustness;
 mod schema;
@@ -16,6 +18,8 @@ tasks:
   browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
+  dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
+  fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu or checkpoint (needs cargo-fuzz)
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
@@ -38,6 +42,8 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
+        Some((task, [])) if task == "dist" => dist::pack(),
+        Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),

@@ -1,9 +1,13 @@
 //! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
 //!
-//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged.
+//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged,
+//! 130 interrupted.
 //! Results and listings go to standard output, diagnostics to standard error.
 
 mod commands;
+mod input;
+mod interrupt;
+mod lines;
 mod print;
 mod progress;
 mod render;
@@ -11,11 +15,11 @@ mod render;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Frictional contact of elastic bodies, in 2D and 3D.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(name = "stickslip", version, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -33,12 +37,22 @@ enum Command {
     Schema(commands::schema::Arguments),
     Report(commands::report::Arguments),
     Plot(commands::plot::Arguments),
+    Convert(commands::convert::Arguments),
+    Completions(commands::completions::Arguments),
+    Man(commands::man::Arguments),
 }
 
 /// The input is wrong; also the code of a wrong command line.
 const INPUT: u8 = 1;
 /// Results fail a check or the quality gate.
 const CHECK: u8 = 2;
+/// Stopped by Ctrl-C; results up to there are complete.
+const INTERRUPTED: u8 = 130;
+
+/// The command line as data, for completions and manual pages.
+fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
 pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
@@ -61,6 +75,9 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
         Command::Schema(arguments) => commands::schema::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Plot(arguments) => commands::plot::run(&arguments),
+        Command::Convert(arguments) => commands::convert::run(&arguments),
+        Command::Completions(arguments) => commands::completions::run(&arguments),
+        Command::Man(arguments) => commands::man::run(&arguments),
     };
     match outcome {
         Ok(code) => code,

@@ -30,7 +30,6 @@ references! {
     popp_2012: "A. Popp, B. I. Wohlmuth, M. W. Gee, W. A. Wall, Dual quadratic mortar finite element methods for 3D finite deformation contact, SIAM Journal on Scientific Computing 34 (2012) B421-B446.",
     raous_1988: "M. Raous, P. Chabrand, F. Lebon, Numerical methods for frictional contact problems and applications, Journal de Mécanique Théorique et Appliquée 7 suppl. 1 (1988) 111-128.",
     ssnv128: "Code_Aster V6.04.128, SSNV128: plaque avec contact et frottement sur un plan rigide.",
-    dunavant_1985: "D. A. Dunavant, High degree efficient symmetrical Gaussian quadrature rules for the triangle, International Journal for Numerical Methods in Engineering 21 (1985) 1129-1148.",
     flanagan_1981: "D. P. Flanagan, T. Belytschko, A uniform strain hexahedron and quadrilateral with orthogonal hourglass control, International Journal for Numerical Methods in Engineering 17 (1981) 679-706.",
     taylor_1976: "R. L. Taylor, P. J. Beresford, E. L. Wilson, A non-conforming element for stress analysis, International Journal for Numerical Methods in Engineering 10 (1976) 1211-1219.",
     ibrahimbegovic_1991: "A. Ibrahimbegović, E. L. Wilson, A modified method of incompatible modes, Communications in Applied Numerical Methods 7 (1991) 187-194.",

@@ -2,8 +2,11 @@
 
 pub mod check;
 pub mod compare;
+pub mod completions;
+pub mod convert;
 pub mod curve;
 pub mod explain;
+pub mod man;
 pub mod models;
 pub mod plot;
 pub mod report;
@@ -53,6 +56,8 @@ pub type Outcome = Result<ExitCode, Failure>;
 pub enum Failure {
     /// From the library.
     Library(Error),
+    /// A deck that cannot be run as it is.
+    Deck(stickslip_deck::DeckError),
     /// From the command line itself: the message and what to do.
     Arguments(String, String),
     /// Runs of a sweep failed; its table is written all the same.
@@ -73,6 +78,7 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Failure::Library(Error::Run(_)) => 3,
+            Failure::Library(Error::Interrupted(_)) => crate::INTERRUPTED,
             _ => crate::INPUT,
         }
     }

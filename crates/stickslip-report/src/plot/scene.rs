@@ -42,7 +42,7 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
     let list = field::fields(&grid.points.arrays);
     let Some(name) = name else {
         // Rigid bodies have no stress.
-        let says = |name: &&str| {
+        let says = |name: &&'static str| {
             let field = list.iter().find(|f| f.name == **name);
             field.is_some_and(|f| {
                 let array = &grid.points.arrays[&f.array];
@@ -50,9 +50,7 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
                 field::range(values).is_some_and(|[low, high]| high > low)
             })
         };
-        let name = ["MISES", "U", "CPRESS"]
-            .into_iter()
-            .find(|name| says(&name));
+        let name = ["MISES", "U", "CPRESS"].into_iter().find(says);
         let named = |name: &str| list.iter().find(|f| f.name == name).cloned();
         let chosen = name.and_then(named).or_else(|| named("U"));
         return Ok(chosen.or_else(|| list.first().cloned()));

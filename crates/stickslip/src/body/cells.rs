@@ -24,7 +24,7 @@ pub struct CellState {
     ///
     /// hex8 and hex8 with incompatible modes 8, reduced 1; hex20 27, reduced 8; tet4 1; tet10 4; wedge6 2; wedge15 9; in the plane
     /// tri3 1, tri6 3, quad4 4 (reduced 1), quad8 9 (reduced 4). Volumes are those of that rule. Where the stiffness is made at
-    /// other points (wedges but reduced ones), the strains are evaluated here nevertheless.
+    /// other points (wedge6 unless reduced, tri3 around an axis), the strains are evaluated here nevertheless.
     pub points: Vec<StressPoint>,
 }
 

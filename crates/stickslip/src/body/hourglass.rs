@@ -59,6 +59,16 @@ impl<const N: usize> Hourglass<N> {
         Hourglass { base, count, space }
     }
 
+    /// `h_m` at the nodes.
+    pub fn base(&self) -> &[[f64; N]] {
+        &self.base[..self.count]
+    }
+
+    /// `κ V / (Σ_i b_i·b_i V²)`.
+    pub fn factor(&self, shear: f64) -> f64 {
+        STIFFNESS * shear / N as f64
+    }
+
     /// What [`vectors`](Self::vectors) fills, and the directions in which each acts.
     pub fn directions(&self) -> impl Iterator<Item = Range<usize>> + use<N> {
         let turning = (self.space == Space::Axisymmetric).then_some(0..1);
@@ -77,7 +87,7 @@ impl<const N: usize> Hourglass<N> {
     ) -> [[f64; N]; MODES] {
         let dim = self.space.dim();
         let square: f64 = mean.d[..dim].as_flattened().iter().map(|d| d * d).sum();
-        let factor = (STIFFNESS * shear * mean.volume * square / N as f64).sqrt();
+        let factor = (self.factor(shear) * mean.volume * square).sqrt();
         let mut vectors = self.base;
         for vector in vectors.iter_mut().take(self.count) {
             let h = *vector;

@@ -81,9 +81,9 @@ impl<const N: usize> Recovered<N> {
             .extend((0..of.table.len()).map(|q| point(&of.table, q, x, space)));
         if of.scheme == Scheme::Uniform {
             let mean = hourglass::mean(&self.points);
-            self.vectors =
-                of.hourglass
-                    .vectors(x, &of.table, &self.points, &mean, of.shear);
+            self.vectors = of
+                .hourglass
+                .vectors(x, &of.table, &self.points, &mean, of.shear);
             let each = self.amplitudes.iter_mut().zip(&self.vectors);
             for ((amplitude, v), directions) in each.zip(of.hourglass.directions()) {
                 for i in directions {
@@ -121,7 +121,12 @@ impl<const N: usize> Recovered<N> {
     }
 
     fn set_stress(&mut self, of: &Medium<N>) {
-        for (strain, stress) in self.strain.iter().zip(&mut self.stress).take(self.points.len()) {
+        for (strain, stress) in self
+            .strain
+            .iter()
+            .zip(&mut self.stress)
+            .take(self.points.len())
+        {
             *stress = stress_of(&of.acting, strain);
         }
     }

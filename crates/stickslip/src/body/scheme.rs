@@ -56,8 +56,7 @@ pub(super) fn printed_rule(
     formulation: Formulation,
 ) -> &'static [QuadraturePoint] {
     let element = kind.reference();
-    let wedge = kind.linear() == ElementKind::Wedge6;
-    if wedge || formulation == Formulation::Reduced {
+    if kind == ElementKind::Wedge6 || formulation == Formulation::Reduced {
         element.reduced_quadrature()
     } else {
         element.quadrature()

@@ -52,15 +52,15 @@ pub enum Formulation {
     MeanDilatation,
     /// Reduced integration, as in the elements of Abaqus and CalculiX whose names end in R.
     ///
-    /// quad8 and hex20 have 2 points in each direction, wedge15 has 9 and wedge6 has 2 (what C3D15 and C3D6 have). A single such
-    /// cell has motions without energy (hex20 six, quad8 one, wedge6 its torsion), which neighbours stop: they do
-    /// not fit together.
+    /// quad8 and hex20 have 2 points in each direction, wedge6 has 2 along its axis (as C3D6 always has). A single such
+    /// cell has motions without energy (hex20 six, quad8 one, wedge6 its torsion). Neighbours stop them, as they do not fit
+    /// together, but for some of a single straight row of hex20: a beam of them wants two cells across.
     ///
     /// quad4 and hex8 have the mean strain of the cell and a stiffness against motions without
     /// one ([`flanagan_1981`](crate::references::flanagan_1981)), 0.05 of that of shear. They do not lock, in bending either, but one
     /// cell through a thickness has hardly any bending stiffness: take four.
     ///
-    /// Triangles and tetrahedra are not changed. Weight and mass are integrated as in the standard formulation.
+    /// Triangles, tetrahedra and wedge15 are not changed. Weight and mass are integrated as in the standard formulation.
     Reduced,
     /// quad4 and hex8 with modes inside the cell that let it bend ([`taylor_1976`](crate::references::taylor_1976)), as in C3D8I: a
     /// slender beam of one layer of cells bends as it should, if the cells are parallelepipeds. They do not lock either where the

@@ -1,5 +1,5 @@
-//! Files: meshes in ([`gmsh`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]) and, for comparisons, in again
-//! ([`vtu`], [`csv`]).
+//! Files: meshes in and out ([`gmsh`], [`vtu`], [`abaqus`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]) and, for
+//! comparisons, in again ([`vtu`], [`csv`]).
 //!
 //! This module knows meshes and named fields, never what they mean.
 
@@ -7,7 +7,9 @@ pub mod abaqus;
 mod atomic;
 pub mod csv;
 pub mod gmsh;
+mod numbers;
 pub mod pvd;
+mod sets;
 pub mod vtu;
 
 pub use atomic::write_atomically;

@@ -15,11 +15,19 @@ impl Mesh {
     /// # Errors
     /// The first finding, with the user's number of the point or cell.
     pub fn check(&self) -> Result<(), MeshError> {
-        self.check_points()?;
-        self.check_blocks()?;
-        self.check_sets()?;
+        self.check_structure()?;
         self.check_faces()?;
         self.cells().try_for_each(|cell| self.check_jacobian(cell))
+    }
+
+    /// Checks indices, lengths and coordinates, not the shape of cells: what files can hold.
+    ///
+    /// # Errors
+    /// The first finding, with the user's number of the point or cell.
+    pub fn check_structure(&self) -> Result<(), MeshError> {
+        self.check_points()?;
+        self.check_blocks()?;
+        self.check_sets()
     }
 
     /// The points that no cell uses, sorted.

@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::tree::{self, Table};
 use super::{FORMAT, Problem, check, key, overrides, schema, structure};
-use crate::error::{Diagnostic, Error, ProblemError};
+use crate::error::{Diagnostic, Error, ProblemError, line_column};
 
 /// The text of a problem file with its overrides: it becomes a [`Problem`], and shows where in the text a finding is.
 #[derive(Debug, Clone)]
@@ -30,9 +30,10 @@ impl Document {
     /// The text of a file.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read or is not UTF-8.
+    /// [`Error::Io`] if it cannot be read, [`Error::Problem`] if it is not UTF-8.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let source = std::fs::read_to_string(file).map_err(|e| Error::io(file, e))?;
+        let bytes = std::fs::read(file).map_err(|e| Error::io(file, e))?;
+        let source = String::from_utf8(bytes).map_err(|e| not_text(file, &e))?;
         Ok(Document::new(source, Some(file)))
     }
 
@@ -80,6 +81,10 @@ impl Document {
                 finding.span = path.and_then(|path| tree::find(tree.get_ref(), &path));
             }
         }
+        for finding in findings.iter_mut().filter(|f| f.help.is_none()) {
+            let path = key::parse(&finding.key).ok();
+            finding.help = path.and_then(|path| structure::description(schema::shared(), &path));
+        }
         // Findings without a place, about the whole file, come first; `sort_by_key` keeps the order of equals.
         findings.sort_by_key(|f| f.span.as_ref().map(|s| s.start));
         ProblemError {
@@ -101,7 +106,7 @@ impl Document {
 
     fn tree(&self) -> Result<Spanned<Table<'_>>, Vec<Diagnostic>> {
         let (mut tree, errors) = Table::parse_recoverable(&self.source);
-        let mut findings: Vec<Diagnostic> = errors.iter().map(syntax).collect();
+        let mut findings = syntax_findings(&self.source, &errors);
         if findings.is_empty() {
             let mut wrong = |text| overrides::apply(tree.get_mut(), text).err();
             findings.extend(self.overrides.iter().filter_map(|o| wrong(o)));
@@ -114,13 +119,70 @@ impl Document {
     }
 }
 
+/// Lines with mistakes of syntax that are reported: where a bracket is not closed all lines behind it have one.
+const MOST_LINES: usize = 5;
+
+/// The first mistake of each line.
+fn syntax_findings(source: &str, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
+    let line = |e: &toml::de::Error| e.span().map(|span| line_column(source, span.start).0);
+    let mut lines = Vec::new();
+    let mut out = Vec::new();
+    for error in errors {
+        let line = line(error);
+        if !lines.contains(&line) && lines.len() < MOST_LINES {
+            lines.push(line);
+            out.push(syntax(error));
+        }
+    }
+    out
+}
+
 fn syntax(error: &toml::de::Error) -> Diagnostic {
     Diagnostic {
         message: format!("not TOML: {}", error.message()),
         key: String::new(),
         span: error.span(),
-        help: None,
+        help: Some(syntax_help(error.message()).into()),
     }
+}
+
+/// What to do about a mistake of syntax, by the words of the parser.
+fn syntax_help(message: &str) -> &'static str {
+    let says = |words: &str| message.contains(words);
+    if says("duplicate key") {
+        "every key and every table is given once: join the two, or remove one"
+    } else if says("escape") {
+        "in double quotes a backslash is written twice; in single quotes it stands for itself"
+    } else if says("recurse") {
+        "no value of a problem file is nested that deeply"
+    } else if says("leading zero") {
+        "write the number without leading zeros"
+    } else if says("with no value") || says("must be quoted") {
+        "write `key = value`, and texts in double quotes"
+    } else if says("unexpected key or value") {
+        "write one `key = value` a line, and numbers with a decimal point and no unit"
+    } else {
+        "TOML has lines `key = value`, headings `[table]`, texts in double quotes, and lists in brackets that are closed"
+    }
+}
+
+/// A file that is no text: shown up to where it stops being one.
+fn not_text(file: &Path, error: &std::string::FromUtf8Error) -> Error {
+    let at = error.utf8_error().valid_up_to();
+    let byte = error.as_bytes().get(at).copied().unwrap_or_default();
+    let finding = Diagnostic {
+        span: Some(at..at),
+        ..Diagnostic::new(
+            "",
+            format!("the file is not UTF-8 text: byte {at} is 0x{byte:02X}"),
+        )
+        .help("save it as UTF-8; problem files are TOML, not results or meshes")
+    };
+    Error::Problem(ProblemError {
+        file: Some(file.to_path_buf()),
+        source: String::from_utf8_lossy(error.as_bytes()).into_owned(),
+        findings: vec![finding],
+    })
 }
 
 /// A finding if the file is of another format than this version reads: anything else said about it would mislead.

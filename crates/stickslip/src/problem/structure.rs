@@ -27,6 +27,32 @@ pub(super) fn check(schema: &Json, table: &Table) -> Vec<Diagnostic> {
     walk.findings
 }
 
+/// What the schema says about the value at a path, in a sentence; `None` if there is no such key or it has no description.
+pub(super) fn description(schema: &Json, path: &[String]) -> Option<String> {
+    let mut expected = Expected::of(schema, schema);
+    let mut found = None;
+    for segment in path {
+        let named = expected.properties.iter().chain(&expected.kinds);
+        let named = named.copied().find(|(name, _)| name == segment);
+        let own = expected.own;
+        let first = own.get("prefixItems").and_then(Json::as_array);
+        let position = segment.parse::<usize>().ok();
+        let next = named.map(|(_, schema)| schema).or_else(|| {
+            position
+                .and_then(|i| first?.get(i))
+                .or_else(|| own.get("items"))
+                .or_else(|| own.get("additionalProperties"))
+        })?;
+        expected = Expected::of(schema, next);
+        // Entries of a list have no description of their own.
+        found = match (expected.description, position) {
+            (None, Some(_)) => found,
+            (own, _) => own,
+        };
+    }
+    found.map(first_sentence)
+}
+
 /// What the schema says about a value, references resolved.
 struct Expected<'s> {
     /// The keyword object.
@@ -207,6 +233,13 @@ impl<'s> Walk<'s> {
             DeValue::Float(f) => f.as_str().to_string(),
             _ => String::new(),
         };
+        if let DeValue::Integer(i) = value.get_ref()
+            && i64::from_str_radix(&i.as_str().replace('_', ""), i.radix()).is_err()
+        {
+            let message = format!("the whole number {text} has more than 64 bits");
+            self.report(span, message, expected.description.map(first_sentence));
+            return;
+        }
         let limits = [
             ("minimum", "at least", true),
             ("exclusiveMinimum", "greater than", true),
@@ -248,11 +281,18 @@ impl<'s> Walk<'s> {
         }
         let first = expected.own.get("prefixItems").and_then(Json::as_array);
         let rest = expected.own.get("items");
+        let before = self.findings.len();
         for (i, value) in list.iter().enumerate() {
             if let Some(schema) = first.and_then(|f| f.get(i)).or(rest) {
                 self.path.push(i.to_string());
                 self.value(schema, value, value.span());
                 self.path.pop();
+            }
+        }
+        // Entries have no description of their own.
+        for finding in &mut self.findings[before..] {
+            if finding.help.is_none() {
+                finding.help = expected.description.map(first_sentence);
             }
         }
     }
@@ -316,7 +356,12 @@ impl<'s> Walk<'s> {
                 [one] => format!("the key `{one}` is missing"),
                 _ => format!("one of these keys is missing: {}", kinds.join(", ")),
             };
-            self.report(at, message, None);
+            let help = format!(
+                "for example `{}.{} = {{ … }}`; see `stickslip models`",
+                key::join(&self.path),
+                kinds[0]
+            );
+            self.report(at, message, Some(help));
         }
     }
 }

@@ -61,21 +61,6 @@ const INSIDE: [(f64, f64, f64); 3] = [
     (2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
     (1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0),
 ];
-/// Six points in two orbits `(x, x)`, `(1 - 2 x, x)`, `(x, 1 - 2 x)`, exact to degree four
-/// ([`dunavant_1985`](crate::references::dunavant_1985)).
-const ORBITS: [(f64, f64, f64); 6] = [
-    (NEAR, NEAR, NEAR_WEIGHT),
-    (1.0 - 2.0 * NEAR, NEAR, NEAR_WEIGHT),
-    (NEAR, 1.0 - 2.0 * NEAR, NEAR_WEIGHT),
-    (FAR, FAR, FAR_WEIGHT),
-    (1.0 - 2.0 * FAR, FAR, FAR_WEIGHT),
-    (FAR, 1.0 - 2.0 * FAR, FAR_WEIGHT),
-];
-const NEAR: f64 = 0.445_948_490_915_964_9;
-const NEAR_WEIGHT: f64 = 0.111_690_794_839_005_73;
-const FAR: f64 = 0.091_576_213_509_770_74;
-const FAR_WEIGHT: f64 = 0.054_975_871_827_660_934;
-
 /// The product of a rule on the triangle and one along the line; the triangle runs fastest.
 const fn prism<const N: usize>(
     triangle: &[(f64, f64, f64)],
@@ -101,7 +86,6 @@ const fn prism<const N: usize>(
 pub(super) static WEDGE_1X2: [QuadraturePoint; 2] = prism(&CENTRE, &TWO);
 pub(super) static WEDGE_3X2: [QuadraturePoint; 6] = prism(&INSIDE, &TWO);
 pub(super) static WEDGE_3X3: [QuadraturePoint; 9] = prism(&INSIDE, &THREE);
-pub(super) static WEDGE_6X3: [QuadraturePoint; 18] = prism(&ORBITS, &THREE);
 
 /// A rule on the wedge of the degree that [`collapsed`] has on the triangle, and quintic along it.
 pub(super) fn fine_wedge() -> Vec<QuadraturePoint> {

@@ -106,7 +106,7 @@ pub trait ReferenceElement: Sync {
     }
     /// Faces (3D elements) or edges (2D elements), outward.
     fn faces(&self) -> &'static [Face];
-    /// The rule for the stiffness: exact for an undistorted element.
+    /// The rule for the stiffness: exact for an undistorted element (wedge15: but for terms above the second order in its triangle).
     fn quadrature(&self) -> &'static [QuadraturePoint];
     /// The rule of reduced integration; that of the stiffness where there is no other.
     fn reduced_quadrature(&self) -> &'static [QuadraturePoint] {

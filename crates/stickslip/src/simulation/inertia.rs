@@ -252,7 +252,7 @@ fn redistributed(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
         Some(ContactMass::Redistributed) => true,
         Some(ContactMass::AsMeshed) => false,
         // A compliant law stops a mass gently.
-        None => interface.laws.normal.as_dyn().pressure(0.0).is_none(),
+        None => interface.laws.set_valued(),
     };
     model.interfaces.iter().map(wanted).collect()
 }

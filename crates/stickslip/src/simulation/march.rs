@@ -223,14 +223,14 @@ impl Simulation {
         let last = running.stepper.next().is_none();
         let due = last
             || plan.times.contains(&trial.to)
-            || (plan.every > 0 && increment % plan.every == 0);
+            || increment.is_multiple_of(plan.every);
         let pending = Pending {
             trial,
             accepted,
             increment,
             attempt: running.attempt,
             fields: due,
-            row: due || increment % plan.history_every == 0,
+            row: due || increment.is_multiple_of(plan.history_every),
             seen: Vec::new(),
             memories: Vec::new(),
             couplings: CouplingsMemory::default(),

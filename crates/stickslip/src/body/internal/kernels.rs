@@ -9,6 +9,7 @@ use super::hex8::{Hex8, Parallelepiped};
 use super::law::{General, Isotropic, Law};
 use super::sweep::{Kernel, Swept};
 use super::tet4::Tet4;
+use super::uniform::Uniform;
 use crate::material::Stiffness;
 use crate::math::{Vec3, add, cross, dot, norm, sub};
 use crate::mesh::Block;
@@ -27,10 +28,7 @@ pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> 
     let all = 0..(block.connectivity.len() / kind.node_count()) as u32;
     let scheme = Scheme::of(kind, formulation);
     if matches!(scheme, Scheme::Uniform | Scheme::Incompatible) {
-        let kernel: Box<dyn Kernel> = match kind.dim() {
-            2 => Box::new(Swept(Cellwise::<4, 2>(Medium::new(kind, space, formulation, acting)))),
-            _ => Box::new(Swept(Cellwise::<8, 3>(Medium::new(kind, space, formulation, acting)))),
-        };
+        let kernel = bilinear(kind, space, formulation, acting);
         return vec![(kernel, all.collect())];
     }
     if kind == ElementKind::Hex8 {
@@ -43,6 +41,30 @@ pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> 
         ];
     }
     vec![(simple(kind, space, formulation, acting), all.collect())]
+}
+
+/// quad4 and hex8 with the mean strain or modes inside the cell.
+fn bilinear(
+    kind: ElementKind,
+    space: Space,
+    formulation: Formulation,
+    acting: &Stiffness,
+) -> Box<dyn Kernel> {
+    let uniform = Scheme::of(kind, formulation) == Scheme::Uniform;
+    let general = General(*acting);
+    if kind == ElementKind::Quad4 {
+        let medium = Medium::<4>::new(kind, space, formulation, acting);
+        return match uniform && space != Space::Axisymmetric {
+            true => Box::new(Swept(Uniform::<_, 4, 2, 4>::new(medium, general))),
+            false => Box::new(Swept(Cellwise::<4, 2>(medium))),
+        };
+    }
+    let medium = Medium::<8>::new(kind, space, formulation, acting);
+    match (uniform, Isotropic::of(acting)) {
+        (true, Some(law)) => Box::new(Swept(Uniform::<_, 8, 3, 6>::new(medium, law))),
+        (true, None) => Box::new(Swept(Uniform::<_, 8, 3, 6>::new(medium, general))),
+        (false, _) => Box::new(Swept(Cellwise::<8, 3>(medium))),
+    }
 }
 
 fn simple(

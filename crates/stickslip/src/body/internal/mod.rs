@@ -28,6 +28,7 @@ mod tensor;
 mod tests;
 mod tet4;
 mod trilinear;
+mod uniform;
 
 use pulp::Arch;
 use rayon::prelude::*;

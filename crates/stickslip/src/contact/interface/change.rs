@@ -20,14 +20,16 @@ pub struct Change {
 }
 
 impl Interface {
-    /// Takes other laws, between two increments. The energy `[J]` by which the law now stores more is returned.
+    /// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
     pub fn change(&mut self, change: &Change) -> f64 {
         let before = self.stored_energy();
         if let Some(normal) = &change.normal {
             self.laws.normal = normal.clone();
+            self.laws.own.normal = None;
         }
         if let Some(friction) = &change.friction {
             self.laws.friction = friction.clone();
+            self.laws.own.friction = None;
         }
         self.stored_energy() - before
     }

@@ -6,6 +6,13 @@ fn corners(kind: ElementKind) -> &'static [&'static [usize]] {
         ElementKind::Tri3 => &[&[1, 2], &[2, 3], &[3, 1]],
         ElementKind::Quad4 => &[&[1, 2], &[2, 3], &[3, 4], &[4, 1]],
         ElementKind::Tet4 => &[&[1, 2, 3], &[1, 4, 2], &[2, 4, 3], &[3, 4, 1]],
+        ElementKind::Wedge6 => &[
+            &[1, 2, 3],
+            &[4, 6, 5],
+            &[1, 4, 5, 2],
+            &[2, 5, 6, 3],
+            &[3, 6, 4, 1],
+        ],
         ElementKind::Hex8 => &[
             &[1, 2, 3, 4],
             &[5, 8, 7, 6],

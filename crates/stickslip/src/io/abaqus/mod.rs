@@ -7,6 +7,8 @@
 
 mod faces;
 mod types;
+mod write;
 
 pub use faces::{face_index, face_number};
 pub use types::{ElementType, Integration, Space, Unsupported, element_type, node_order};
+pub use write::{text, write};

@@ -113,8 +113,10 @@ pub fn element_type(name: &str) -> Result<ElementType, Unsupported> {
 fn kind(space: Space, nodes: &str) -> Option<ElementKind> {
     Some(match (space, nodes) {
         (Space::Solid, "4") => ElementKind::Tet4,
+        (Space::Solid, "6") => ElementKind::Wedge6,
         (Space::Solid, "8") => ElementKind::Hex8,
         (Space::Solid, "10") => ElementKind::Tet10,
+        (Space::Solid, "15") => ElementKind::Wedge15,
         (Space::Solid, "20") => ElementKind::Hex20,
         (Space::Solid, _) => return None,
         (_, "3") => ElementKind::Tri3,
@@ -246,8 +248,12 @@ mod tests {
             ("C3D4", ElementKind::Tet4, Space::Solid, Full),
             ("c3d10", ElementKind::Tet10, Space::Solid, Full),
             (" C3D8 ", ElementKind::Hex8, Space::Solid, Full),
+            ("C3D6", ElementKind::Wedge6, Space::Solid, Full),
+            ("C3D15", ElementKind::Wedge15, Space::Solid, Full),
             ("C3D8R", ElementKind::Hex8, Space::Solid, Reduced),
             ("C3D8i", ElementKind::Hex8, Space::Solid, Incompatible),
+            ("C3D6", ElementKind::Wedge6, Space::Solid, Full),
+            ("C3D15", ElementKind::Wedge15, Space::Solid, Full),
             ("C3D20R", ElementKind::Hex20, Space::Solid, Reduced),
             ("CPS3", ElementKind::Tri3, Space::PlaneStress, Full),
             (
@@ -328,11 +334,23 @@ mod tests {
             (19, [3, 7]),
             (20, [4, 8]),
         ];
+        let wedge: &[(usize, [usize; 2])] = &[
+            (7, [1, 2]),
+            (8, [2, 3]),
+            (9, [3, 1]),
+            (10, [4, 5]),
+            (11, [5, 6]),
+            (12, [6, 4]),
+            (13, [1, 4]),
+            (14, [2, 5]),
+            (15, [3, 6]),
+        ];
         let quad: &[(usize, [usize; 2])] = &[(5, [1, 2]), (6, [2, 3]), (7, [3, 4]), (8, [4, 1])];
         let tri: &[(usize, [usize; 2])] = &[(4, [1, 2]), (5, [2, 3]), (6, [3, 1])];
         for (kind, middles) in [
             (ElementKind::Tet10, tet),
             (ElementKind::Hex20, hex),
+            (ElementKind::Wedge15, wedge),
             (ElementKind::Quad8, quad),
             (ElementKind::Tri6, tri),
         ] {

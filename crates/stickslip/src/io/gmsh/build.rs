@@ -199,7 +199,7 @@ fn twice_area(corners: &[usize], mesh: &Mesh) -> f64 {
 }
 
 /// The nodes of a plane element in the order that turns it over.
-fn turned(kind: ElementKind) -> &'static [usize] {
+pub(in crate::io) fn turned(kind: ElementKind) -> &'static [usize] {
     match kind {
         ElementKind::Tri3 => &[0, 2, 1],
         ElementKind::Tri6 => &[0, 2, 1, 5, 4, 3],

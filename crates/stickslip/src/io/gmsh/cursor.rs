@@ -135,7 +135,9 @@ impl<'a> Cursor<'a> {
                 .help(TRUNCATED));
         }
         let Ok(word) = std::str::from_utf8(word) else {
-            return Err(self.error(format!("expected {what}, found bytes that are no text")));
+            return Err(self
+                .error(format!("expected {what}, found bytes that are no text"))
+                .help(TRUNCATED));
         };
         self.at += word.len();
         Ok(word)
@@ -149,7 +151,9 @@ impl<'a> Cursor<'a> {
                 self.at - word.len(),
                 format!("expected {what}, found `{shown}`"),
             )
-            .help("check that the counts at the top of the section match its lines")
+            .help(
+                "check that the counts at the top of the section match its lines, and that numbers have a decimal point",
+            )
         })
     }
 

@@ -17,7 +17,7 @@ fn key(nodes: impl Iterator<Item = usize>) -> Key {
 }
 
 /// The cell faces that have the nodes of given facets, in the order of the cells.
-pub(super) struct Faces {
+pub(in crate::io) struct Faces {
     owners: HashMap<Key, Vec<FacetRef>>,
 }
 

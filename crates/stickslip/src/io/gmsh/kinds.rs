@@ -41,10 +41,7 @@ pub(super) fn kind(gmsh_type: i64) -> Kind {
         ),
         6 => Kind::Solid(Wedge6, &[]),
         // Gmsh's edges: 01 02 03 12 14 25 34 35 45.
-        18 => Kind::Solid(
-            Wedge15,
-            &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
-        ),
+        18 => Kind::Solid(Wedge15, &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]),
         10 => Kind::Refused("9-node quadrilateral", INCOMPLETE),
         12 => Kind::Refused("27-node hexahedron", INCOMPLETE),
         13 => Kind::Refused("18-node prism", INCOMPLETE),

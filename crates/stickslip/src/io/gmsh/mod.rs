@@ -1,5 +1,5 @@
 //! Reader for Gmsh meshes: `.msh` 2.2 and 4.1, ASCII and binary of either byte order
-//! (Gmsh reference manual, *MSH file format*).
+//! (Gmsh reference manual, *MSH file format*); and a writer of version 4.1, ASCII.
 //!
 //! What becomes of the file:
 //!
@@ -30,9 +30,15 @@ mod kinds;
 mod raw;
 mod v2;
 mod v4;
+mod write;
 
 #[cfg(test)]
 mod tests;
+
+pub use write::{text, write};
+
+pub(super) use build::turned;
+pub(super) use facets::Faces;
 
 use std::path::Path;
 
@@ -70,7 +76,9 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Mesh, MeshError> {
     while let Some(section) = cursor.section()? {
         if matches!(section, "Nodes" | "Elements") {
             if seen.contains(&section) {
-                return Err(cursor.error(format!("a second ${section} section")));
+                return Err(cursor
+                    .error(format!("a second ${section} section"))
+                    .help("a file holds one mesh: save one mesh a file"));
             }
             seen.push(section);
         }
@@ -144,9 +152,11 @@ fn header(cursor: &mut Cursor) -> Result<Version, MeshError> {
         "0" => false,
         "1" => true,
         other => {
-            return Err(cursor.error(format!(
-                "the file type is {other}, not 0 (ASCII) or 1 (binary)"
-            )));
+            return Err(cursor
+                .error(format!(
+                    "the file type is {other}, not 0 (ASCII) or 1 (binary)"
+                ))
+                .help("the file is damaged: save it again with Gmsh"));
         }
     };
     let size = cursor.word("the size of numbers")?;

@@ -11,7 +11,11 @@ use super::raw::{Element, Group, Node, Raw};
 fn tag(cursor: &mut Cursor, what: &str) -> Result<u64, MeshError> {
     let at = cursor.next_position();
     let value = cursor.int(what)?;
-    u64::try_from(value).map_err(|_| cursor.error_at(at, format!("{what} is negative: {value}")))
+    u64::try_from(value).map_err(|_| {
+        cursor
+            .error_at(at, format!("{what} is negative: {value}"))
+            .help("numbers of nodes and elements count from 1: save the mesh again with Gmsh")
+    })
 }
 
 /// `$Nodes`: a count, then number and coordinates.

@@ -75,8 +75,10 @@ enum Place {
 pub(super) struct Array<'a> {
     /// Its name; empty if it has none.
     pub name: String,
-    /// Numbers a point.
+    /// Numbers a point or cell.
     pub components: usize,
+    /// Where its tag ends in the file.
+    pub at: usize,
     /// The text between its tags.
     pub text: &'a [u8],
     number: Number,
@@ -116,8 +118,8 @@ pub(super) fn count(
 }
 
 impl Array<'_> {
-    /// An array by its tag, without its text.
-    pub fn new(attributes: &[(&str, String)]) -> Result<Self, String> {
+    /// An array by its tag, which ends at this byte, without its text.
+    pub fn new(attributes: &[(&str, String)], at: usize) -> Result<Self, String> {
         let name = attribute(attributes, "Name").unwrap_or_default();
         let read = || -> Result<Self, String> {
             let kind = attribute(attributes, "type").ok_or("its type is missing")?;
@@ -132,6 +134,7 @@ impl Array<'_> {
             Ok(Array {
                 name: name.to_string(),
                 components: count(attributes, "NumberOfComponents", Some(1))?,
+                at,
                 text: &[],
                 number,
                 place,
@@ -140,24 +143,29 @@ impl Array<'_> {
         read().map_err(|message| format!("array `{name}`: {message}"))
     }
 
-    /// The values on so many points.
+    /// Whether its values are whole numbers.
+    pub fn whole(&self) -> bool {
+        !matches!(self.number, Number::Float32 | Number::Float64)
+    }
+
+    /// The values on so many points or cells.
     pub fn values(
         &self,
-        points: usize,
+        count: usize,
         packing: &Packing,
         appended: Appended,
     ) -> Result<Vec<f64>, String> {
-        self.read(points, packing, appended)
+        self.read(count, packing, appended)
             .map_err(|message| format!("array `{}`: {message}", self.name))
     }
 
     fn read(
         &self,
-        points: usize,
+        count: usize,
         packing: &Packing,
         appended: Appended,
     ) -> Result<Vec<f64>, String> {
-        let bytes = points
+        let bytes = count
             .checked_mul(self.components)
             .and_then(|n| n.checked_mul(self.number.size()))
             .ok_or("it has more values than any file can hold")?;
@@ -166,7 +174,7 @@ impl Array<'_> {
             return Ok(Vec::new());
         }
         let stream = match self.place {
-            Place::Ascii => return self.numbers(points * self.components),
+            Place::Ascii => return self.numbers(count * self.components),
             Place::Inline => Stream::base64(self.text),
             Place::Appended(offset) => {
                 let beyond = "its offset is beyond the end of the file";
@@ -192,7 +200,7 @@ impl Array<'_> {
         }
         if values.len() != wanted {
             return Err(format!(
-                "it has {} values where its points need {wanted}",
+                "it has {} values where the grid needs {wanted}",
                 values.len()
             ));
         }

@@ -7,7 +7,7 @@ use crate::math::Vec3;
 
 use super::array::{Appended, Array, attribute, count};
 use super::stream::Packing;
-use super::xml::{Event, Scanner};
+use super::xml::{Event, Scanner, line};
 
 /// The points of a result file and the data on them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,7 +34,15 @@ pub struct PointArray {
 /// in a way that is not read.
 pub fn read(path: &Path) -> Result<PointFields, Error> {
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    parse(&bytes).map_err(|message| {
+    parse(&bytes, path)
+}
+
+/// Reads points and data from the bytes of a file; `path` is for messages only.
+///
+/// # Errors
+/// As [`read()`], but for those of the file system.
+pub fn parse(bytes: &[u8], path: &Path) -> Result<PointFields, Error> {
+    point_fields(bytes).map_err(|message| {
         Error::Io(IoError {
             file: path.to_path_buf(),
             message,
@@ -44,30 +52,34 @@ pub fn read(path: &Path) -> Result<PointFields, Error> {
 
 /// What the tags of a file say.
 pub(super) struct Outline<'a> {
-    pub packing: Packing,
+    /// The whole file.
+    bytes: &'a [u8],
+    packing: Packing,
+    /// The pieces of the grid.
     pub pieces: Vec<Piece<'a>>,
-    pub appended: Appended<'a>,
+    appended: Appended<'a>,
 }
 
 /// A piece of a grid.
 pub(super) struct Piece<'a> {
+    /// The line of its tag.
+    pub line: usize,
+    /// Number of points.
     pub points: usize,
-    coordinates: Option<Array<'a>>,
-    data: Vec<Array<'a>>,
-    /// Its cells: how many, their arrays and the data on them.
-    pub cells: Cells<'a>,
-}
-
-/// The cells of a piece; empty where they were not asked for.
-#[derive(Default)]
-pub(super) struct Cells<'a> {
-    pub count: usize,
-    pub topology: Vec<Array<'a>>,
+    /// Number of cells.
+    pub cells: usize,
+    /// Coordinates.
+    pub coordinates: Option<Array<'a>>,
+    /// Point data.
     pub data: Vec<Array<'a>>,
+    /// The arrays that make the cells, or why one cannot be read: nobody may ask for it.
+    pub topology: Vec<Result<Array<'a>, String>>,
+    /// Cell data, as far as they can be read.
+    pub cell_data: Vec<Array<'a>>,
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<PointFields, String> {
-    let outline = outline(bytes, false)?;
+pub(super) fn point_fields(bytes: &[u8]) -> Result<PointFields, String> {
+    let outline = outline(bytes)?;
     let mut all = PointFields::default();
     for piece in &outline.pieces {
         let next = outline.read(piece)?;
@@ -82,13 +94,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointFields, String> {
 
 const FOREIGN: &str = "this is no VTK file: it does not begin with <VTKFile>";
 
-const TRUNCATED: &str = "the file is truncated: it does not end with </VTKFile>";
-
-/// The tags of a file. Arrays of cells are looked at only where they are asked for.
-pub(super) fn outline(bytes: &[u8], cells: bool) -> Result<Outline<'_>, String> {
+pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
     if !bytes.trim_ascii_end().ends_with(b"</VTKFile>") {
         let begun = bytes.windows(8).any(|w| w == b"<VTKFile");
-        return Err(if begun { TRUNCATED } else { FOREIGN }.into());
+        return Err(match begun {
+            true => format!(
+                "the file is truncated: it ends at byte {} without </VTKFile>",
+                bytes.len()
+            ),
+            false => FOREIGN.into(),
+        });
     }
     let mut scanner = Scanner::new(bytes);
     let mut root = None;
@@ -103,16 +118,13 @@ pub(super) fn outline(bytes: &[u8], cells: bool) -> Result<Outline<'_>, String> 
             (Event::Open(_), [_]) | (Event::Text(_), []) => return Err(FOREIGN.into()),
             (Event::Open(attributes), ["VTKFile", "UnstructuredGrid", "Piece"]) => {
                 pieces.push(Piece {
+                    line: line(bytes, scanner.position()),
                     points: count(&attributes, "NumberOfPoints", None).map_err(fault)?,
+                    cells: count(&attributes, "NumberOfCells", Some(0)).map_err(fault)?,
                     coordinates: None,
                     data: Vec::new(),
-                    cells: Cells {
-                        count: match cells {
-                            true => count(&attributes, "NumberOfCells", None).map_err(fault)?,
-                            false => 0,
-                        },
-                        ..Cells::default()
-                    },
+                    topology: Vec::new(),
+                    cell_data: Vec::new(),
                 });
             }
             (
@@ -121,57 +133,42 @@ pub(super) fn outline(bytes: &[u8], cells: bool) -> Result<Outline<'_>, String> 
                     "VTKFile",
                     "UnstructuredGrid",
                     "Piece",
-                    section @ ("PointData" | "Points"),
+                    section @ ("PointData" | "Points" | "Cells" | "CellData"),
                     "DataArray" | "Array",
                 ],
             ) => {
                 let Some(piece) = pieces.last_mut() else {
                     continue;
                 };
-                let coordinates = *section == "Points";
                 match event {
                     Event::Open(attributes) => {
-                        let array = Array::new(&attributes).map_err(fault)?;
-                        if !coordinates {
-                            piece.data.push(array);
-                        } else if piece.coordinates.replace(array).is_some() {
-                            return Err(fault("a second array of points".into()));
+                        let array = Array::new(&attributes, scanner.position()).map_err(fault);
+                        match *section {
+                            "Points" if piece.coordinates.is_some() => {
+                                return Err(fault("a second array of points".into()));
+                            }
+                            "Points" => {
+                                let mut array = array?;
+                                if array.name.is_empty() {
+                                    array.name = "Points".into();
+                                }
+                                piece.coordinates = Some(array);
+                            }
+                            "PointData" => piece.data.push(array?),
+                            "Cells" => piece.topology.push(array),
+                            // Texts, for one, are no values that a cell could have.
+                            _ => piece.cell_data.extend(array),
                         }
                     }
                     Event::Text(text) => {
-                        let array = match coordinates {
-                            true => piece.coordinates.as_mut(),
-                            false => piece.data.last_mut(),
+                        let array = match *section {
+                            "Points" => piece.coordinates.as_mut(),
+                            "PointData" => piece.data.last_mut(),
+                            "Cells" => piece.topology.last_mut().and_then(|a| a.as_mut().ok()),
+                            _ => piece.cell_data.last_mut(),
                         };
                         // Text may be parted by elements that describe the array; the values are in the first part.
                         if let Some(array) = array.filter(|array| array.text.is_empty()) {
-                            array.text = text;
-                        }
-                    }
-                    Event::Close => {}
-                }
-            }
-            (
-                event,
-                [
-                    "VTKFile",
-                    "UnstructuredGrid",
-                    "Piece",
-                    section @ ("CellData" | "Cells"),
-                    "DataArray",
-                ],
-            ) if cells => {
-                let Some(piece) = pieces.last_mut() else {
-                    continue;
-                };
-                let list = match *section {
-                    "Cells" => &mut piece.cells.topology,
-                    _ => &mut piece.cells.data,
-                };
-                match event {
-                    Event::Open(attributes) => list.push(Array::new(&attributes).map_err(fault)?),
-                    Event::Text(text) => {
-                        if let Some(array) = list.last_mut().filter(|a| a.text.is_empty()) {
                             array.text = text;
                         }
                     }
@@ -187,6 +184,7 @@ pub(super) fn outline(bytes: &[u8], cells: bool) -> Result<Outline<'_>, String> 
     }
     let packing = root.ok_or(FOREIGN)?;
     Ok(Outline {
+        bytes,
         packing,
         pieces,
         appended,
@@ -246,28 +244,51 @@ fn append<'a>(rest: &'a [u8], attributes: &[(&str, String)]) -> Result<Appended<
 }
 
 impl Outline<'_> {
+    /// The values of an array on so many points or cells.
+    pub fn values(&self, array: &Array, count: usize) -> Result<Vec<f64>, String> {
+        let values = array.values(count, &self.packing, self.appended);
+        values.map_err(|message| format!("line {}: {message}", self.line(array)))
+    }
+
+    /// The line of the tag of an array.
+    pub fn line(&self, array: &Array) -> usize {
+        line(self.bytes, array.at)
+    }
+
+    /// The coordinates of a piece.
+    pub fn points(&self, piece: &Piece) -> Result<Vec<Vec3>, String> {
+        match &piece.coordinates {
+            Some(array) if array.components == 3 => {
+                Ok(self.values(array, piece.points)?.as_chunks().0.to_vec())
+            }
+            Some(array) => Err(format!(
+                "line {}: the points have {} components, not 3",
+                self.line(array),
+                array.components
+            )),
+            None if piece.points == 0 => Ok(Vec::new()),
+            None => Err(format!(
+                "line {}: the piece has no array of points",
+                piece.line
+            )),
+        }
+    }
+
     /// The points of a piece and the data on them.
     pub fn read(&self, piece: &Piece) -> Result<PointFields, String> {
-        let values = |array: &Array| array.values(piece.points, &self.packing, self.appended);
-        let points = match &piece.coordinates {
-            Some(array) if array.components == 3 => values(array)?.as_chunks().0.to_vec(),
-            Some(array) => {
-                return Err(format!(
-                    "the points have {} components, not 3",
-                    array.components
-                ));
-            }
-            None if piece.points == 0 => Vec::new(),
-            None => return Err("a piece has no array of points".into()),
-        };
+        let points = self.points(piece)?;
         let mut arrays = BTreeMap::new();
         for array in &piece.data {
             let Entry::Vacant(place) = arrays.entry(array.name.clone()) else {
-                return Err(format!("a second array `{}`", array.name));
+                return Err(format!(
+                    "line {}: a second array `{}`",
+                    self.line(array),
+                    array.name
+                ));
             };
             place.insert(PointArray {
                 components: array.components,
-                values: values(array)?,
+                values: self.values(array, piece.points)?,
             });
         }
         Ok(PointFields { points, arrays })

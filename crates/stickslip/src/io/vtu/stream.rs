@@ -182,7 +182,7 @@ fn fits(found: u128, wanted: usize) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "it has {found} bytes where its points need {wanted}"
+        "it has {found} bytes where the grid needs {wanted}"
     ))
 }
 

@@ -1,12 +1,16 @@
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use rayon::prelude::*;
 
 use crate::error::{Error, IoError};
+use crate::io::sets::{memberships, own_point_sets};
 use crate::io::write_atomically;
 use crate::mesh::Mesh;
 use crate::shape::ElementKind;
 use crate::system::{Fields, Location};
+
+use super::kinds::{vtk_order, vtk_type};
 
 /// Bytes compressed at a time. Blocks are compressed in parallel, and are the same for any number of threads.
 const BLOCK: usize = 1 << 18;
@@ -58,12 +62,7 @@ fn put(
         }))
     };
 
-    file.text += &format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">\n\
-         <UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
-    );
+    file.begin(points, cells);
     for (location, element) in [(Location::Point, "PointData"), (Location::Cell, "CellData")] {
         file.text += &format!("<{element}>\n");
         let count = match location {
@@ -95,14 +94,80 @@ fn put(
     file.text += "</Points>\n<Cells>\n";
     match vertices {
         true => file.vertices(points),
-        false => file.cells(mesh),
+        false => file.cells(mesh, &[]),
     }
-    file.text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    write_atomically(path, &file.end())
+}
 
-    let mut bytes = file.text.into_bytes();
-    bytes.append(&mut file.appended);
-    bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
-    write_atomically(path, &bytes)
+/// Numbers that are no sets.
+const RESERVED: [&str; 2] = ["NODE_ID", "ELEMENT_ID"];
+
+/// Writes a mesh with its sets, as [`read_mesh`](super::read_mesh) reads it, and returns notes about what was changed.
+///
+/// Point sets are arrays of zeros and ones. So are cell sets and facet sets; the facets are cells of their own, behind those of
+/// the mesh. A point set that has the name and the points of a facet or cell set is left out, as readers derive it.
+///
+/// # Errors
+/// [`Error::Mesh`] if the structure of the mesh is wrong (see [`Mesh::check_structure`]), [`Error::Io`] if the file cannot be
+/// written.
+pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
+    mesh.check_structure()?;
+    let mut notes = Vec::new();
+    let mut named = |name: &str| {
+        if !RESERVED.contains(&name) {
+            return name.to_string();
+        }
+        notes.push(format!("the set {name} is written as {name}_SET"));
+        format!("{name}_SET")
+    };
+    let facets = memberships(mesh.facet_sets.iter());
+    let shapes: Vec<_> = facets
+        .keys()
+        .map(|&facet| mesh.facet_points(facet))
+        .collect();
+    let ids = || mesh.blocks.iter().flat_map(|block| &block.cell_ids);
+    let next = ids().max().map_or(1, |&last| last.saturating_add(1));
+    let cells: Vec<_> = mesh.cells().collect();
+
+    let mut file = Writer::default();
+    file.begin(mesh.points.len(), cells.len() + shapes.len());
+    file.text += "<PointData>\n";
+    file.integers("NODE_ID", mesh.point_ids.iter().map(|&id| id as i64));
+    for (name, points) in own_point_sets(mesh) {
+        let mut ones = vec![0; mesh.points.len()];
+        points.iter().for_each(|&p| ones[p] = 1);
+        file.array("UInt8", &named(name), 1, ones);
+    }
+    file.text += "</PointData>\n<CellData>\n";
+    let behind = (next..).take(shapes.len());
+    file.integers(
+        "ELEMENT_ID",
+        ids().copied().chain(behind).map(|id| id as i64),
+    );
+    let names: BTreeSet<&String> = mesh
+        .cell_sets
+        .keys()
+        .chain(mesh.facet_sets.keys())
+        .collect();
+    for name in names {
+        let members: BTreeSet<_> = mesh.cell_sets.get(name).into_iter().flatten().collect();
+        let of_cells = cells.iter().map(|cell| u8::from(members.contains(cell)));
+        let of_facets = facets
+            .values()
+            .map(|names| u8::from(names.contains(&name.as_str())));
+        file.array(
+            "UInt8",
+            &named(name),
+            1,
+            of_cells.chain(of_facets).collect(),
+        );
+    }
+    file.text += "</CellData>\n<Points>\n";
+    file.floats("Points", 3, mesh.points.as_flattened());
+    file.text += "</Points>\n<Cells>\n";
+    file.cells(mesh, &shapes);
+    write_atomically(path, &file.end())?;
+    Ok(notes)
 }
 
 /// The header of the file and the data that follow it.
@@ -113,6 +178,24 @@ struct Writer {
 }
 
 impl Writer {
+    fn begin(&mut self, points: usize, cells: usize) {
+        self.text += &format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">\n\
+             <UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
+        );
+    }
+
+    /// The whole file, after the cells.
+    fn end(mut self) -> Vec<u8> {
+        self.text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+        let mut bytes = self.text.into_bytes();
+        bytes.append(&mut self.appended);
+        bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
+        bytes
+    }
+
     fn floats(&mut self, name: &str, components: usize, values: &[f64]) {
         let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();
         self.array("Float64", name, components, bytes);
@@ -148,7 +231,8 @@ impl Writer {
         self.array("UInt8", "types", 1, vec![1; points]);
     }
 
-    fn cells(&mut self, mesh: &Mesh) {
+    /// The cells of the blocks, and more cells, of kinds whose order VTK shares, behind them.
+    fn cells(&mut self, mesh: &Mesh, more: &[(ElementKind, Vec<usize>)]) {
         let mut connectivity = Vec::new();
         for block in &mesh.blocks {
             let cells = block.connectivity.chunks_exact(block.kind.node_count());
@@ -158,16 +242,18 @@ impl Writer {
                     .extend(cells.flat_map(|cell| order.iter().map(|&i| cell[i] as i64))),
             }
         }
+        let more_nodes = more.iter().flat_map(|(_, nodes)| nodes);
+        connectivity.extend(more_nodes.map(|&point| point as i64));
         self.integers("connectivity", connectivity.into_iter());
         let mut end = 0;
         let mut offsets = Vec::new();
         let mut types = Vec::new();
-        for block in &mesh.blocks {
-            for _ in &block.cell_ids {
-                end += block.kind.node_count() as i64;
-                offsets.push(end);
-                types.push(vtk_type(block.kind));
-            }
+        let kinds = mesh.blocks.iter();
+        let kinds = kinds.flat_map(|block| block.cell_ids.iter().map(|_| block.kind));
+        for kind in kinds.chain(more.iter().map(|(kind, _)| *kind)) {
+            end += kind.node_count() as i64;
+            offsets.push(end);
+            types.push(vtk_type(kind));
         }
         self.integers("offsets", offsets.into_iter());
         self.array("UInt8", "types", 1, types);
@@ -192,33 +278,6 @@ fn compress(bytes: &[u8], out: &mut Vec<u8>) {
     header.extend(blocks.iter().map(Vec::len));
     out.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
     out.extend(blocks.iter().flatten());
-}
-
-fn vtk_type(kind: ElementKind) -> u8 {
-    match kind {
-        ElementKind::Line2 => 3,
-        ElementKind::Line3 => 21,
-        ElementKind::Tri3 => 5,
-        ElementKind::Tri6 => 22,
-        ElementKind::Quad4 => 9,
-        ElementKind::Quad8 => 23,
-        ElementKind::Tet4 => 10,
-        ElementKind::Tet10 => 24,
-        ElementKind::Hex8 => 12,
-        ElementKind::Hex20 => 25,
-        ElementKind::Wedge6 => 13,
-        ElementKind::Wedge15 => 26,
-    }
-}
-
-/// The nodes of a cell in VTK's order, and back again: it is its own inverse. Empty if the orders agree.
-///
-/// VTK's linear wedge has its first triangle facing out of the cell, while its quadratic one, as ours, has it facing in.
-fn vtk_order(kind: ElementKind) -> &'static [usize] {
-    match kind {
-        ElementKind::Wedge6 => &[0, 2, 1, 3, 5, 4],
-        _ => &[],
-    }
 }
 
 /// A text as the value of an XML attribute.

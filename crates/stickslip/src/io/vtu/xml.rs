@@ -19,6 +19,11 @@ pub(in crate::io) struct Scanner<'a> {
     closing: bool,
 }
 
+/// The line of a byte, from 1.
+pub(super) fn line(bytes: &[u8], at: usize) -> usize {
+    1 + bytes[..at].iter().filter(|&&b| b == b'\n').count()
+}
+
 impl<'a> Scanner<'a> {
     pub fn new(bytes: &'a [u8]) -> Self {
         Scanner {
@@ -41,9 +46,12 @@ impl<'a> Scanner<'a> {
 
     /// A message about this place.
     pub fn fault(&self, message: impl std::fmt::Display) -> String {
-        let before = &self.bytes[..self.at];
-        let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
-        format!("line {line}: {message}")
+        format!("line {}: {message}", line(self.bytes, self.at))
+    }
+
+    /// Byte at which it stands.
+    pub fn position(&self) -> usize {
+        self.at
     }
 
     /// The next event; `None` at the end. Comments and declarations are passed over.

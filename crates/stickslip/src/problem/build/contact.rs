@@ -78,6 +78,30 @@ struct Make<'a> {
 }
 
 impl Make<'_> {
+    /// The facets of a secondary, and the points to which it is restricted: one that is met by points may be a few points
+    /// of a body that make no facet. Then each stands for its share of all facets of the boundary around it.
+    fn secondary_facets(
+        &self,
+        (name, key): &(&str, String),
+    ) -> Result<(Vec<FacetRef>, Option<Vec<usize>>), Error> {
+        let found = self.sets.facets(name, key);
+        let by_points = self.table.discretisation().as_dyn().weighted().is_none();
+        if found.is_ok() || !by_points {
+            return Ok((found?, None));
+        }
+        let points = self.sets.points(name, key)?;
+        let mesh = self.surfaces.mesh;
+        let mut facets = mesh.boundary();
+        facets.retain(|&f| {
+            let (_, nodes) = mesh.facet_points(f);
+            nodes.iter().any(|n| points.binary_search(n).is_ok())
+        });
+        match facets.is_empty() {
+            true => Ok((found?, None)),
+            false => Ok((facets, Some(points))),
+        }
+    }
+
     /// An interface between two surfaces, given with the keys that name them, which carries `share` of the pressure.
     fn interface(
         &self,
@@ -87,8 +111,10 @@ impl Make<'_> {
         share: f64,
     ) -> Result<Interface, Error> {
         let (surfaces, table) = (self.surfaces, self.table);
-        let facets = self.sets.facets(secondary.0, &secondary.1)?;
-        surfaces.simple(&secondary.1, &facets)?;
+        let (facets, only) = self.secondary_facets(secondary)?;
+        if only.is_none() {
+            surfaces.simple(&secondary.1, &facets)?;
+        }
         let mut numbering = Numbering::default();
         let opposite = match self.problem.obstacle.get(primary.0) {
             Some(obstacle) => Primary::Rigid(
@@ -126,6 +152,16 @@ impl Make<'_> {
                 (points, Some(mortar))
             }
             None => (surfaces.points(&facets, modulus, &mut numbering), None),
+        };
+        let points: Vec<ContactPoint> = match &only {
+            Some(only) => {
+                let chosen = |p: &ContactPoint| {
+                    let nodes = p.nodes.iter().map(|&n| numbering.nodes[n]);
+                    nodes.into_iter().all(|n| only.binary_search(&n).is_ok())
+                };
+                points.into_iter().filter(chosen).collect()
+            }
+            None => points,
         };
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(

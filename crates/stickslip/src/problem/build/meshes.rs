@@ -59,6 +59,9 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
         }
         own.check().map_err(|mut e| {
             e.message = format!("body {name}: {}", e.message);
+            if let MeshSource::Gmsh(file) = &body.mesh {
+                e.file = Some(folder.join(&file.file));
+            }
             e
         })?;
         let assigned = split(name, body, &mut own)?;

@@ -171,7 +171,7 @@ fn push(model: &Model, body: &Body, t: f64) -> Option<Push> {
             }
         }
         push.interface.clone_from(&interface.name);
-        let frictional = interface.laws.friction.as_dyn().frictional();
+        let frictional = interface.laws.friction_law().frictional();
         push.friction = match (push.friction, friction_coefficient(interface)) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (before, None) if !frictional => before,

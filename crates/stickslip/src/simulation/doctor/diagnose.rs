@@ -325,7 +325,7 @@ fn beyond_coupling<'a>(
 /// The coefficient of friction of an interface at rest, under a pressure that strains the cells beneath by a thousandth; `None` where the limit
 /// does not depend on pressure.
 pub(super) fn friction_coefficient(interface: &Interface) -> Option<f64> {
-    let law = interface.laws.friction.as_dyn();
+    let law = interface.laws.friction_law();
     if !law.frictional() || law.needs_penetration() {
         return None;
     }

@@ -22,7 +22,7 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
         if !interface.schedule.active(t) {
             continue;
         }
-        let status = match interface.laws.friction.as_dyn().frictional() {
+        let status = match interface.laws.friction_law().frictional() {
             true => Status::Stick,
             false => Status::Slip,
         };

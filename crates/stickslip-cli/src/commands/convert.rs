@@ -1,0 +1,112 @@
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use stickslip::io::{abaqus, gmsh, vtu};
+use stickslip::mesh::Mesh;
+
+use super::{Failure, Outcome};
+use crate::print;
+
+/// Convert a mesh: Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), by the endings of the names.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Numbers of points and cells, and sets of points, cells and facets, are kept. What cannot be kept is noted on \
+                  standard error. In .vtu files sets are arrays of whole numbers: of zeros and ones, or one set for each value."
+)]
+pub struct Arguments {
+    /// The file to read: .msh (2.2 or 4.1) or .vtu.
+    input: PathBuf,
+    /// The file to write: .msh (4.1), .vtu or .inp.
+    output: PathBuf,
+    /// Element types of a plane mesh in an .inp file.
+    #[arg(long, value_enum, default_value_t = Plane::PlaneStrain)]
+    plane: Plane,
+}
+
+/// What plane elements stand for.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Plane {
+    /// CPE
+    PlaneStrain,
+    /// CPS
+    PlaneStress,
+    /// CAX
+    Axisymmetric,
+}
+
+impl Plane {
+    fn space(self) -> abaqus::Space {
+        match self {
+            Plane::PlaneStrain => abaqus::Space::PlaneStrain,
+            Plane::PlaneStress => abaqus::Space::PlaneStress,
+            Plane::Axisymmetric => abaqus::Space::Axisymmetric,
+        }
+    }
+}
+
+/// Converts the file.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let (input, output) = (&arguments.input, &arguments.output);
+    let write = match ending(output).as_str() {
+        "msh" => |path: &Path, mesh: &Mesh, _: Plane| gmsh::write(path, mesh),
+        "vtu" => |path: &Path, mesh: &Mesh, _: Plane| vtu::write_mesh(path, mesh),
+        "inp" => |path: &Path, mesh: &Mesh, plane: Plane| abaqus::write(path, mesh, plane.space()),
+        other => return Err(unknown(output, other, "written as .msh, .vtu or .inp")),
+    };
+    let mesh = match ending(input).as_str() {
+        "msh" => gmsh::read(input),
+        "vtu" => vtu::read_mesh(input),
+        other => return Err(unknown(input, other, "read from .msh and .vtu files")),
+    };
+    let mesh = mesh.map_err(stickslip::Error::Mesh)?;
+    let mut notes = write(output, &mesh, arguments.plane)?;
+    if let Err(e) = mesh.check() {
+        notes.push(format!("an analysis would refuse this mesh: {}", e.message));
+    }
+    for note in notes {
+        // Nobody is left to tell if this fails.
+        let _ = writeln!(std::io::stderr(), "note: {note}");
+    }
+    print::out(&summary(output, &mesh))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The ending of a name in small letters; empty if it has none.
+fn ending(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_ascii_lowercase()
+}
+
+fn unknown(path: &Path, ending: &str, formats: &str) -> Failure {
+    let message = match ending {
+        "" => format!("{}: the name has no ending", path.display()),
+        _ => format!("{}: the ending .{ending} is not known", path.display()),
+    };
+    Failure::Arguments(message, format!("meshes are {formats}"))
+}
+
+/// What was written, a line for each kind of thing.
+fn summary(path: &Path, mesh: &Mesh) -> String {
+    let kinds: Vec<String> = mesh
+        .blocks
+        .iter()
+        .map(|block| format!("{} {}", block.cell_ids.len(), block.kind))
+        .collect();
+    let mut out = format!(
+        "{}: {} points, {}\n",
+        path.display(),
+        mesh.points.len(),
+        kinds.join(", ")
+    );
+    let mut line = |what: &str, names: Vec<&String>| {
+        if !names.is_empty() {
+            let names: Vec<&str> = names.into_iter().map(String::as_str).collect();
+            out += &format!("{what}: {}\n", names.join(", "));
+        }
+    };
+    line("cell sets", mesh.cell_sets.keys().collect());
+    line("facet sets", mesh.facet_sets.keys().collect());
+    line("point sets", mesh.point_sets.keys().collect());
+    out
+}

@@ -1,0 +1,33 @@
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stickslip::Error;
+
+use super::Outcome;
+use crate::print;
+
+/// Print the manual page, or write the pages of all commands to a folder.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Read it at once with `stickslip man | man -l -`.")]
+pub struct Arguments {
+    /// Write stickslip.1, stickslip-run.1 and so on there.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Prints or writes them.
+pub fn run(arguments: &Arguments) -> Outcome {
+    match &arguments.output {
+        None => {
+            let mut page = Vec::new();
+            clap_mangen::Man::new(crate::command()).render(&mut page)?;
+            print::out(&String::from_utf8_lossy(&page))?;
+        }
+        Some(folder) => {
+            std::fs::create_dir_all(folder)
+                .and_then(|()| clap_mangen::generate_to(crate::command(), folder))
+                .map_err(|e| Error::io(folder, e))?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

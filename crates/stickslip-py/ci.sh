@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it into a virtual environment of its own, and runs the Python tests with it. Sets up all it needs.
+#   ci.sh [PROFILE]    PROFILE: dev (the default) or release
+set -euo pipefail
+cd "$(dirname "$0")"
+profile=${1:-dev}
+target=$(cd ../.. && pwd)/target
+venv=$target/python
+[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+"$venv/bin/pip" install --quiet --disable-pip-version-check \
+    'maturin>=1.7,<2' numpy pytest pyvista meshio matplotlib
+rm -rf "$target/wheels"
+# Tests are small: in the dev profile the library need not be optimised, which takes a minute instead of five.
+fast=()
+if [ "$profile" = dev ]; then
+    fast=(--config profile.dev.package.stickslip.opt-level=0 --config profile.dev.package.stickslip.debug=false)
+fi
+"$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet "${fast[@]}"
+"$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
+PATH=$venv/bin:$PATH "$venv/bin/python" -m pytest --quiet

@@ -1,0 +1,66 @@
+"""Parameter studies."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any, Callable, Optional
+
+from . import _core
+from ._errors import Error
+from .problem import Laws, Problem
+from .simulation import Simulation
+
+
+def sweep(
+    problem: Problem,
+    axes: Mapping[str, Sequence[Any]],
+    side_by_side: bool = False,
+    callback: Optional[Callable[[dict[str, Any], Simulation], Any]] = None,
+    laws: Optional[Laws] = None,
+) -> list[dict[str, Any]]:
+    """Runs a problem for many values; bodies that stay the same are factored once.
+
+    Parameters
+    ----------
+    axes
+        Values by the path of their key, ``{"interface.base.friction.coulomb.mu": [0.1, 0.2]}``. Several make all combinations, the last
+        one changing fastest.
+    side_by_side
+        Axes of equal length run together instead of in all combinations.
+    callback
+        Called after every run with its row and the simulation, for what the history does not have. What it returns, if a dict, is added to
+        the row.
+    laws
+        See `Problem.build`.
+
+    Returns
+    -------
+    list of dict
+        A row a run: the values of the axes, ``outcome`` (``done`` or why not), and the last row of the history. ``pandas.DataFrame(rows)``
+        makes a table of it. A run that fails does not stop the others.
+    """
+    values = [list(axes[path]) for path in axes]
+    if side_by_side and len({len(v) for v in values}) > 1:
+        raise ValueError("axes that run side by side have to be of equal length")
+    runs = list(zip(*values) if side_by_side else itertools.product(*values))
+    # All values are checked before the first run.
+    problems = [problem.with_values(dict(zip(axes, run))) for run in runs]
+    factors = _core.Factors()
+    rows = []
+    for run, variant in zip(runs, problems):
+        row: dict[str, Any] = dict(zip(axes, run))
+        simulation = None
+        try:
+            simulation = variant.build(laws, factors)
+            simulation.run()
+            row["outcome"] = "done"
+        except Error as error:
+            row["outcome"] = str(error).splitlines()[0]
+        if simulation is not None:
+            row.update({name: column[-1] for name, column in simulation.history.items() if len(column)})
+            added = callback(row, simulation) if callback is not None else None
+            if isinstance(added, dict):
+                row.update(added)
+        rows.append(row)
+    return rows

@@ -1,0 +1,326 @@
+//! A simulation as Python sees it.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, Weak};
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use stickslip::Error;
+use stickslip::simulation::{Event, Observer, ResultFiles, fields};
+use stickslip::system::Location;
+
+use super::array::{Array, Kept, Owner};
+use super::errors::raise;
+use super::laws::{Raised, keep};
+
+/// How often Python is asked whether a signal has come.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// A number of the state, by degree of freedom.
+#[derive(Clone, Copy, PartialEq)]
+enum Quantity {
+    Displacement,
+    Velocity,
+    Acceleration,
+    Forces,
+}
+
+/// Rows of the history: those that Python has not taken yet, and all.
+#[derive(Default)]
+struct Rows {
+    fresh: VecDeque<(String, Vec<f64>)>,
+    names: Vec<String>,
+    all: Vec<f64>,
+    notes: Vec<String>,
+}
+
+impl Observer for Rows {
+    fn see(
+        &mut self,
+        simulation: &stickslip::simulation::Simulation,
+        event: Event,
+    ) -> Result<(), Error> {
+        match event {
+            Event::Increment(row) => {
+                if self.names.is_empty() {
+                    self.names.clone_from(&row.names);
+                }
+                let step = simulation.step_name().to_string();
+                self.all.extend_from_slice(&row.values);
+                self.fresh.push_back((step, row.values.clone()));
+            }
+            Event::Note(text) => self.notes.push(text.to_string()),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// A model being run.
+#[pyclass]
+pub struct Simulation {
+    simulation: stickslip::simulation::Simulation,
+    rows: Rows,
+    files: Option<ResultFiles>,
+    raised: Raised,
+    /// Arrays that look at the state of the simulation.
+    looked: Vec<(Quantity, Weak<Kept>)>,
+}
+
+impl Simulation {
+    /// From a simulation and the place for exceptions of its laws.
+    pub fn new(mut simulation: stickslip::simulation::Simulation, raised: Raised) -> Self {
+        let slot = Arc::clone(&raised);
+        let asked = Mutex::new(Instant::now());
+        simulation.set_interrupt(Arc::new(move || {
+            if slot.lock().is_ok_and(|raised| raised.is_some()) {
+                return true;
+            }
+            let Ok(mut asked) = asked.lock() else {
+                return false;
+            };
+            if asked.elapsed() < PATIENCE {
+                return false;
+            }
+            *asked = Instant::now();
+            Python::attach(|py| match py.check_signals() {
+                Ok(()) => false,
+                Err(signal) => {
+                    keep(&slot, signal);
+                    true
+                }
+            })
+        }));
+        Simulation {
+            simulation,
+            rows: Rows::default(),
+            files: None,
+            raised,
+            looked: Vec::new(),
+        }
+    }
+
+    fn values(&mut self, quantity: Quantity) -> &mut Vec<f64> {
+        let simulation = &mut self.simulation;
+        match quantity {
+            Quantity::Displacement => &mut simulation.state.u,
+            Quantity::Velocity => &mut simulation.state.v,
+            Quantity::Acceleration => &mut simulation.state.a,
+            Quantity::Forces => &mut simulation.forces,
+        }
+    }
+
+    /// Leaves the numbers that somebody still looks at where they are, and goes on with a copy.
+    fn release(&mut self) {
+        for (quantity, kept) in std::mem::take(&mut self.looked) {
+            if let Some(kept) = kept.upgrade()
+                && let Ok(mut place) = kept.0.lock()
+            {
+                let values = self.values(quantity);
+                let copy = values.clone();
+                *place = std::mem::replace(values, copy);
+            }
+        }
+    }
+
+    /// An array over the numbers of the state, `(points, dim)`.
+    fn look(slf: &Bound<'_, Self>, quantity: Quantity) -> Array {
+        let mut this = slf.borrow_mut();
+        let dim = this.simulation.model.dofs.dim;
+        let points = this.simulation.model.mesh.points.len();
+        if this.values(quantity).is_empty() {
+            return Array::floats(vec![0.0; points * dim], vec![points, dim]);
+        }
+        let same = this.looked.iter().filter(|(q, _)| *q == quantity);
+        let kept = same.filter_map(|(_, kept)| kept.upgrade()).next();
+        let kept = kept.unwrap_or_else(|| {
+            let kept = Arc::new(Kept::default());
+            this.looked.push((quantity, Arc::downgrade(&kept)));
+            kept
+        });
+        let values: &[f64] = this.values(quantity);
+        Array::of(values, vec![points, dim], "<f8")
+            .with(Owner::Simulation(kept, slf.clone().unbind()))
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// Goes on until something is reported or nothing is left; `False` at the end.
+    fn advance(&mut self, py: Python<'_>) -> PyResult<bool> {
+        self.release();
+        let Simulation {
+            simulation,
+            rows,
+            files,
+            raised,
+            ..
+        } = self;
+        let outcome = py.detach(|| {
+            loop {
+                let mut observers: Vec<&mut dyn Observer> = vec![rows];
+                observers.extend(files.as_mut().map(|f| f as &mut dyn Observer));
+                let more = simulation.advance(&mut observers)?;
+                if !more || !rows.fresh.is_empty() {
+                    return Ok(more);
+                }
+            }
+        });
+        if let Some(error) = raised.lock().ok().and_then(|mut raised| raised.take()) {
+            return Err(error);
+        }
+        outcome.map_err(|e| raise(py, e))
+    }
+
+    /// The next row of the history that has not been taken yet: name of the step, and values by name.
+    fn take<'py>(&mut self, py: Python<'py>) -> PyResult<Option<(String, Bound<'py, PyDict>)>> {
+        let Some((step, values)) = self.rows.fresh.pop_front() else {
+            return Ok(None);
+        };
+        let row = PyDict::new(py);
+        for (name, value) in self.rows.names.iter().zip(values) {
+            row.set_item(name, value)?;
+        }
+        Ok(Some((step, row)))
+    }
+
+    /// Names of the columns of the history and all rows, `(rows, columns)`.
+    fn history(&self) -> (Vec<String>, Array) {
+        let names = self.rows.names.clone();
+        let rows = self.rows.all.len() / names.len().max(1);
+        let shape = vec![rows, names.len()];
+        (names, Array::floats(self.rows.all.clone(), shape))
+    }
+
+    /// Has results written into a directory from now on.
+    fn write_to(&mut self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
+        self.files = Some(ResultFiles::new(&directory).map_err(|e| raise(py, e))?);
+        Ok(())
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.simulation.state.t
+    }
+
+    #[getter]
+    fn dim(&self) -> usize {
+        self.simulation.model.dofs.dim
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.rows.notes.clone()
+    }
+
+    #[getter]
+    fn interfaces(&self) -> Vec<String> {
+        let interfaces = self.simulation.model.interfaces.iter();
+        interfaces.map(|i| i.name.clone()).collect()
+    }
+
+    /// Ranges of points and of cells by body.
+    #[getter]
+    fn bodies(&self) -> Vec<(String, (usize, usize), (usize, usize))> {
+        let model = &self.simulation.model;
+        let cells = |blocks: std::ops::Range<usize>| -> usize {
+            model.mesh.blocks[blocks]
+                .iter()
+                .map(|b| b.cell_ids.len())
+                .sum()
+        };
+        let bodies = model.bodies.iter().map(|b| {
+            let first = cells(0..b.blocks.start);
+            let points = (b.points.start, b.points.end);
+            (
+                b.name.clone(),
+                points,
+                (first, first + cells(b.blocks.clone())),
+            )
+        });
+        bodies.collect()
+    }
+
+    #[getter]
+    fn summary(&self) -> String {
+        serde_json::to_string(&self.simulation.summary).unwrap_or_default()
+    }
+
+    #[getter]
+    fn points(&self) -> Array {
+        let mesh = &self.simulation.model.mesh;
+        Array::of(&mesh.points, vec![mesh.points.len(), 3], "<f8")
+            .with(Owner::Mesh(Arc::clone(mesh)))
+    }
+
+    /// Kind and nodes of the cells of each block, `(cells, nodes)`.
+    #[getter]
+    fn cells(&self) -> Vec<(&'static str, Array)> {
+        let mesh = &self.simulation.model.mesh;
+        let blocks = mesh.blocks.iter();
+        blocks
+            .map(|block| {
+                let shape = vec![block.cell_ids.len(), block.kind.node_count()];
+                let array = Array::of(&block.connectivity, shape, "<u8");
+                (block.kind.name(), array.with(Owner::Mesh(Arc::clone(mesh))))
+            })
+            .collect()
+    }
+
+    #[getter]
+    fn displacement(slf: &Bound<'_, Self>) -> Array {
+        Simulation::look(slf, Quantity::Displacement)
+    }
+
+    #[getter]
+    fn velocity(slf: &Bound<'_, Self>) -> Array {
+        Simulation::look(slf, Quantity::Velocity)
+    }
+
+    #[getter]
+    fn acceleration(slf: &Bound<'_, Self>) -> Array {
+        Simulation::look(slf, Quantity::Acceleration)
+    }
+
+    #[getter]
+    fn forces(slf: &Bound<'_, Self>) -> Array {
+        Simulation::look(slf, Quantity::Forces)
+    }
+
+    /// Columns of the table of an interface by name.
+    fn contact(&self, name: &str) -> PyResult<Vec<(String, Array)>> {
+        let model = &self.simulation.model;
+        let Some(interface) = model.interfaces.iter().find(|i| i.name == name) else {
+            return Err(PyKeyError::new_err(format!(
+                "there is no interface `{name}`; there are: {}",
+                self.interfaces().join(", ")
+            )));
+        };
+        let (names, columns) = interface.table(&self.simulation.state.u);
+        let columns = columns.into_iter().map(|c| {
+            let shape = vec![c.len()];
+            Array::floats(c, shape)
+        });
+        Ok(names.into_iter().zip(columns).collect())
+    }
+
+    /// All fields: name, whether at points, values `(points or cells, components)`.
+    fn fields(&self, py: Python<'_>) -> Vec<(String, bool, Array)> {
+        let fields = py.detach(|| fields(&self.simulation));
+        let fields = fields.all.into_iter();
+        fields
+            .map(|field| {
+                let count = field.values.len() / field.components.max(1);
+                let shape = match field.components {
+                    1 => vec![count],
+                    n => vec![count, n],
+                };
+                let at_points = field.location == Location::Point;
+                (field.name, at_points, Array::floats(field.values, shape))
+            })
+            .collect()
+    }
+}

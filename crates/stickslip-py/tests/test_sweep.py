@@ -1,0 +1,44 @@
+"""Parameter studies."""
+
+import pytest
+
+import stickslip
+
+MU = "interface.press.friction.coulomb.mu"
+PRESS = "support.top-y.y"
+
+
+def test_a_row_a_run(problem):
+    rows = stickslip.sweep(problem, {MU: [0.1, 0.2], PRESS: [-1e-3, -2e-3]})
+    assert [(row[MU], row[PRESS]) for row in rows] == [(0.1, -1e-3), (0.1, -2e-3), (0.2, -1e-3), (0.2, -2e-3)]
+    assert all(row["outcome"] == "done" for row in rows)
+    shear = [row["press.CFS1"] for row in rows]
+    alone = problem.with_values({MU: 0.2}).build().run().history["press.CFS1"][-1]
+    assert shear[2] == alone
+
+
+def test_bodies_are_factored_once(problem):
+    seen = []
+    stickslip.sweep(
+        problem.with_values({"solver.method": "condensed"}),
+        {MU: [0.1, 0.2, 0.3]},
+        callback=lambda row, simulation: seen.append(simulation.summary["solver"]["factorisations"]),
+    )
+    assert seen[0] > 0 and seen[1:] == [0, 0]
+
+
+def test_side_by_side_and_own_columns(problem):
+    rows = stickslip.sweep(
+        problem,
+        {MU: [0.1, 0.2], PRESS: [-1e-3, -2e-3]},
+        side_by_side=True,
+        callback=lambda row, simulation: {"peak": simulation.contact("press").pressure.max()},
+    )
+    assert len(rows) == 2 and rows[1]["peak"] > 1.9 * rows[0]["peak"]
+    with pytest.raises(ValueError, match="of equal length"):
+        stickslip.sweep(problem, {MU: [0.1], PRESS: [-1e-3, -2e-3]}, side_by_side=True)
+
+
+def test_values_are_checked_before_the_first_run(problem):
+    with pytest.raises(stickslip.ProblemError):
+        stickslip.sweep(problem, {MU: [0.1, "much"]})

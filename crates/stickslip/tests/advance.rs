@@ -1,0 +1,234 @@
+//! An analysis goes on by one increment at a time, can be interrupted, and takes laws from the program that runs it.
+
+mod support;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use stickslip::Error;
+use stickslip::contact::law::own::{LimitFunction, PressureFunction};
+use stickslip::simulation::{Event, Observer, Simulation};
+
+/// A block pressed on a base and dragged; the second step has more increments than are recovered in one sweep.
+const CASE: &str = r#"
+format = 1
+model.space = "plane-strain"
+solver.method = "METHOD"
+
+[body.base]
+generate.rectangle = { from = [0, -1], to = [3, 0], cells = [12, 4] }
+material = "steel"
+
+[body.block]
+generate.rectangle = { from = [1, 0], to = [2, 1], cells = [5, 5] }
+material = "steel"
+
+[material.steel.isotropic]
+young = 210e9
+poisson = 0.3
+
+[interface.press]
+secondary = "block.bottom"
+primary = "base.top"
+normal.linear = { c = 2e12 }
+friction.coulomb = { mu = 0.3 }
+
+[support.base]
+set = "base.bottom"
+x = 0
+y = 0
+
+[support.top-y]
+set = "block.top"
+y = -1e-3
+amplitude = "press"
+
+[support.top-x]
+set = "block.top"
+x = 1e-3
+amplitude = "drag"
+
+[amplitude.press]
+table = [[0, 0], [1, 1]]
+
+[amplitude.drag]
+table = [[1, 0], [2, 1]]
+
+[[step]]
+increments.fixed = 2
+
+[[step]]
+increments.fixed = 20
+"#;
+
+fn simulation(method: &str) -> Simulation {
+    let problem = support::problem(&CASE.replace("METHOD", method));
+    support::build(&problem).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// What was known at every reported increment.
+#[derive(Default, PartialEq, Debug)]
+struct Diary {
+    rows: Vec<Vec<f64>>,
+    states: Vec<Vec<f64>>,
+    pressures: Vec<Vec<f64>>,
+    ended: usize,
+}
+
+/// Pressures of the interface.
+fn pressures(simulation: &Simulation) -> Vec<f64> {
+    let table = simulation.model.interfaces[0].table(&simulation.state.u);
+    table.1[4].clone()
+}
+
+impl Observer for Diary {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        match event {
+            Event::Increment(row) => {
+                self.rows.push(row.values.clone());
+                self.states.push(simulation.state.u.clone());
+                self.pressures.push(pressures(simulation));
+            }
+            Event::End => self.ended += 1,
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn going_on_by_one_increment_shows_the_state_of_each_and_gives_the_bits_of_a_run() {
+    for method in ["sparse", "condensed"] {
+        let mut whole = Diary::default();
+        let mut run = simulation(method);
+        run.run(&mut [&mut whole]).unwrap();
+        assert_eq!(run.summary.method, method);
+        assert_eq!(whole.rows.len(), 22);
+
+        let mut seen = Diary::default();
+        let mut stepwise = simulation(method);
+        loop {
+            let before = seen.rows.len();
+            let more = stepwise.advance(&mut [&mut seen]).unwrap();
+            assert!(seen.rows.len() <= before + 1);
+            if seen.rows.len() > before {
+                assert_eq!(seen.states.last(), Some(&stepwise.state.u));
+                assert_eq!(seen.pressures.last(), Some(&pressures(&stepwise)));
+            }
+            if !more {
+                break;
+            }
+        }
+        assert_eq!(seen, whole, "{method}");
+        assert!(stepwise.summary.completed);
+        // It is over, and nothing more is told.
+        assert!(!stepwise.advance(&mut [&mut seen]).unwrap());
+        assert_eq!(seen.ended, 1);
+    }
+}
+
+#[test]
+fn an_interrupted_analysis_keeps_its_results_and_goes_on() {
+    for method in ["sparse", "condensed"] {
+        let mut whole = Diary::default();
+        simulation(method).run(&mut [&mut whole]).unwrap();
+
+        // Once in the middle of Newton's iteration.
+        let asked = Arc::new(AtomicUsize::new(0));
+        let counter = Arc::clone(&asked);
+        let mut interrupted = simulation(method);
+        interrupted.set_interrupt(Arc::new(move || {
+            counter.fetch_add(1, Ordering::Relaxed) == 40
+        }));
+        let mut seen = Diary::default();
+        let outcome = interrupted.run(&mut [&mut seen]);
+        assert!(matches!(outcome, Err(Error::Interrupted(_))), "{method}");
+        assert!(!seen.rows.is_empty() && seen.rows.len() < 22, "{method}");
+        assert_eq!(seen.ended, 1);
+        assert!(!interrupted.summary.completed);
+        assert!(interrupted.summary.outcome.starts_with("interrupted at"));
+        assert_eq!(interrupted.summary.cutbacks, 0);
+        assert_eq!(seen.rows[..], whole.rows[..seen.rows.len()], "{method}");
+
+        interrupted.run(&mut [&mut seen]).unwrap();
+        assert!(interrupted.summary.completed);
+        assert_eq!(seen.rows.len(), 22);
+        let (a, b) = (&seen.states[21], &whole.states[21]);
+        let size = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * size));
+    }
+}
+
+#[test]
+fn an_analysis_can_be_interrupted_between_increments() {
+    let stop = Arc::new(AtomicBool::new(true));
+    let flag = Arc::clone(&stop);
+    let mut simulation = simulation("sparse");
+    simulation.set_interrupt(Arc::new(move || flag.load(Ordering::Relaxed)));
+    assert!(matches!(simulation.run(&mut []), Err(Error::Interrupted(t)) if t == 0.0));
+    stop.store(false, Ordering::Relaxed);
+    simulation.run(&mut []).unwrap();
+    assert_eq!(simulation.state.t, 2.0);
+}
+
+/// The laws of the case as functions, and how often they are asked about how many points.
+#[derive(Default)]
+struct Functions {
+    calls: AtomicUsize,
+    asked: AtomicUsize,
+}
+
+impl PressureFunction for Functions {
+    fn pressures(&self, gaps: &[f64]) -> (Vec<f64>, Option<Vec<f64>>) {
+        self.calls.fetch_add(1, Ordering::Relaxed);
+        self.asked.fetch_add(gaps.len(), Ordering::Relaxed);
+        let value = gaps.iter().map(|g| 2e12 * (-g).max(0.0)).collect();
+        let slope = |g: &f64| if *g < 0.0 { -2e12 } else { 0.0 };
+        (value, Some(gaps.iter().map(slope).collect()))
+    }
+}
+
+impl LimitFunction for Functions {
+    fn limits(&self, pressures: &[f64], _: &[f64]) -> (Vec<f64>, Option<[Vec<f64>; 2]>) {
+        (pressures.iter().map(|p| 0.3 * p).collect(), None)
+    }
+}
+
+#[test]
+fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
+    for method in ["sparse", "condensed"] {
+        let mut wanted = Diary::default();
+        let mut plain = simulation(method);
+        plain.run(&mut [&mut wanted]).unwrap();
+
+        let other = CASE
+            .replace("normal.linear = { c = 2e12 }", "")
+            .replace("friction.coulomb = { mu = 0.3 }", "")
+            .replace("METHOD", method);
+        let mut model = support::problem(&other).build(Path::new("")).unwrap();
+        let functions = Arc::new(Functions::default());
+        model.interfaces[0].bring(Some(functions.clone()), Some(functions.clone()));
+        let mut simulation = Simulation::new(model).unwrap();
+        let mut seen = Diary::default();
+        simulation.run(&mut [&mut seen]).unwrap();
+
+        for (a, b) in seen.states.iter().zip(&wanted.states) {
+            let size = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8 * size));
+        }
+        let (own, plain) = (&simulation.summary, &plain.summary);
+        assert!(own.quality.met);
+        for (a, b) in [
+            (own.energy.friction, plain.energy.friction),
+            (own.energy.contact, plain.energy.contact),
+        ] {
+            assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+        }
+        // One call an evaluation, not one a point.
+        let points = simulation.model.interfaces[0].points.len();
+        let calls = functions.calls.load(Ordering::Relaxed);
+        assert!(functions.asked.load(Ordering::Relaxed) >= points * calls);
+        assert!(calls < 8 * (own.iterations + own.increments), "{calls}");
+    }
+}
