@@ -382,32 +382,57 @@ report.attempt(async () => {
     draw();
   }
 
-  // Only the bodies whose faces carry the field, seen from where these faces look.
+  // Only the bodies whose faces carry the field, seen from where these faces look, as near as what is not zero allows.
   async function contact() {
     const named = model.fields.find((f) => f.name === "CPRESS") || model.fields.find((f) => f.partial);
     if (!named) return;
     if (!state.field.partial) await choose(named.name);
     const offset = n * state.frame;
-    const carries = (p) => state.values[offset + p] !== NOTHING;
+    const values = Float64Array.from({ length: n }, (_, p) => {
+      const q = state.values[offset + p];
+      return q === NOTHING ? NaN : Math.abs(back(state.field.range, q));
+    });
+    const most = values.reduce((m, v) => (v > m ? v : m), 0);
     const sums = bodies.map((body) => {
-      const sum = new THREE.Vector3();
+      const [loaded, whole] = [new THREE.Vector3(), new THREE.Vector3()];
       const [a, b, c] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
       for (let t = 0; t < body.own.length; t += 3) {
         const corners = [body.own[t], body.own[t + 1], body.own[t + 2]];
-        if (!corners.every(carries)) continue;
+        const weight = (values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3;
+        if (Number.isNaN(weight)) continue;
         a.fromArray(positions, 3 * corners[0]);
         b.fromArray(positions, 3 * corners[1]).sub(a);
         c.fromArray(positions, 3 * corners[2]).sub(a);
-        sum.add(b.cross(c));
+        whole.add(b.cross(c));
+        loaded.addScaledVector(b, weight);
       }
-      return sum;
+      return loaded.length() > 0 ? loaded : whole;
     });
-    const largest = sums.reduce((best, s, i) => (s.length() > sums[best].length() * 1.0001 ? i : best), 0);
-    const direction = sums[largest];
+    const largest = sums.reduce((best, s, i) => (s.length() > sums[best].length() * 1.05 ? i : best), 0);
+    const direction = sums[largest].clone();
     if (!(direction.length() > 0)) return look(home);
     bodies.forEach((body, i) => toggle(body, i === largest || sums[i].dot(direction) > 0));
     direction.normalize();
-    look([direction.x + 0.35, direction.y - 0.5, direction.z]);
+    look(Math.abs(direction.z) > 0.7 ? [direction.x + 0.35, direction.y - 0.5, direction.z] : [direction.x, direction.y, direction.z + 0.45]);
+    // Near the part that carries something.
+    const [box, at, mid] = [new THREE.Box3(), new THREE.Vector3(), new THREE.Vector3()];
+    const moved = (p) => {
+      for (let c = 0; c < 3; c++) at.setComponent(c, positions[3 * p + c] + state.factor * attributes.motion.array[3 * p + c]);
+      return at.add(bodies[largest].group.position);
+    };
+    for (const p of bodies[largest].points) if (values[p] > 1e-3 * most) box.expandByPoint(moved(p));
+    if (box.isEmpty()) return;
+    box.getCenter(mid);
+    const part = box.getSize(at).length() / 2;
+    const half = camera.userData.half;
+    camera.zoom = Math.min(60, Math.max(1, Math.max(half.x, half.y) / (2.2 * part)));
+    if (camera.zoom > 1) {
+      camera.position.add(mid).sub(controls.target);
+      controls.target.copy(mid);
+    }
+    camera.updateProjectionMatrix();
+    controls.update();
+    draw();
   }
 
   function toggle(body, on) {

@@ -48,7 +48,7 @@ fn faces(kind: u8) -> (usize, &'static [Face]) {
                 &[3, 0, 4, 7, 11, 16, 15, 19],
             ],
         ),
-        // Wedges: VTK has the first triangle turned outwards.
+        // VTK's linear wedge has its first triangle facing out of the cell, its quadratic one facing in.
         13 => (
             3,
             &[
@@ -62,11 +62,11 @@ fn faces(kind: u8) -> (usize, &'static [Face]) {
         26 => (
             3,
             &[
-                &[0, 1, 2, 6, 7, 8],
-                &[3, 5, 4, 11, 10, 9],
-                &[0, 3, 4, 1, 12, 9, 13, 6],
-                &[1, 4, 5, 2, 13, 10, 14, 7],
-                &[2, 5, 3, 0, 14, 11, 12, 8],
+                &[0, 2, 1, 8, 7, 6],
+                &[3, 4, 5, 9, 10, 11],
+                &[0, 1, 4, 3, 6, 13, 9, 12],
+                &[1, 2, 5, 4, 7, 14, 10, 13],
+                &[2, 0, 3, 5, 8, 12, 11, 14],
             ],
         ),
         _ => (0, &[]),
@@ -316,7 +316,7 @@ mod tests {
                 [x, if i % 4 >= 2 { 1. } else { 0. }, z]
             })
             .collect();
-        // VTK's wedge has its first triangle turned outwards.
+        // Of the linear wedge the first triangle faces out, of the quadratic one in.
         let wedge = vec![
             [0., 0., 0.],
             [0., 1., 0.],
@@ -325,6 +325,7 @@ mod tests {
             [0., 1., 1.],
             [1., 0., 1.],
         ];
+        let inward = [0, 2, 1, 3, 5, 4].map(|i: usize| wedge[i]).to_vec();
         let tet_edges = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
         let hex_edges = [
             [0, 1],
@@ -357,7 +358,7 @@ mod tests {
             (12, hex.clone(), 1., 12),
             (25, with_midpoints(hex, &hex_edges), 1., 24),
             (13, wedge.clone(), 0.5, 9),
-            (26, with_midpoints(wedge, &wedge_edges), 0.5, 18),
+            (26, with_midpoints(inward, &wedge_edges), 0.5, 18),
         ] {
             let cell: Vec<usize> = (0..points.len()).collect();
             let skin = Skin::of(&grid(points, &[(kind, &cell)]));

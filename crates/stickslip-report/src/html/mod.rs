@@ -1,10 +1,14 @@
 //! The report: one page with all it needs.
 
+mod convergence;
+mod energy;
 mod escape;
 mod facts;
 mod model;
 mod page;
+mod phases;
 mod problem;
+mod quality;
 mod tables;
 
 use std::path::{Path, PathBuf};

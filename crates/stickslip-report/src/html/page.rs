@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::model::Packed;
-use super::{escape, facts, problem};
+use super::{convergence, energy, escape, facts, phases, problem, quality};
 use crate::results::Results;
 
 const STYLE: &str = include_str!("../../assets/page.css");
@@ -55,9 +55,9 @@ pub fn write(results: &Results, model: &Packed, history: &Packed, notes: &[Strin
         },
     );
     section("solved", "What was solved", problem::section(results));
-    section("quality", "Quality", facts::quality(results));
-    section("convergence", "Convergence", facts::convergence(results));
-    section("energy", "Energy", facts::energy(results));
+    section("quality", "Quality", quality::section(results));
+    section("convergence", "Convergence", convergence::section(results));
+    section("energy", "Energy", energy::section(results));
     section(
         "history",
         "History",
@@ -66,7 +66,7 @@ pub fn write(results: &Results, model: &Packed, history: &Packed, notes: &[Strin
             false => HISTORY_BODY.to_string(),
         },
     );
-    section("time", "Where the time went", facts::phases(results));
+    section("time", "Where the time went", phases::section(results));
     page += "</main>\n";
     page += &facts::footer(results);
     let meta = json!({"title": title, "model": model.meta, "history": history.meta});

@@ -52,8 +52,8 @@ pub fn choose(
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut most = 0;
     for body in 1..count {
-        // Sides of a contact are equally large: the first of them, whatever the rounding.
-        let better = size(sums[body]) > 1.001 * size(sums[most]);
+        // Sides of a contact are about equally large: the first of them, whatever the meshes.
+        let better = size(sums[body]) > 1.05 * size(sums[most]);
         if (better || !shown.bodies[most]) && shown.bodies[body] {
             most = body;
         }
@@ -84,19 +84,22 @@ pub fn choose(
     Ok(shown)
 }
 
-/// The sum of the areas, as vectors, of the faces of a body that carry values.
+/// The sum of the areas, as vectors, of the faces of a body that carry values, weighted by their magnitude; without weights if all
+/// are zero. Of a ball on a floor the side that touches counts.
 fn outward(skin: &Skin, values: &[f64], body: usize) -> [f64; 3] {
-    let mut sum = [0.0; 3];
+    let (mut loaded, mut whole) = ([0.0; 3], [0.0; 3]);
     for t in skin.triangles_of(body) {
-        if t.iter().any(|i| values[*i as usize].is_nan()) {
+        let weight = t.iter().map(|i| values[*i as usize].abs()).sum::<f64>() / 3.0;
+        if weight.is_nan() {
             continue;
         }
         let [a, b, c] = t.map(|i| skin.positions[i as usize]);
         let edge = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
         let area = cross(edge(b), edge(c));
         for k in 0..3 {
-            sum[k] += area[k] / 2.0;
+            whole[k] += area[k] / 2.0;
+            loaded[k] += weight * area[k] / 2.0;
         }
     }
-    sum
+    if loaded == [0.0; 3] { whole } else { loaded }
 }

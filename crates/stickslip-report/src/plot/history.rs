@@ -3,7 +3,7 @@
 use stickslip::Error;
 
 use super::axis;
-use super::scene::shorten;
+use super::words::{INK, SOFT, shorten};
 use crate::colour::Rgb;
 use crate::draw::{Anchor, Canvas, Pen, text_width};
 use crate::results::{Results, fault};
@@ -18,8 +18,6 @@ const INKS: [Rgb; 7] = [
     [86, 180, 233],
     [110, 110, 110],
 ];
-const INK: Rgb = [27, 36, 48];
-const SOFT: Rgb = [86, 97, 111];
 const GRID: Rgb = [222, 226, 232];
 
 /// Draws columns against another.

@@ -4,8 +4,10 @@ mod axis;
 mod bodies;
 mod camera;
 mod history;
+mod legend;
 mod raster;
 mod scene;
+mod words;
 
 use std::path::{Path, PathBuf};
 

@@ -2,6 +2,9 @@
 
 use crate::colour::{self, Rgb, Scale};
 
+/// Pixels of a raster for a pixel of the picture, each way.
+pub const FINE: usize = 2;
+
 /// A corner on the picture: pixels right and down, depth towards the eye; and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {

@@ -5,21 +5,15 @@ use stickslip::io::vtu::{self, Grid, PointFields};
 
 use super::bodies::{self, Shown};
 use super::camera::{Camera, Frame, cross, unit};
-use super::raster::{Corner, Raster};
-use super::{Picture, axis};
-use crate::colour::{self, Scale};
-use crate::draw::{Anchor, Canvas, Pen, text_width};
+use super::raster::{Corner, FINE, Raster};
+use super::words::{INK, SOFT, shorten};
+use super::{Picture, axis, legend};
+use crate::colour::Scale;
+use crate::draw::{Anchor, Canvas};
 use crate::field::{self, Field};
 use crate::obstacle::{self, Outline};
 use crate::results::{Results, fault};
 use crate::skin::Skin;
-
-/// Pixels of the raster for a pixel of the picture, each way.
-const FINE: usize = 2;
-
-/// Ink of texts.
-const INK: colour::Rgb = [27, 36, 48];
-const SOFT: colour::Rgb = [86, 97, 111];
 
 /// What is the same for all times: geometry, camera, colours.
 pub struct Scene<'a> {
@@ -47,10 +41,19 @@ fn displacement(points: &PointFields, point: usize) -> [f64; 3] {
 fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
     let list = field::fields(&grid.points.arrays);
     let Some(name) = name else {
-        let find = |name: &str| list.iter().find(|f| f.name == name).cloned();
-        return Ok(find("MISES")
-            .or_else(|| find("U"))
-            .or_else(|| list.first().cloned()));
+        // Rigid bodies have no stress.
+        let says = |name: &&'static str| {
+            let field = list.iter().find(|f| f.name == **name);
+            field.is_some_and(|f| {
+                let array = &grid.points.arrays[&f.array];
+                let values = (0..grid.points.points.len()).map(|p| f.value(array, p));
+                field::range(values).is_some_and(|[low, high]| high > low)
+            })
+        };
+        let name = ["MISES", "U", "CPRESS"].into_iter().find(says);
+        let named = |name: &str| list.iter().find(|f| f.name == name).cloned();
+        let chosen = name.and_then(named).or_else(|| named("U"));
+        return Ok(chosen.or_else(|| list.first().cloned()));
     };
     let found = list
         .iter()
@@ -182,16 +185,24 @@ impl<'a> Scene<'a> {
         canvas.text([margin, 3.6 * em], &line, em, Anchor::Start, SOFT, false);
         if let Some(field) = &self.field {
             let x = width - bar - 0.4 * em;
-            self.bar(
+            let values = values(&points, &self.skin, Some(field));
+            legend::bar(
                 field,
-                &points,
+                &self.colours,
+                &values,
                 [x, top + 0.5 * em],
                 [bar, area[1]],
                 em,
                 canvas,
             );
         }
-        self.triad([margin + 2.2 * em, height - 2.6 * em], em, canvas);
+        legend::triad(
+            &self.camera,
+            self.skin.dim,
+            [margin + 2.2 * em, height - 2.6 * em],
+            em,
+            canvas,
+        );
         Ok(())
     }
 
@@ -317,116 +328,6 @@ impl<'a> Scene<'a> {
             }
         }
     }
-
-    fn bar(
-        &self,
-        field: &Field,
-        points: &PointFields,
-        at: [f64; 2],
-        size: [f64; 2],
-        em: f64,
-        canvas: &mut dyn Canvas,
-    ) {
-        let [x, mut y] = at;
-        let label = field.label();
-        let (name, words) = label.split_once(", ").unwrap_or((&label, ""));
-        canvas.text([x, y + em], name, 1.1 * em, Anchor::Start, INK, false);
-        y += 1.4 * em;
-        for line in wrap(words, 0.85 * em, size[0]) {
-            canvas.text(
-                [x, y + 0.9 * em],
-                &line,
-                0.85 * em,
-                Anchor::Start,
-                SOFT,
-                false,
-            );
-            y += 1.15 * em;
-        }
-        y += 0.9 * em;
-        let mut key = |colour, words: &str, y: &mut f64| {
-            canvas.rectangle([x, *y], [1.1 * em, 1.1 * em], colour);
-            let place = [x + 1.6 * em, *y + 0.92 * em];
-            canvas.text(place, words, 0.95 * em, Anchor::Start, INK, false);
-            *y += 1.7 * em;
-        };
-        let values: Vec<f64> = values(points, &self.skin, Some(field));
-        let missing = values.iter().any(|v| v.is_nan());
-        if self.colours.status {
-            for (number, (name, colour)) in colour::STATUSES.iter().enumerate() {
-                let count = values.iter().filter(|v| v.round() == number as f64).count();
-                key(*colour, &format!("{name} ({count})"), &mut y);
-            }
-        }
-        if missing {
-            key(colour::NOTHING, "no value", &mut y);
-        }
-        if self.colours.status {
-            return;
-        }
-        let [low, high] = self.colours.range;
-        let height = (size[1] - (y - at[1]) - em).clamp(4.0 * em, 24.0 * em);
-        let bar = [1.5 * em, height].map(|n| (n * FINE as f64) as usize);
-        let pixels: Vec<u8> = (0..bar[1])
-            .flat_map(|row| {
-                let t = 1.0 - (row as f64 + 0.5) / bar[1] as f64;
-                let [r, g, b] = colour::along(self.colours.anchors(), t);
-                std::iter::repeat_n([r, g, b, 255], bar[0]).flatten()
-            })
-            .collect();
-        canvas.picture([x, y], bar, FINE, &pixels);
-        let ticks = if high > low {
-            axis::ticks(low, high, 7)
-        } else {
-            vec![low]
-        };
-        for tick in ticks {
-            let share = if high > low {
-                (tick - low) / (high - low)
-            } else {
-                0.5
-            };
-            let place = y + (1.0 - share) * height;
-            let pen = Pen::new(INK, 0.07 * em);
-            canvas.line(&[[x + 1.5 * em, place], [x + 1.9 * em, place]], pen);
-            let text = axis::number(tick, 4);
-            let place = [x + 2.2 * em, place + 0.34 * em];
-            canvas.text(place, &text, 0.92 * em, Anchor::Start, INK, false);
-        }
-        if let Some([least, most]) = field::range(values.into_iter()) {
-            let line = format!("{} … {}", axis::number(least, 4), axis::number(most, 4));
-            let place = [x, y + height + 1.5 * em];
-            canvas.text(place, &line, 0.85 * em, Anchor::Start, SOFT, false);
-        }
-    }
-
-    fn triad(&self, at: [f64; 2], em: f64, canvas: &mut dyn Canvas) {
-        let colours = [[209, 73, 91], [47, 158, 99], [59, 125, 216]];
-        let mut arms: Vec<(f64, usize, [f64; 2])> = (0..self.skin.dim)
-            .map(|c| {
-                let mut d = [0.0; 3];
-                d[c] = 1.0;
-                let d = self.camera.see(d);
-                (d[2], c, [d[0], -d[1]])
-            })
-            .collect();
-        arms.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, c, d) in arms {
-            let end = [0, 1].map(|k| at[k] + 1.7 * em * d[k]);
-            canvas.line(&[at, end], Pen::new(colours[c], 0.2 * em));
-            if d[0].hypot(d[1]) > 0.1 {
-                let place = [at[0] + 2.2 * em * d[0], at[1] + 2.2 * em * d[1] + 0.3 * em];
-                canvas.text(
-                    place,
-                    ["x", "y", "z"][c],
-                    0.9 * em,
-                    Anchor::Middle,
-                    INK,
-                    false,
-                );
-            }
-        }
-    }
 }
 
 /// The values at the points of a skin; NaN where there are none.
@@ -448,34 +349,4 @@ fn spacing(seen: &[[f64; 3]], edges: &[[u32; 2]]) -> f64 {
         (b[0] - a[0]).hypot(b[1] - a[1])
     };
     edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64
-}
-
-/// The beginning of a text that fits.
-pub fn shorten(text: &str, size: f64, width: f64) -> String {
-    if text_width(text, size) <= width {
-        return text.to_string();
-    }
-    let mut short: Vec<char> = text.chars().collect();
-    while let Some(_last) = short.pop() {
-        let text: String = short.iter().collect::<String>().trim_end().to_string() + "…";
-        if text_width(&text, size) <= width {
-            return text;
-        }
-    }
-    String::new()
-}
-
-/// Lines that fit, broken at spaces.
-fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if text_width(&format!("{line} {word}"), size) <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
 }
