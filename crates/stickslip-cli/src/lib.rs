@@ -1,9 +1,13 @@
 //! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
 //!
-//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged.
+//! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged,
+//! 130 interrupted.
 //! Results and listings go to standard output, diagnostics to standard error.
 
 mod commands;
+mod input;
+mod interrupt;
+mod lines;
 mod print;
 mod progress;
 mod render;
@@ -37,6 +41,8 @@ enum Command {
 const INPUT: u8 = 1;
 /// Results fail a check or the quality gate.
 const CHECK: u8 = 2;
+/// Stopped by Ctrl-C; results up to there are complete.
+const INTERRUPTED: u8 = 130;
 
 /// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
 pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {

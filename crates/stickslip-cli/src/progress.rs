@@ -1,24 +1,120 @@
 //! Progress on standard error: a line an increment.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
+use std::time::Instant;
 
 use stickslip::Error;
+use stickslip::contact::response::Status;
 use stickslip::newton::Course;
-use stickslip::simulation::{Event, Gate, Observer, Simulation};
+use stickslip::simulation::{Event, Gate, Observer, Row, Simulation};
 
 /// Prints what happens.
 pub struct Progress {
     verbose: bool,
+    /// Whether somebody looks on: then there is a line an increment.
+    terminal: bool,
     headed: bool,
+    /// Statuses of all contact points after the last increment.
+    statuses: Vec<Status>,
+    started: Instant,
+    /// Characters of the line that is to be overwritten.
+    transient: usize,
 }
 
 impl Progress {
-    /// `verbose` shows every Newton iteration.
+    /// `verbose` shows every Newton iteration. Where standard error is no terminal, only notes and cut-backs are said.
     pub fn new(verbose: bool) -> Self {
         Progress {
             verbose,
+            terminal: verbose || std::io::stderr().is_terminal(),
             headed: false,
+            statuses: Vec::new(),
+            started: Instant::now(),
+            transient: 0,
+        }
+    }
+
+    /// A line that stays.
+    fn line(&mut self, text: &str) {
+        if self.transient > 0 {
+            let blank = " ".repeat(self.transient);
+            let _ = write!(std::io::stderr(), "\r{blank}\r");
+            self.transient = 0;
+        }
+        say(text);
+    }
+
+    /// A line that the next one overwrites: increments of condensed bodies are reported a few at a time.
+    fn passing(&mut self, text: &str) {
+        let fill = " ".repeat(self.transient.saturating_sub(text.chars().count()));
+        let _ = write!(std::io::stderr(), "\r{text}{fill}\r");
+        self.transient = text.chars().count();
+    }
+
+    /// Points that have another status than after the last increment.
+    fn changes(&mut self, simulation: &Simulation) -> usize {
+        let now: Vec<Status> = simulation
+            .model
+            .interfaces
+            .iter()
+            .flat_map(|i| i.statuses())
+            .collect();
+        let before = std::mem::replace(&mut self.statuses, now);
+        match before.len() == self.statuses.len() {
+            true => before
+                .iter()
+                .zip(&self.statuses)
+                .filter(|(a, b)| a != b)
+                .count(),
+            false => self.statuses.iter().filter(|s| **s != Status::Open).count(),
+        }
+    }
+
+    fn increment(&mut self, simulation: &Simulation, row: &Row) {
+        let changes = self.changes(simulation);
+        if !self.terminal {
+            return;
+        }
+        if !self.headed {
+            self.line("step                inc att its        time  residual     open  stick   slip changed  worst node    energy      left");
+            self.headed = true;
+        }
+        let column = |name: &str| row.get(name).unwrap_or(0.0);
+        let energies = ["ALLSE", "ALLCE", "ALLFD", "ALLWK", "ALLKE"].map(|n| column(n).abs());
+        let scale = energies.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let worst = simulation
+            .worst_point()
+            .map_or(String::new(), |p| p.to_string());
+        let text = format!(
+            "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>9.1e} {:>8} {:>6} {:>6} {changes:>7} {worst:>11} {:>9.1e} {:>9}",
+            simulation.step_name(),
+            column("INC"),
+            column("ATT"),
+            column("ITRS"),
+            column("TIME"),
+            column("RESIDUAL"),
+            column("OPEN"),
+            column("STICK"),
+            column("SLIP"),
+            column("ERESIDUAL") / scale,
+            self.left(simulation, column("TIME")),
+        );
+        self.line(&text);
+    }
+
+    /// The time that is left if the rest goes as fast as what is done.
+    fn left(&self, simulation: &Simulation, time: f64) -> String {
+        let steps = &simulation.model.steps;
+        let (Some(first), Some(last)) = (steps.first(), steps.last()) else {
+            return String::new();
+        };
+        let done = (time - first.start) / (last.end - first.start);
+        let seconds = self.started.elapsed().as_secs_f64() * (1.0 - done) / done.max(1e-9);
+        match seconds {
+            s if s < 100.0 => format!("{s:.0} s"),
+            s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+            s => format!("{:.1} h", s / 3600.0),
         }
     }
 }
@@ -31,28 +127,19 @@ pub fn say(text: &str) {
 impl Observer for Progress {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
         match event {
-            Event::Accepted(a) => {
-                if !self.headed {
-                    say(
-                        "step                inc att its        time    residual     open  stick   slip",
-                    );
-                    self.headed = true;
-                }
-                say(&format!(
-                    "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>11.2e} {:>8} {:>6} {:>6}",
+            Event::Accepted(a) if self.terminal && !self.verbose => {
+                self.passing(&format!(
+                    "{:<18} {:>4} {:>3} {:>3} {:>11.5e} ...",
                     simulation.step_name(),
                     a.increment,
                     a.attempt,
                     a.iterations,
-                    a.time,
-                    a.residual,
-                    a.tally.open,
-                    a.tally.stick,
-                    a.tally.slip
+                    a.time
                 ));
             }
+            Event::Increment(row) => self.increment(simulation, row),
             Event::Iteration(p) if self.verbose => {
-                say(&format!(
+                self.line(&format!(
                     "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}{}",
                     p.round,
                     p.iteration,
@@ -69,9 +156,9 @@ impl Observer for Progress {
                     }
                 ));
             }
-            Event::Note(text) => say(&format!("  {text}")),
+            Event::Note(text) => self.line(&format!("  {text}")),
             Event::Cutback(trial, failure) => {
-                say(&format!(
+                self.line(&format!(
                     "  cut back: {:.5e} to {:.5e}: {}",
                     trial.from, trial.to, failure.message
                 ));

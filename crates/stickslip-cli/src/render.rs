@@ -23,7 +23,11 @@ pub fn failure(failure: &Failure) {
 fn text(failure: &Failure, renderer: &Renderer) -> String {
     match failure {
         Failure::Library(Error::Problem(error)) => problem(error, renderer),
+        Failure::Library(Error::Interrupted(time)) => {
+            format!("interrupted at time {time:.6e}; the results up to there are complete")
+        }
         Failure::Library(other) => format!("error: {other}"),
+        Failure::Deck(error) => error.to_string(),
         Failure::Arguments(message, help) => format!("error: {message}\n  help: {help}"),
         Failure::Runs { failed, all, table } => format!(
             "error: {failed} of {all} runs failed\n  help: the column `outcome` of {} says why",

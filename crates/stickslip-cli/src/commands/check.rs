@@ -1,15 +1,16 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use stickslip::problem::{Document, Problem};
+use stickslip::problem::Problem;
 
 use super::Outcome;
+use crate::input::Input;
 use crate::print;
 
-/// Read a problem file and report what is wrong with it, or what was understood.
+/// Read a problem file or a deck and report what is wrong with it, or what was understood.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The problem file.
+    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
     /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -21,14 +22,15 @@ pub struct Arguments {
 
 /// Checks the file.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
-    let problem = document.problem()?;
+    let input = Input::open(&arguments.file, &arguments.set)?;
+    let notes = input.notes(true);
     if !arguments.json {
-        print::out(&summary(&problem))?;
+        print::out(&summary(&input.problem))?;
+        if !notes.is_empty() {
+            print::out(&(notes.join("\n") + "\n"))?;
+        }
     }
-    let model = problem
-        .build(&document.folder())
-        .map_err(|e| super::located(&document, e))?;
+    let model = input.build()?;
     let mut simulation = stickslip::simulation::Simulation::new(model)?;
     let report = simulation.check();
     let text = match arguments.json {

@@ -51,6 +51,8 @@ pub type Outcome = Result<ExitCode, Failure>;
 pub enum Failure {
     /// From the library.
     Library(Error),
+    /// A deck that cannot be run as it is.
+    Deck(stickslip_deck::DeckError),
     /// From the command line itself: the message and what to do.
     Arguments(String, String),
     /// Runs of a sweep failed; its table is written all the same.
@@ -71,6 +73,7 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Failure::Library(Error::Run(_)) => 3,
+            Failure::Library(Error::Interrupted(_)) => crate::INTERRUPTED,
             _ => crate::INPUT,
         }
     }

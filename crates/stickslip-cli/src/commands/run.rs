@@ -3,18 +3,20 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use stickslip::newton::condensed::Library;
-use stickslip::problem::Document;
 use stickslip::simulation::{Observer, ResultFiles, Simulation};
+use stickslip_deck::{Printer, Status};
 
-use super::{Outcome, library, located, use_threads};
+use super::{Outcome, library, use_threads};
+use crate::input::Input;
+use crate::lines::Lines;
 use crate::progress::Progress;
 
 /// Run an analysis and write its results.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The problem file.
+    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
-    /// Directory of the results; `<file>.out` beside the problem file if not given.
+    /// Directory of the results; `<file>.out` beside the file if not given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Threads; all processors if not given. Results do not depend on it.
@@ -33,37 +35,55 @@ pub struct Arguments {
     /// Show every Newton iteration.
     #[arg(short, long)]
     verbose: bool,
+    /// Print what happens as lines of JSON on standard output, for programs.
+    #[arg(long)]
+    json: bool,
 }
 
 /// Runs the analysis.
 pub fn run(arguments: &Arguments) -> Outcome {
     use_threads(arguments.threads);
     let started = Instant::now();
-    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
-    let problem = document.problem()?;
-    let model = problem
-        .build(&document.folder())
-        .map_err(|e| located(&document, e))?;
+    let input = Input::open(&arguments.file, &arguments.set)?;
+    let model = input.build()?;
     let directory = arguments
         .output
         .clone()
         .unwrap_or_else(|| arguments.file.with_extension("out"));
+    let loud = !arguments.quiet && !arguments.json;
+    for note in input.notes(loud) {
+        crate::progress::say(&note);
+    }
     let read = started.elapsed().as_secs_f64();
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
     let mut simulation = Simulation::with_library(model, library)?;
     simulation.summary.phases.read = read;
+    simulation.set_interrupt(crate::interrupt::watch());
     let mut files = ResultFiles::new(&directory)?;
     let mut progress = Progress::new(arguments.verbose);
+    let mut lines = Lines::default();
+    let stem = arguments.file.file_stem().unwrap_or_default();
+    let beside = |extension: &str| directory.join(stem).with_extension(extension);
+    let mut printer = input
+        .deck
+        .as_ref()
+        .and_then(|deck| Printer::new(deck, &beside("dat")));
+    let mut status = input.deck.is_some().then(|| Status::new(&beside("sta")));
     let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
-    if !arguments.quiet {
+    observers.extend(printer.as_mut().map(|p| p as &mut dyn Observer));
+    observers.extend(status.as_mut().map(|s| s as &mut dyn Observer));
+    if loud {
         observers.push(&mut progress);
     }
+    if arguments.json {
+        observers.push(&mut lines);
+    }
     simulation.run(&mut observers)?;
-    if !arguments.quiet {
+    if loud {
         crate::progress::closing(&simulation, &directory);
     }
     let quality = &simulation.summary.quality;
-    if quality.failed() || !arguments.quiet {
+    if quality.failed() || loud {
         crate::progress::gate(quality);
     }
     Ok(match quality.failed() {

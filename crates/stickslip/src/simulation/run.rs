@@ -375,6 +375,26 @@ impl Simulation {
         self.constraints(self.state.t).fixed
     }
 
+    /// What acts on the points from outside, by dof `[N]`: loads and reactions of supports. In equilibrium it is what bodies and interfaces
+    /// resist with.
+    pub fn external_forces(&self) -> Vec<f64> {
+        let both = self.forces.iter().zip(&self.load);
+        both.map(|(reaction, load)| reaction + load).collect()
+    }
+
+    /// The number of the point whose forces are farthest from balance, if any are.
+    pub fn worst_point(&self) -> Option<u64> {
+        let fixed = self.held_dofs();
+        let dofs = self.model.dofs;
+        let points = 0..self.model.mesh.points.len();
+        let size = |p: usize| -> f64 {
+            let free = (0..dofs.dim).map(|c| dofs.of(p, c)).filter(|&d| !fixed[d]);
+            free.map(|d| self.forces[d].powi(2)).sum()
+        };
+        let worst = points.map(|p| (size(p), p)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        (worst.0 > 0.0).then(|| self.model.mesh.point_ids[worst.1])
+    }
+
     /// The step being run.
     pub fn step_name(&self) -> &str {
         self.model

@@ -106,6 +106,24 @@ impl Interface {
         r
     }
 
+    /// Centre of the area in contact at the displacements `u` `[m]`, and the mean outward normal of the secondary there; zero where nothing touches.
+    pub fn centre_and_normal(&self, u: &[f64]) -> (Vec3, Vec3) {
+        let x = self.coordinates(u);
+        let (mut centre, mut normal, mut area) = ([0.0; 3], [0.0; 3], 0.0);
+        for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
+            if h.status != Status::Open {
+                centre = add_scaled(centre, self.area_of(i), p.position(&x));
+                // Pressure pushes the secondary along the normal of the primary.
+                normal = add_scaled(normal, -self.area_of(i), h.normal);
+                area += self.area_of(i);
+            }
+        }
+        if area > 0.0 {
+            centre = scale(1.0 / area, centre);
+        }
+        (centre, normalize(normal).unwrap_or_default())
+    }
+
     /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, the nodal contact force CFORCE, and
     /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
     /// their areas there. Where no interface is the values are NaN, except for forces, which are zero.

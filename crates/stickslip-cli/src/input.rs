@@ -1,0 +1,88 @@
+//! What a command is given: a problem file, or a deck of Abaqus or CalculiX.
+
+use std::path::Path;
+
+use stickslip::Error;
+use stickslip::problem::{Document, Meshes, Problem};
+use stickslip::simulation::Model;
+use stickslip_deck::{Deck, Severity, Translation};
+
+use crate::commands::{Failure, located};
+
+/// A problem with where it comes from.
+pub struct Input {
+    /// Its text; for a deck the one it was translated to.
+    pub document: Document,
+    /// The problem.
+    pub problem: Problem,
+    /// The deck.
+    pub deck: Option<Translation>,
+    meshes: Meshes,
+}
+
+/// Whether a file is a deck, by its name.
+pub fn is_deck(file: &Path) -> bool {
+    file.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+}
+
+/// Reads and translates a deck.
+pub fn translate(file: &Path) -> Result<Translation, Failure> {
+    let translate = || Deck::read(file)?.translate(file);
+    translate().map_err(Failure::Deck)
+}
+
+impl Input {
+    /// Reads a problem file, or a deck if the name ends in `.inp`.
+    pub fn open(file: &Path, overrides: &[String]) -> Result<Input, Failure> {
+        if !is_deck(file) {
+            let document = Document::read(file)?.with_overrides(overrides.to_vec());
+            let problem = document.problem()?;
+            return Ok(Input {
+                document,
+                problem,
+                deck: None,
+                meshes: Meshes::default(),
+            });
+        }
+        let deck = translate(file)?;
+        let document = deck.document(overrides.to_vec());
+        let problem = match document.problem() {
+            Ok(problem) => problem,
+            Err(e) => return Err(of_deck(&deck, e.into())),
+        };
+        Ok(Input {
+            document,
+            problem,
+            meshes: deck.meshes(),
+            deck: Some(deck),
+        })
+    }
+
+    /// The model.
+    pub fn build(&self) -> Result<Model, Failure> {
+        let built = self
+            .problem
+            .build_with(&self.document.folder(), &self.meshes);
+        built.map_err(|e| match &self.deck {
+            Some(deck) => of_deck(deck, e),
+            None => located(&self.document, e).into(),
+        })
+    }
+
+    /// What is to be said about a deck: its warnings, and its notes if `all`.
+    pub fn notes(&self, all: bool) -> Vec<String> {
+        let notes = self.deck.iter().flat_map(|d| &d.notes);
+        notes
+            .filter(|n| all || n.severity != Severity::Note)
+            .map(ToString::to_string)
+            .collect()
+    }
+}
+
+fn of_deck(deck: &Translation, error: Error) -> Failure {
+    match deck.located(error) {
+        Ok(e) => Failure::Deck(e),
+        Err(e) => e.into(),
+    }
+}

@@ -1,0 +1,34 @@
+//! What happens in a run as lines of JSON, for programs.
+
+use serde_json::json;
+use stickslip::Error;
+use stickslip::simulation::{Event, Observer, Simulation};
+
+use crate::print;
+
+/// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `note`, `end`.
+#[derive(Debug, Default)]
+pub struct Lines {}
+
+impl Observer for Lines {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        let line = match event {
+            Event::Increment(row) => {
+                let names = row.names.iter().cloned();
+                // JSON has no NaN; what is not known is null.
+                let values: serde_json::Map<_, _> =
+                    names.zip(row.values.iter().map(|v| json!(v))).collect();
+                json!({ "event": "increment", "step": simulation.step_name(), "row": values })
+            }
+            Event::Cutback(trial, failure) => json!({
+                "event": "cutback", "from": trial.from, "to": trial.to,
+                "cause": format!("{:?}", failure.cause), "message": failure.message, "culprits": failure.culprits.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            }),
+            Event::Note(text) => json!({ "event": "note", "text": text }),
+            Event::End => json!({ "event": "end", "summary": simulation.summary }),
+            _ => return Ok(()),
+        };
+        print::out(&format!("{line}\n"))
+            .map_err(|e| Error::io(std::path::Path::new("standard output"), e))
+    }
+}

@@ -1,0 +1,507 @@
+//! What a deck says, card by card, before it is translated.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use crate::finding::Finding;
+use crate::source::Place;
+
+/// A deck that was read. Names are in capitals, as both programs take them, unless they were quoted.
+#[derive(Debug, Clone, Default)]
+pub struct Deck {
+    /// The file and those it includes.
+    pub files: Vec<PathBuf>,
+    /// The text of `*HEADING`, its first line.
+    pub title: Option<String>,
+    /// Nodes by number.
+    pub nodes: BTreeMap<u64, [f64; 3]>,
+    /// Elements by number.
+    pub elements: BTreeMap<u64, Element>,
+    /// Sets of nodes, in the order of the file without repetitions.
+    pub node_sets: BTreeMap<String, Vec<u64>>,
+    /// Sets of elements.
+    pub element_sets: BTreeMap<String, Vec<u64>>,
+    /// Surfaces.
+    pub surfaces: BTreeMap<String, Surface>,
+    /// Materials.
+    pub materials: BTreeMap<String, Material>,
+    /// `*SOLID SECTION`s.
+    pub sections: Vec<Section>,
+    /// `*ORIENTATION`s.
+    pub orientations: BTreeMap<String, Orientation>,
+    /// `*TRANSFORM`s by node; the last card counts.
+    pub transforms: BTreeMap<u64, Transform>,
+    /// `*AMPLITUDE`s.
+    pub amplitudes: BTreeMap<String, Amplitude>,
+    /// `*SURFACE INTERACTION`s.
+    pub interactions: BTreeMap<String, Interaction>,
+    /// `*CONTACT PAIR`s.
+    pub pairs: Vec<Pair>,
+    /// `*CLEARANCE`s.
+    pub clearances: Vec<Clearance>,
+    /// `*TIE`s.
+    pub ties: Vec<Tie>,
+    /// `*EQUATION`s.
+    pub equations: Vec<Equation>,
+    /// `*RIGID BODY`s.
+    pub rigid: Vec<Rigid>,
+    /// `*SPRING`s: stiffness of sets of spring elements.
+    pub springs: Vec<SpringSection>,
+    /// `*MASS`es: mass of sets of mass elements, each `(set, mass, place)`.
+    pub masses: Vec<(String, f64, Place)>,
+    /// `*INITIAL CONDITIONS`.
+    pub initial: Vec<InitialCondition>,
+    /// `*TIME POINTS` by name: times of a step.
+    pub time_points: BTreeMap<String, Vec<f64>>,
+    /// `*BOUNDARY` before the first step.
+    pub supports: Vec<Boundary>,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// Warnings and notes, in the order of the lines.
+    pub notes: Vec<Finding>,
+}
+
+/// An element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// Its type as written, in capitals: `C3D8R`.
+    pub kind: String,
+    /// Its nodes in the order of the deck.
+    pub nodes: Vec<u64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// A surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// What it consists of.
+    pub parts: SurfaceParts,
+    /// Where.
+    pub place: Place,
+}
+
+/// What a surface consists of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SurfaceParts {
+    /// Faces: element and number of the face, from 1; `None` is every face on the outside (Abaqus).
+    Faces(Vec<(u64, Option<usize>)>),
+    /// Nodes.
+    Nodes(Vec<u64>),
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Material {
+    /// Elastic constants.
+    pub elastic: Option<Elastic>,
+    /// Mass per volume.
+    pub density: Option<f64>,
+    /// Rayleigh damping: factors of mass and stiffness.
+    pub damping: Option<[f64; 2]>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*ELASTIC` at its first temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Elastic {
+    /// Young's modulus and Poisson's ratio.
+    Isotropic([f64; 2]),
+    /// E1, E2, E3, ν12, ν13, ν23, G12, G13, G23.
+    Engineering([f64; 9]),
+    /// The stiffness in the order 11 22 33 12 13 23, symmetric.
+    Full(Box<[[f64; 6]; 6]>),
+}
+
+/// `*SOLID SECTION`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Set of elements.
+    pub set: String,
+    /// Material.
+    pub material: String,
+    /// Orientation of the material.
+    pub orientation: Option<String>,
+    /// Thickness, where one is given.
+    pub thickness: Option<f64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*ORIENTATION`: the axes 1, 2 and 3 of the material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orientation {
+    /// Rows are the axes.
+    pub axes: [[f64; 3]; 3],
+    /// Whether they are the same everywhere; cylindrical ones are not.
+    pub uniform: bool,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*TRANSFORM`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transform {
+    /// Cylindrical (radial, tangential, axial) about the line from `a` to `b`; otherwise `a` is a point of the local x axis and `b` one of the xy plane.
+    pub cylindrical: bool,
+    /// First point.
+    pub a: [f64; 3],
+    /// Second point.
+    pub b: [f64; 3],
+}
+
+/// `*AMPLITUDE`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Amplitude {
+    /// Rows of time and factor.
+    pub rows: Vec<[f64; 2]>,
+    /// Time is that of the analysis, not of the step.
+    pub total_time: bool,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*SURFACE INTERACTION` with the cards beneath.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Interaction {
+    /// How it resists being pressed.
+    pub behavior: Option<Behavior>,
+    /// Friction.
+    pub friction: Option<Friction>,
+    /// Viscous damping coefficient: pressure per closing velocity, and fraction in tangential direction.
+    pub damping: Option<[f64; 2]>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*SURFACE BEHAVIOR`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Behavior {
+    /// `HARD`.
+    Hard,
+    /// `LINEAR`: stiffness per area; tension at large clearances (CalculiX, node to face), 0 if not given.
+    Linear {
+        /// Stiffness per area.
+        slope: f64,
+        /// Tension at large clearances.
+        tension: f64,
+    },
+    /// `EXPONENTIAL`: clearance at which the pressure is a hundredth (CalculiX; 0 in Abaqus), pressure at none.
+    Exponential {
+        /// Clearance.
+        c0: f64,
+        /// Pressure at zero clearance.
+        p0: f64,
+    },
+    /// `TABULAR`: rows of overclosure and pressure.
+    Tabular(Vec<[f64; 2]>),
+    /// `TIED`: the surfaces are glued.
+    Tied,
+}
+
+/// `*FRICTION`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Coefficient.
+    pub mu: f64,
+    /// Stiffness of sticking per area (CalculiX), if given.
+    pub stick: Option<f64>,
+    /// Largest shear stress (Abaqus `TAUMAX`).
+    pub cap: Option<f64>,
+    /// Kinetic coefficient and decay (Abaqus `EXPONENTIAL DECAY`).
+    pub decay: Option<[f64; 2]>,
+    /// `ROUGH`: sticks whatever the pressure.
+    pub rough: bool,
+}
+
+/// `*CONTACT PAIR`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// Slave surface, our secondary.
+    pub slave: String,
+    /// Master surface, our primary.
+    pub master: String,
+    /// `*SURFACE INTERACTION`.
+    pub interaction: String,
+    /// `NODE TO SURFACE`.
+    pub by_nodes: bool,
+    /// `SMALL SLIDING`.
+    pub small_sliding: bool,
+    /// `ADJUST` with a distance.
+    pub adjust: Option<f64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*CLEARANCE`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clearance {
+    /// Slave surface.
+    pub slave: String,
+    /// Master surface.
+    pub master: String,
+    /// The uniform clearance.
+    pub value: f64,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*TIE`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tie {
+    /// Name.
+    pub name: String,
+    /// Slave surface.
+    pub slave: String,
+    /// Master surface.
+    pub master: String,
+    /// Where.
+    pub place: Place,
+}
+
+/// Nodes a card is about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// One, by number.
+    One(u64),
+    /// A set.
+    Set(String),
+}
+
+/// A term of an `*EQUATION`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Term {
+    /// Its nodes.
+    pub target: Target,
+    /// Direction, 0 to 2.
+    pub component: usize,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// `*EQUATION`: the sum of the terms is zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equation {
+    /// Its terms.
+    pub terms: Vec<Term>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*RIGID BODY`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rigid {
+    /// Set of its elements.
+    pub elements: Option<String>,
+    /// Set of its nodes.
+    pub nodes: Option<String>,
+    /// Node of its translations.
+    pub reference: Option<u64>,
+    /// Node of its rotations (CalculiX).
+    pub rotation: Option<u64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*SPRING`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringSection {
+    /// Set of spring elements.
+    pub set: String,
+    /// Directions at the first and second node, 0 to 2 (`SPRING1`, `SPRING2`).
+    pub directions: Vec<usize>,
+    /// Stiffness.
+    pub stiffness: f64,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*INITIAL CONDITIONS` of displacement or velocity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InitialCondition {
+    /// Velocity, otherwise displacement.
+    pub velocity: bool,
+    /// Nodes.
+    pub target: Target,
+    /// Direction, 0 to 2.
+    pub component: usize,
+    /// Value.
+    pub value: f64,
+    /// Where.
+    pub place: Place,
+}
+
+/// A line of `*BOUNDARY`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    /// Nodes.
+    pub target: Target,
+    /// Directions, 0 to 5 (from 3: rotations).
+    pub components: Vec<usize>,
+    /// Value.
+    pub value: f64,
+    /// Amplitude.
+    pub amplitude: Option<String>,
+    /// `FIXED`: held where it is.
+    pub fixed: bool,
+    /// Where.
+    pub place: Place,
+}
+
+/// A step.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Step {
+    /// `NLGEOM`.
+    pub nonlinear: bool,
+    /// Loads without amplitude act in full from the start; `None` is the default of the procedure.
+    pub abrupt: Option<bool>,
+    /// How it is solved.
+    pub procedure: Procedure,
+    /// Its cards in order.
+    pub actions: Vec<Action>,
+    /// What is printed.
+    pub prints: Vec<Print>,
+    /// Increments between outputs of fields; `None` if none are asked for.
+    pub output_every: Option<usize>,
+    /// `*TIME POINTS` of outputs.
+    pub output_times: Vec<String>,
+    /// Where.
+    pub place: Place,
+}
+
+/// How a step is solved. Times are `[initial increment, period, smallest, largest]`, 0 for the default.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Procedure {
+    /// `*STATIC`.
+    Static {
+        /// Times.
+        times: [f64; 4],
+        /// `DIRECT`.
+        direct: bool,
+    },
+    /// `*DYNAMIC`.
+    Dynamic {
+        /// Times.
+        times: [f64; 4],
+        /// `DIRECT`.
+        direct: bool,
+        /// `EXPLICIT`.
+        explicit: bool,
+        /// `ALPHA` of the method of Hilber, Hughes and Taylor.
+        alpha: Option<f64>,
+    },
+}
+
+impl Default for Procedure {
+    fn default() -> Self {
+        Procedure::Static {
+            times: [0.0; 4],
+            direct: false,
+        }
+    }
+}
+
+/// What changes in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    /// `OP=NEW` on `*BOUNDARY`.
+    ClearBoundaries,
+    /// A line of `*BOUNDARY`.
+    Boundary(Boundary),
+    /// `OP=NEW` on `*CLOAD`.
+    ClearForces,
+    /// A line of `*CLOAD`.
+    Force {
+        /// Nodes.
+        target: Target,
+        /// Direction, 0 to 2.
+        component: usize,
+        /// Force.
+        value: f64,
+        /// Amplitude.
+        amplitude: Option<String>,
+        /// Where.
+        place: Place,
+    },
+    /// `OP=NEW` on `*DLOAD` or `*DSLOAD`.
+    ClearDistributed,
+    /// A line of `*DLOAD` or `*DSLOAD`.
+    Distributed {
+        /// What.
+        load: Distributed,
+        /// Amplitude.
+        amplitude: Option<String>,
+        /// Where.
+        place: Place,
+    },
+    /// `*CHANGE FRICTION`.
+    ChangeFriction(String, Friction, Place),
+    /// `*CHANGE SURFACE BEHAVIOR`.
+    ChangeBehavior(String, Behavior, Place),
+}
+
+/// A distributed load.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Distributed {
+    /// Pressure on faces: element and number of the face.
+    Pressure(Vec<(u64, usize)>, f64),
+    /// Pressure on a surface.
+    Surface(String, f64),
+    /// Weight: elements, acceleration.
+    Gravity(Vec<u64>, [f64; 3]),
+    /// Elements, square of the angular speed, a point of the axis, its direction.
+    Centrifugal(Vec<u64>, f64, [f64; 3], [f64; 3]),
+    /// Force per volume: elements, force.
+    Body(Vec<u64>, [f64; 3]),
+}
+
+/// Which totals are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Totals {
+    /// None.
+    #[default]
+    No,
+    /// Besides.
+    Yes,
+    /// Alone.
+    Only,
+}
+
+/// `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Print {
+    /// At nodes.
+    Node {
+        /// Set.
+        set: String,
+        /// Quantities.
+        keys: Vec<String>,
+        /// Totals.
+        totals: Totals,
+        /// Every so many increments.
+        every: usize,
+    },
+    /// At elements.
+    Element {
+        /// Set.
+        set: String,
+        /// Quantities.
+        keys: Vec<String>,
+        /// Totals.
+        totals: Totals,
+        /// Every so many increments.
+        every: usize,
+    },
+    /// At contact points.
+    Contact {
+        /// Slave and master of the pair of `CF`.
+        pair: Option<(String, String)>,
+        /// Quantities.
+        keys: Vec<String>,
+        /// Totals.
+        totals: Totals,
+        /// Every so many increments.
+        every: usize,
+    },
+}

@@ -1,0 +1,564 @@
+//! Steps: procedure, loads, supports, output.
+
+use super::{Reader, keys, number, parameter, whole};
+use crate::deck::{Action, Boundary, Distributed, Print, Procedure, Step, Totals};
+use crate::source::{Card, Place, label, squeeze};
+
+impl Reader<'_> {
+    pub(super) fn step(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["NLGEOM", "INC", "AMPLITUDE", "NAME", "PERTURBATION"],
+            &[
+                "INCF",
+                "TURBULENCEMODEL",
+                "SHOCKSMOOTHING",
+                "UNSYMM",
+                "EXTRAPOLATION",
+                "SOLVER",
+                "CONVERTSDI",
+            ],
+        );
+        if card.has("PERTURBATION") {
+            self.error(
+                card.place,
+                "*STEP, PERTURBATION is not supported",
+                "take PERTURBATION out: a static step from the deformed state is computed",
+            );
+        }
+        if self.in_step {
+            self.step_without_procedure();
+            self.warn(card.place, "the step before has no *END STEP", "");
+        }
+        let nonlinear = card.get("NLGEOM").is_some_and(|v| v != "NO");
+        if nonlinear && !self.deck.steps.iter().any(|s| s.nonlinear) {
+            self.note(
+                card.place,
+                "NLGEOM: contact follows the surfaces as they move; strains and rotations of the bodies are taken as small",
+            );
+        }
+        self.deck.steps.push(Step {
+            nonlinear,
+            abrupt: match card.get("AMPLITUDE") {
+                Some("STEP") => Some(true),
+                Some("RAMP") => Some(false),
+                _ => None,
+            },
+            place: card.place,
+            ..Step::default()
+        });
+        self.in_step = true;
+        self.procedure = false;
+    }
+
+    pub(super) fn end_step(&mut self, card: &Card) {
+        if !self.in_step {
+            self.error(card.place, "*END STEP without *STEP", "");
+            return;
+        }
+        self.step_without_procedure();
+        self.in_step = false;
+    }
+
+    /// The step that the card belongs to.
+    fn own_step(&mut self, card: &Card) -> Option<&mut Step> {
+        if !self.in_step {
+            self.error(
+                card.place,
+                format!("{} stands outside of a step", card.written),
+                "write it between *STEP and *END STEP",
+            );
+            return None;
+        }
+        self.deck.steps.last_mut()
+    }
+
+    fn times(&mut self, card: &Card) -> [f64; 4] {
+        let Some(data) = card.data.first() else {
+            return [0.0; 4];
+        };
+        let times = [0, 1, 2, 3].map(|i| self.number(data, i, 0.0));
+        if times.iter().any(|t| *t < 0.0) {
+            self.error(
+                data.place,
+                "times cannot be negative",
+                "write initial increment, period, smallest, largest increment",
+            );
+            return [0.0; 4];
+        }
+        if times[1] > 0.0 && times[0] > times[1] {
+            self.error(
+                data.place,
+                "the first increment is longer than the step",
+                "write initial increment, period",
+            );
+            return [0.0; 4];
+        }
+        times
+    }
+
+    fn proceed(&mut self, card: &Card, procedure: Procedure) {
+        if self.procedure && self.in_step {
+            self.error(
+                card.place,
+                "a second procedure in one step",
+                "a step has one *STATIC or *DYNAMIC",
+            );
+            return;
+        }
+        if let Some(step) = self.own_step(card) {
+            step.procedure = procedure;
+            self.procedure = true;
+        }
+    }
+
+    pub(super) fn statics(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["DIRECT"],
+            &[
+                "SOLVER",
+                "TIMERESET",
+                "TOTALTIMEATSTART",
+                "STABILIZE",
+                "ALLSDTOL",
+                "CONTINUE",
+                "LONGTERM",
+                "FULLYPLASTIC",
+            ],
+        );
+        let times = self.times(card);
+        self.proceed(
+            card,
+            Procedure::Static {
+                times,
+                direct: card.has("DIRECT"),
+            },
+        );
+    }
+
+    pub(super) fn dynamics(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["DIRECT", "EXPLICIT", "ALPHA"],
+            &[
+                "SOLVER",
+                "TIMERESET",
+                "TOTALTIMEATSTART",
+                "RELATIVETOABSOLUTE",
+                "APPLICATION",
+                "INITIAL",
+                "NOHAF",
+                "HALFINCSCALEFACTOR",
+                "HAFTOL",
+            ],
+        );
+        let times = self.times(card);
+        let alpha = parameter(self, card, "ALPHA");
+        if alpha.is_some_and(|a| !(-1.0 / 3.0..=0.0).contains(&a)) {
+            self.error(
+                card.place,
+                "ALPHA must lie between -1/3 and 0",
+                "the default is -0.05",
+            );
+        }
+        self.proceed(
+            card,
+            Procedure::Dynamic {
+                times,
+                direct: card.has("DIRECT"),
+                explicit: card.has("EXPLICIT"),
+                alpha,
+            },
+        );
+    }
+
+    fn act(&mut self, action: Action) {
+        if let Some(step) = self.deck.steps.last_mut() {
+            step.actions.push(action);
+        }
+    }
+
+    /// `OP=NEW` takes away what was prescribed before.
+    fn operation(&mut self, card: &Card, clear: Action) {
+        match card.get("OP") {
+            Some("NEW") => self.act(clear),
+            None | Some("MOD") => {}
+            Some(other) => self.error(
+                card.place,
+                format!("OP={other} is not known"),
+                "OP is MOD or NEW",
+            ),
+        }
+    }
+
+    pub(super) fn boundary(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["OP", "AMPLITUDE", "FIXED", "TYPE", "LOADCASE"],
+            &[
+                "TIMEDELAY",
+                "SUBMODEL",
+                "STEP",
+                "DATASET",
+                "MASSFLOW",
+                "REGION",
+                "USER",
+            ],
+        );
+        for name in ["SUBMODEL", "USER", "TIMEDELAY"] {
+            if card.has(name) {
+                self.error(
+                    card.place,
+                    format!("*BOUNDARY, {name} is not supported"),
+                    "",
+                );
+                return;
+            }
+        }
+        if card.get("TYPE").is_some_and(|t| t != "DISPLACEMENT") {
+            self.error(
+                card.place,
+                "*BOUNDARY: only displacements are prescribed",
+                "give a velocity as a displacement that grows over the step",
+            );
+            return;
+        }
+        if self.in_step {
+            self.operation(card, Action::ClearBoundaries);
+        }
+        for data in &card.data {
+            let Some(target) = self.target(data, 0) else {
+                continue;
+            };
+            let components: Vec<usize> = match data.fields.get(1).map(|f| squeeze(f)).as_deref() {
+                Some("ENCASTRE") => (0..6).collect(),
+                Some("PINNED") => (0..3).collect(),
+                Some("XSYMM") => vec![0, 4, 5],
+                Some("YSYMM") => vec![1, 3, 5],
+                Some("ZSYMM") => vec![2, 3, 4],
+                _ => {
+                    if data.fields.get(1).and_then(|f| whole(f)) == Some(11)
+                        || data.fields.get(1).is_some_and(|f| f == "0")
+                    {
+                        self.error(
+                            data.place,
+                            "temperatures are not computed",
+                            "take the thermal part out",
+                        );
+                        continue;
+                    }
+                    let Some(first) = self.direction(data, 1, 6) else {
+                        continue;
+                    };
+                    let last = match data.fields.get(2).filter(|f| !f.is_empty()) {
+                        Some(_) => self.direction(data, 2, 6).unwrap_or(first),
+                        None => first,
+                    };
+                    if last < first {
+                        self.error(
+                            data.place,
+                            "the last direction is below the first",
+                            "write node, first direction, last direction, value",
+                        );
+                        continue;
+                    }
+                    (first..=last).collect()
+                }
+            };
+            let value = self.number(data, 3, 0.0);
+            if !self.in_step && value != 0.0 {
+                self.error(
+                    data.place,
+                    "before the first step only zero displacements are prescribed",
+                    "move the line into a *STEP",
+                );
+                continue;
+            }
+            let boundary = Boundary {
+                target,
+                components,
+                value,
+                amplitude: card.get("AMPLITUDE").map(str::to_string),
+                fixed: card.has("FIXED"),
+                place: data.place,
+            };
+            match self.in_step {
+                true => self.act(Action::Boundary(boundary)),
+                false => self.deck.supports.push(boundary),
+            }
+        }
+    }
+
+    pub(super) fn forces(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["OP", "AMPLITUDE"],
+            &[
+                "TIMEDELAY",
+                "USER",
+                "SECTOR",
+                "SUBMODEL",
+                "STEP",
+                "DATASET",
+                "OMEGA0",
+                "FOLLOWER",
+                "LOADCASE",
+            ],
+        );
+        if self.own_step(card).is_none() {
+            return;
+        }
+        self.operation(card, Action::ClearForces);
+        for data in &card.data {
+            let (Some(target), Some(component)) =
+                (self.target(data, 0), self.direction(data, 1, 3))
+            else {
+                continue;
+            };
+            let value = self.number(data, 2, 0.0);
+            let amplitude = card.get("AMPLITUDE").map(str::to_string);
+            self.act(Action::Force {
+                target,
+                component,
+                value,
+                amplitude,
+                place: data.place,
+            });
+        }
+    }
+
+    fn distribute(&mut self, card: &Card, load: Distributed, place: Place) {
+        let amplitude = card.get("AMPLITUDE").map(str::to_string);
+        self.act(Action::Distributed {
+            load,
+            amplitude,
+            place,
+        });
+    }
+
+    pub(super) fn distributed(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["OP", "AMPLITUDE"],
+            &[
+                "TIMEDELAY",
+                "SECTOR",
+                "SUBMODEL",
+                "STEP",
+                "DATASET",
+                "FOLLOWER",
+                "LOADCASE",
+            ],
+        );
+        if self.own_step(card).is_none() {
+            return;
+        }
+        self.operation(card, Action::ClearDistributed);
+        for data in &card.data {
+            let Some(first) = data.fields.first().cloned() else {
+                continue;
+            };
+            let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
+            // `*DLOAD` of a surface is what some pre-processors write.
+            if what == "P" && self.deck.surfaces.contains_key(&label(&first)) {
+                let p = self.number(data, 2, 0.0);
+                self.distribute(card, Distributed::Surface(label(&first), p), data.place);
+                continue;
+            }
+            let elements = match first.is_empty() && matches!(what.as_str(), "GRAV" | "CENTRIF") {
+                true => self.deck.elements.keys().copied().collect(),
+                false => self.elements_of(&first, data.place),
+            };
+            if elements.is_empty() {
+                continue;
+            }
+            let value = self.number(data, 2, 0.0);
+            let load = match what.as_str() {
+                "GRAV" => {
+                    let d = [3, 4, 5].map(|i| self.number(data, i, 0.0));
+                    Distributed::Gravity(elements, d.map(|c| c * value))
+                }
+                "CENTRIF" => {
+                    let p = [3, 4, 5].map(|i| self.number(data, i, 0.0));
+                    let d = [6, 7, 8].map(|i| self.number(data, i, 0.0));
+                    if value < 0.0 || d == [0.0; 3] {
+                        self.error(data.place, "CENTRIF needs the square of the angular speed, a point and a direction of the axis", "write set, CENTRIF, omega squared, px, py, pz, dx, dy, dz");
+                        continue;
+                    }
+                    Distributed::Centrifugal(elements, value, p, d)
+                }
+                "BX" => Distributed::Body(elements, [value, 0.0, 0.0]),
+                "BY" => Distributed::Body(elements, [0.0, value, 0.0]),
+                "BZ" => Distributed::Body(elements, [0.0, 0.0, value]),
+                _ if what.starts_with('P') => {
+                    let Some(face) = self.face(&what, 'P', data.place) else {
+                        continue;
+                    };
+                    let mut faces = Vec::new();
+                    for e in elements {
+                        if self.has_face(e, face, data.place) {
+                            faces.push((e, face));
+                        }
+                    }
+                    Distributed::Pressure(faces, value)
+                }
+                _ => {
+                    let message = format!(
+                        "the distributed load `{}` is not supported",
+                        super::clip(&what)
+                    );
+                    self.error(
+                        data.place,
+                        message,
+                        "P1 to P6 (pressure), GRAV, CENTRIF and BX, BY, BZ are",
+                    );
+                    continue;
+                }
+            };
+            self.distribute(card, load, data.place);
+        }
+    }
+
+    pub(super) fn surface_loads(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &["OP", "AMPLITUDE"],
+            &[
+                "TIMEDELAY",
+                "SUBMODEL",
+                "STEP",
+                "DATASET",
+                "FOLLOWER",
+                "CONSTANTRESULTANT",
+            ],
+        );
+        if self.own_step(card).is_none() {
+            return;
+        }
+        self.operation(card, Action::ClearDistributed);
+        for data in &card.data {
+            let name = data.fields.first().map(|f| label(f)).unwrap_or_default();
+            let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
+            if what != "P" {
+                self.error(
+                    data.place,
+                    format!("the surface load `{}` is not supported", super::clip(&what)),
+                    "P (pressure) is",
+                );
+                continue;
+            }
+            let p = self.number(data, 2, 0.0);
+            self.distribute(card, Distributed::Surface(name, p), data.place);
+        }
+    }
+
+    /// Every so many increments.
+    fn frequency(&mut self, card: &Card) -> usize {
+        let value = ["FREQUENCY", "FREQUENCYF"]
+            .iter()
+            .find_map(|n| card.get(n))
+            .and_then(number);
+        value
+            .filter(|v| (1.0..1e9).contains(v))
+            .map_or(1, |v| v as usize)
+    }
+
+    pub(super) fn print(&mut self, card: &Card) {
+        self.parameters(
+            card,
+            &[
+                "NSET",
+                "ELSET",
+                "TOTALS",
+                "FREQUENCY",
+                "FREQUENCYF",
+                "TIMEPOINTS",
+                "SLAVE",
+                "MASTER",
+            ],
+            &["GLOBAL", "SUMMARY"],
+        );
+        if self.own_step(card).is_none() {
+            return;
+        }
+        let totals = match card.get("TOTALS") {
+            Some("YES") => Totals::Yes,
+            Some("ONLY") => Totals::Only,
+            _ => Totals::No,
+        };
+        let every = self.frequency(card);
+        let keys = keys(card);
+        let known: &[&str] = match card.keyword.as_str() {
+            "NODEPRINT" => &["U", "RF", "V", "A", "NT"],
+            "ELPRINT" => &["S", "E", "ELSE", "EVOL", "ELKE", "EMAS", "ENER"],
+            _ => &[
+                "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",
+            ],
+        };
+        for key in &keys {
+            if !known.contains(&key.as_str()) {
+                let message = format!(
+                    "{}: {} is left out: it is not printed",
+                    card.written,
+                    super::clip(key)
+                );
+                self.note(card.place, message);
+            }
+        }
+        let keys: Vec<String> = keys
+            .into_iter()
+            .filter(|k| known.contains(&k.as_str()))
+            .collect();
+        let print = match card.keyword.as_str() {
+            "NODEPRINT" => match self.required(card, "NSET") {
+                Some(set) if !self.deck.node_sets.contains_key(&set) => {
+                    self.error(card.place, format!("there is no set of nodes {set}"), "");
+                    return;
+                }
+                Some(set) => Print::Node {
+                    set,
+                    keys,
+                    totals,
+                    every,
+                },
+                None => return,
+            },
+            "ELPRINT" => match self.required(card, "ELSET") {
+                Some(set) if !self.deck.element_sets.contains_key(&set) => {
+                    self.error(card.place, format!("there is no set of elements {set}"), "");
+                    return;
+                }
+                Some(set) => Print::Element {
+                    set,
+                    keys,
+                    totals,
+                    every,
+                },
+                None => return,
+            },
+            _ => {
+                let pair = card.get("SLAVE").zip(card.get("MASTER"));
+                Print::Contact {
+                    pair: pair.map(|(s, m)| (s.to_string(), m.to_string())),
+                    keys,
+                    totals,
+                    every,
+                }
+            }
+        };
+        if let Some(step) = self.deck.steps.last_mut() {
+            step.prints.push(print);
+        }
+    }
+
+    pub(super) fn output(&mut self, card: &Card) {
+        let every = self.frequency(card);
+        let times = card.get("TIMEPOINTS").map(str::to_string);
+        let Some(step) = self.own_step(card) else {
+            return;
+        };
+        step.output_every = Some(step.output_every.map_or(every, |e| e.min(every)));
+        step.output_times.extend(times);
+    }
+}

@@ -1,0 +1,445 @@
+//! `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` as CalculiX writes them to its `.dat` file.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use stickslip::Error;
+use stickslip::body::CellState;
+use stickslip::contact::interface::Interface;
+use stickslip::io::write_atomically;
+use stickslip::math::{add, cross, norm, scale, sub};
+use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::system::Force;
+
+use crate::deck::{Print, Totals};
+use crate::translate::Translation;
+
+/// Writes the `.dat` file of a deck while it runs. It is complete up to the last increment that was printed.
+#[derive(Debug)]
+pub struct Printer {
+    path: PathBuf,
+    text: String,
+    prints: Vec<Vec<Print>>,
+    node_sets: BTreeMap<String, Vec<u64>>,
+    element_sets: BTreeMap<String, Vec<u64>>,
+    pairs: Vec<(String, String, String)>,
+    /// Point by node, found at the first output.
+    points: BTreeMap<u64, usize>,
+    step: usize,
+    increment: usize,
+    time: f64,
+    /// Increment that was printed last.
+    done: Option<(usize, usize)>,
+    last: bool,
+}
+
+/// A number as in CalculiX's files, `1p,e13.6`.
+fn e(x: f64) -> String {
+    fortran(x, 6, 13)
+}
+
+/// A number with so many digits behind the point, right-aligned.
+fn fortran(x: f64, digits: usize, width: usize) -> String {
+    let text = format!("{:.*e}", digits, x + 0.0);
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let sign = if exponent < 0 { '-' } else { '+' };
+    format!(
+        "{:>width$}",
+        format!("{mantissa}E{sign}{:02}", exponent.abs())
+    )
+}
+
+/// A time as CalculiX writes it, `0.1000000E+01`.
+fn time(t: f64) -> String {
+    if t == 0.0 {
+        return " 0.0000000E+00".into();
+    }
+    let mut exponent = t.abs().log10().floor() as i32 + 1;
+    let mut mantissa = t / 10f64.powi(exponent);
+    if format!("{mantissa:.7}").starts_with('1') {
+        exponent += 1;
+        mantissa /= 10.0;
+    }
+    let sign = if exponent < 0 { '-' } else { '+' };
+    format!("{mantissa:>10.7}E{sign}{:02}", exponent.abs())
+}
+
+fn row(out: &mut String, head: &str, values: &[f64]) {
+    out.push_str(head);
+    for v in values {
+        out.push(' ');
+        out.push_str(&e(*v));
+    }
+    out.push('\n');
+}
+
+impl Printer {
+    /// A printer for a deck, or none if the deck prints nothing.
+    pub fn new(translation: &Translation, path: &Path) -> Option<Self> {
+        translation
+            .prints
+            .iter()
+            .any(|p| !p.is_empty())
+            .then(|| Printer {
+                path: path.to_path_buf(),
+                text: String::new(),
+                prints: translation.prints.clone(),
+                node_sets: translation.node_sets.clone(),
+                element_sets: translation.element_sets.clone(),
+                pairs: translation.pairs.clone(),
+                points: BTreeMap::new(),
+                step: 0,
+                increment: 0,
+                time: 0.0,
+                done: None,
+                last: false,
+            })
+    }
+
+    /// What was printed so far.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    fn due(&self, every: usize) -> bool {
+        self.last || self.increment.is_multiple_of(every.max(1))
+    }
+
+    fn print(&mut self, simulation: &Simulation) {
+        let key = (self.step, self.increment);
+        if self.done == Some(key) {
+            return;
+        }
+        if self.points.is_empty() {
+            let ids = &simulation.model.mesh.point_ids;
+            self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
+        }
+        let Some(prints) = self.prints.get(self.step - 1).cloned() else {
+            return;
+        };
+        let mut out = String::new();
+        for p in &prints {
+            match p {
+                Print::Node {
+                    set,
+                    keys,
+                    totals,
+                    every,
+                } if self.due(*every) => self.nodes(simulation, &mut out, (set, keys, *totals)),
+                Print::Element {
+                    set,
+                    keys,
+                    totals,
+                    every,
+                } if self.due(*every) => self.elements(simulation, &mut out, (set, keys, *totals)),
+                Print::Contact {
+                    pair,
+                    keys,
+                    totals,
+                    every,
+                } if self.due(*every) => {
+                    self.contact(simulation, &mut out, (pair.as_ref(), keys, *totals))
+                }
+                _ => {}
+            }
+        }
+        if out.is_empty() {
+            return;
+        }
+        if self.done.is_none_or(|(step, _)| step != self.step) {
+            let _ = write!(
+                self.text,
+                "\n                        S T E P  {:>6}\n\n",
+                self.step
+            );
+        }
+        let _ = write!(
+            self.text,
+            "\n                                INCREMENT{:>6}\n\n",
+            self.increment
+        );
+        self.text.push_str(&out);
+        self.done = Some(key);
+    }
+
+    fn nodes(
+        &self,
+        simulation: &Simulation,
+        out: &mut String,
+        (set, keys, totals): (&str, &[String], Totals),
+    ) {
+        let dofs = simulation.model.dofs;
+        let Some(nodes) = self.node_sets.get(set) else {
+            return;
+        };
+        let nodes: Vec<(u64, usize)> = nodes
+            .iter()
+            .filter_map(|n| Some((*n, *self.points.get(n)?)))
+            .collect();
+        let zero = vec![0.0; dofs.count()];
+        let or_zero = |v: &[f64]| {
+            if v.is_empty() {
+                zero.clone()
+            } else {
+                v.to_vec()
+            }
+        };
+        for key in keys {
+            let (title, values) = match key.as_str() {
+                "U" => ("displacements (vx,vy,vz)", simulation.state.u.clone()),
+                "V" => ("velocities (vx,vy,vz)", or_zero(&simulation.state.v)),
+                "A" => ("accelerations (vx,vy,vz)", or_zero(&simulation.state.a)),
+                "RF" => ("forces (fx,fy,fz)", simulation.external_forces()),
+                _ => continue,
+            };
+            let mut sum = [0.0; 3];
+            if totals != Totals::Only {
+                let _ = write!(
+                    out,
+                    "\n {title} for set {set} and time {}\n\n",
+                    time(self.time)
+                );
+            }
+            for (node, point) in &nodes {
+                let v = dofs.vector(&values, *point);
+                sum = add(sum, v);
+                if totals != Totals::Only {
+                    row(out, &format!("{node:>10}"), &v);
+                }
+            }
+            if totals != Totals::No && key == "RF" {
+                let _ = write!(
+                    out,
+                    "\n total force (fx,fy,fz) for set {set} and time {}\n\n",
+                    time(self.time)
+                );
+                row(out, "      ", &sum);
+            }
+        }
+    }
+
+    fn elements(
+        &self,
+        simulation: &Simulation,
+        out: &mut String,
+        (set, keys, totals): (&str, &[String], Totals),
+    ) {
+        let Some(elements) = self.element_sets.get(set) else {
+            return;
+        };
+        let model = &simulation.model;
+        let mut by_id = BTreeMap::new();
+        for body in &model.bodies {
+            body.elastic
+                .each_cell_state(&simulation.state.u, &mut |state: &CellState| {
+                    let block = &model.mesh.blocks[state.cell.block];
+                    by_id.insert(block.cell_ids[state.cell.cell], state.clone());
+                });
+        }
+        let title =
+            |what: &str| format!("\n {what} for set {set} and time {}\n\n", time(self.time));
+        for key in keys {
+            match key.as_str() {
+                "S" | "E" => {
+                    let what = match key.as_str() {
+                        "S" => "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)",
+                        _ => "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)",
+                    };
+                    out.push_str(&title(what));
+                    for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
+                        for (i, p) in cell.points.iter().enumerate() {
+                            // Shear strains are those of the tensor, half of ours.
+                            let (v, half) = if key == "S" {
+                                (p.stress, 1.0)
+                            } else {
+                                (p.strain, 0.5)
+                            };
+                            // Ours run xx yy zz xy yz xz.
+                            let shear = [v[3], v[5], v[4]].map(|s| half * s);
+                            row(
+                                out,
+                                &format!("{id:>10} {:>3}", i + 1),
+                                &[v[0], v[1], v[2], shear[0], shear[1], shear[2]],
+                            );
+                        }
+                    }
+                }
+                "ELSE" | "EVOL" => {
+                    let energy = key == "ELSE";
+                    let mut sum = 0.0;
+                    if totals != Totals::Only {
+                        out.push_str(&title(if energy {
+                            "internal energy (element, energy)"
+                        } else {
+                            "volume (element, volume)"
+                        }));
+                    }
+                    for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
+                        let v = if energy { cell.energy } else { cell.volume };
+                        sum += v;
+                        if totals != Totals::Only {
+                            row(out, &format!("{id:>10}"), &[v]);
+                        }
+                    }
+                    if totals != Totals::No {
+                        out.push_str(&title(if energy {
+                            "total internal energy"
+                        } else {
+                            "total volume"
+                        }));
+                        row(out, "      ", &[sum]);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn contact(
+        &self,
+        simulation: &Simulation,
+        out: &mut String,
+        (pair, keys, totals): (Option<&(String, String)>, &[String], Totals),
+    ) {
+        let model = &simulation.model;
+        let of_pair = |i: &&Interface| match pair {
+            Some((slave, master)) => self
+                .pairs
+                .iter()
+                .any(|(name, s, m)| *name == i.name && s == slave && m == master),
+            None => self.pairs.iter().any(|(name, ..)| *name == i.name),
+        };
+        let all = |what: &str| {
+            format!(
+                "\n {what} for all contact elements and time{}\n\n",
+                time(self.time)
+            )
+        };
+        for key in keys {
+            match key.as_str() {
+                "CDIS" | "CDISP" | "CSTR" | "CSTRESS" => {
+                    let gaps = key.starts_with("CD");
+                    out.push_str(&all(match gaps {
+                        true => "relative contact displacement (slave node,normal,tang1,tang2)",
+                        false => "contact stress (slave node,press,tang1,tang2)",
+                    }));
+                    for interface in model.interfaces.iter().filter(of_pair) {
+                        let (names, columns) = interface.table(&simulation.state.u);
+                        let column =
+                            |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
+                        let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
+                        let count = columns.first().map_or(0, Vec::len);
+                        for i in (0..count).filter(|&i| value("CSTATUS", i) > 0.0) {
+                            // Shear here is what acts on the slave; there it has the sign of the slip.
+                            let values = match gaps {
+                                true => [value("COPEN", i), value("CSLIP1", i), value("CSLIP2", i)],
+                                false => [
+                                    value("CPRESS", i),
+                                    -value("CSHEAR1", i),
+                                    -value("CSHEAR2", i),
+                                ],
+                            };
+                            row(out, &format!("{:>10}", value("node", i) as u64), &values);
+                        }
+                    }
+                }
+                "CNUM" => {
+                    out.push_str(&format!(
+                        "\n total number of contact elements for time {}\n\n",
+                        time(self.time)
+                    ));
+                    let tally = |i: &Interface| {
+                        let (names, columns) = i.table(&simulation.state.u);
+                        let at = names.iter().position(|n| n == "CSTATUS");
+                        at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
+                    };
+                    let n: usize = model.interfaces.iter().filter(of_pair).map(tally).sum();
+                    let _ = writeln!(out, "{n:>10}");
+                }
+                "CELS" if totals != Totals::No || pair.is_none() => {
+                    out.push_str(&format!(
+                        "\n total contact spring energy for time {}\n\n",
+                        time(self.time)
+                    ));
+                    let sum: f64 = model
+                        .interfaces
+                        .iter()
+                        .filter(of_pair)
+                        .map(|i| i.energy().stored)
+                        .sum();
+                    row(out, "      ", &[sum]);
+                }
+                "CF" | "CFN" | "CFS" => {
+                    for interface in model.interfaces.iter().filter(of_pair) {
+                        let named = self.pairs.iter().find(|(name, ..)| *name == interface.name);
+                        let Some((_, slave, master)) = named else {
+                            continue;
+                        };
+                        statistics(simulation, interface, out, (slave, master, self.time));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// What `CF` prints of a pair.
+fn statistics(
+    simulation: &Simulation,
+    interface: &Interface,
+    out: &mut String,
+    (slave, master, t): (&str, &str, f64),
+) {
+    let u = &simulation.state.u;
+    let r = interface.resultant(u);
+    let force = add(r.normal, r.shear);
+    let (centre, normal) = interface.centre_and_normal(u);
+    let about = sub(r.moment, cross(centre, force));
+    let _ = write!(
+        out,
+        "\n statistics for slave set {slave}, master set {master} and time {}\n",
+        time(t)
+    );
+    out.push_str("\n   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)\n\n");
+    row(out, "  ", &[force, r.moment].concat());
+    out.push_str("\n   center of gravity and mean normal\n\n");
+    row(out, "  ", &[centre, normal].concat());
+    out.push_str("\n   moment about the center of gravity(mx,my,mz)\n\n");
+    row(out, "  ", &about);
+    // Towards the slave it pushes; tension is positive there.
+    let pull: f64 = normal.iter().zip(force).map(|(n, f)| n * f).sum();
+    let shear = norm(sub(force, scale(pull, normal)));
+    out.push_str("\n   area,  normal force (+ = tension) and shear force (size)\n\n");
+    row(out, "  ", &[r.area, pull, shear]);
+}
+
+impl Observer for Printer {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        match event {
+            Event::Increment(row) => {
+                let column = |name: &str| row.get(name).unwrap_or(0.0);
+                self.step = column("STEP") as usize;
+                self.increment = column("INC") as usize;
+                self.time = column("TIME");
+                let ends = simulation
+                    .model
+                    .steps
+                    .get(self.step.saturating_sub(1))
+                    .map(|s| s.end);
+                self.last = ends.is_some_and(|end| self.time >= end * (1.0 - 1e-12));
+            }
+            Event::Output if self.step > 0 => {
+                self.print(simulation);
+                if self.last {
+                    write_atomically(&self.path, self.text.as_bytes())?;
+                }
+            }
+            Event::End => write_atomically(&self.path, self.text.as_bytes())?,
+            _ => {}
+        }
+        Ok(())
+    }
+}

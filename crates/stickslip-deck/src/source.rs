@@ -1,0 +1,302 @@
+//! Files to cards: comments, continuation lines, `*INCLUDE`, blanks and case.
+
+use std::path::{Path, PathBuf};
+
+use crate::finding::{DeckError, Finding, Severity};
+
+/// Where a line is: number of the file in [`Source::files`], and line from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Place {
+    /// Index of the file.
+    pub file: usize,
+    /// Line, from 1.
+    pub line: usize,
+}
+
+/// A parameter of a keyword line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name, in capitals and without blanks.
+    pub name: String,
+    /// What follows the equals sign: in capitals and without blanks, unless it was quoted or names a file.
+    pub value: Option<String>,
+}
+
+/// A data line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Data {
+    /// Its fields, without blanks around them; an empty field is the default. Empty fields at the end are dropped.
+    pub fields: Vec<String>,
+    /// Where it is.
+    pub place: Place,
+}
+
+/// A keyword with its parameters and the data lines that follow.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Card {
+    /// The keyword in capitals without blanks and star: `SOLIDSECTION`.
+    pub keyword: String,
+    /// As it was written, for messages: `*Solid Section`.
+    pub written: String,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// Where it is.
+    pub place: Place,
+    /// Its data lines.
+    pub data: Vec<Data>,
+}
+
+impl Card {
+    /// The value of a parameter; `Some("")` if it was given without one.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        let found = self.parameters.iter().find(|p| p.name == name)?;
+        Some(found.value.as_deref().unwrap_or(""))
+    }
+
+    /// Whether a parameter was given.
+    pub fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+}
+
+/// A deck as cards.
+#[derive(Debug, Clone, Default)]
+pub struct Source {
+    /// The file and those it includes, in the order they were met.
+    pub files: Vec<PathBuf>,
+    /// The cards in order.
+    pub cards: Vec<Card>,
+}
+
+/// Deepest nesting of included files.
+const DEPTH: usize = 16;
+
+struct Line {
+    text: String,
+    place: Place,
+}
+
+impl Source {
+    /// Reads a file and all it includes.
+    ///
+    /// # Errors
+    /// Files that cannot be read, that include each other in a circle, and lines that belong to no keyword.
+    pub fn read(path: &Path) -> Result<Source, DeckError> {
+        let bytes = std::fs::read(path).map_err(|e| DeckError::io(path, &e, None))?;
+        Source::parse(&bytes, path)
+    }
+
+    /// The same from the bytes of the first file; `path` is for messages, and for the folder of what it includes.
+    ///
+    /// # Errors
+    /// Those of [`Source::read`].
+    pub fn parse(bytes: &[u8], path: &Path) -> Result<Source, DeckError> {
+        let mut source = Source::default();
+        let mut lines = Vec::new();
+        let mut open = vec![path.to_path_buf()];
+        source.join(bytes, path, &mut open, &mut lines)?;
+        source.cut(lines)?;
+        Ok(source)
+    }
+
+    fn error(&self, place: Place, message: String, help: &str) -> DeckError {
+        DeckError {
+            findings: vec![Finding {
+                severity: Severity::Error,
+                file: self.files.get(place.file).cloned().unwrap_or_default(),
+                line: place.line,
+                message,
+                help: Some(help.into()),
+            }],
+        }
+    }
+
+    /// The lines of a file without comments and blank lines, with included files in place.
+    fn join(
+        &mut self,
+        bytes: &[u8],
+        path: &Path,
+        open: &mut Vec<PathBuf>,
+        lines: &mut Vec<Line>,
+    ) -> Result<(), DeckError> {
+        let file = self.files.len();
+        self.files.push(path.to_path_buf());
+        // Decks come from programs that write titles in whatever encoding they like; only titles can have such letters.
+        let text = String::from_utf8_lossy(bytes);
+        let mut pending: Option<Line> = None;
+        for (i, raw) in text.lines().enumerate() {
+            let place = Place { file, line: i + 1 };
+            let line = raw.trim_start_matches('\u{feff}').trim();
+            // `>**` is how one of CalculiX's own decks begins.
+            if line.is_empty() || line.starts_with("**") || line.starts_with(">**") {
+                continue;
+            }
+            let line = match pending.take() {
+                Some(mut begun) if !line.starts_with('*') => {
+                    begun.text.push_str(line);
+                    begun
+                }
+                Some(begun) => {
+                    lines.push(begun);
+                    Line {
+                        text: line.to_string(),
+                        place,
+                    }
+                }
+                None => Line {
+                    text: line.to_string(),
+                    place,
+                },
+            };
+            // A keyword line that ends with a comma goes on.
+            if line.text.starts_with('*') && line.text.ends_with(',') {
+                pending = Some(line);
+                continue;
+            }
+            self.take(line, path, open, lines)?;
+        }
+        if let Some(line) = pending {
+            self.take(line, path, open, lines)?;
+        }
+        Ok(())
+    }
+
+    fn take(
+        &mut self,
+        line: Line,
+        path: &Path,
+        open: &mut Vec<PathBuf>,
+        lines: &mut Vec<Line>,
+    ) -> Result<(), DeckError> {
+        if !line.text.starts_with('*')
+            || squeeze(&line.text[1..]).split(',').next() != Some("INCLUDE")
+        {
+            lines.push(line);
+            return Ok(());
+        }
+        let input = parameters(&line.text)
+            .into_iter()
+            .find(|p| p.name == "INPUT");
+        let Some(name) = input.and_then(|p| p.value).filter(|v| !v.is_empty()) else {
+            return Err(self.error(
+                line.place,
+                "*INCLUDE names no file".into(),
+                "write *INCLUDE, INPUT=file.inp",
+            ));
+        };
+        // Decks written on Windows name files with backslashes.
+        let inner = path
+            .parent()
+            .unwrap_or(Path::new(""))
+            .join(name.replace('\\', "/"));
+        if open.contains(&inner) || open.len() >= DEPTH {
+            return Err(self.error(
+                line.place,
+                format!("the files include each other in a circle, or {DEPTH} deep: {name}"),
+                "each *INCLUDE must name a file that does not lead back here",
+            ));
+        }
+        let here = self.files[line.place.file].clone();
+        let bytes = std::fs::read(&inner)
+            .map_err(|e| DeckError::io(&inner, &e, Some((&here, line.place.line))))?;
+        open.push(inner.clone());
+        self.join(&bytes, &inner, open, lines)?;
+        open.pop();
+        Ok(())
+    }
+
+    fn cut(&mut self, lines: Vec<Line>) -> Result<(), DeckError> {
+        for line in lines {
+            if let Some(rest) = line.text.strip_prefix('*') {
+                let written = rest.split(',').next().unwrap_or_default().trim();
+                self.cards.push(Card {
+                    keyword: squeeze(written),
+                    written: format!("*{written}"),
+                    parameters: parameters(&line.text),
+                    place: line.place,
+                    data: Vec::new(),
+                });
+                continue;
+            }
+            let mut fields: Vec<String> =
+                line.text.split(',').map(|f| f.trim().to_string()).collect();
+            while fields.last().is_some_and(String::is_empty) {
+                fields.pop();
+            }
+            match self.cards.last_mut() {
+                Some(card) => card.data.push(Data {
+                    fields,
+                    place: line.place,
+                }),
+                None => {
+                    return Err(self.error(
+                        line.place,
+                        "data before the first keyword".into(),
+                        "an input deck consists of keyword lines that begin with * and of their data; comments begin with **",
+                    ));
+                }
+            }
+        }
+        if self.cards.is_empty() {
+            return Err(self.error(
+                Place::default(),
+                "the file has no keyword".into(),
+                "an input deck has lines that begin with *, such as *NODE and *ELEMENT",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Capitals without blanks.
+pub(crate) fn squeeze(text: &str) -> String {
+    let kept = text.chars().filter(|c| !c.is_whitespace());
+    kept.collect::<String>().to_uppercase()
+}
+
+/// A name of the user's: quotes keep blanks and case.
+pub(crate) fn label(text: &str) -> String {
+    match text.trim().strip_prefix('"') {
+        Some(quoted) => quoted.trim_end_matches('"').to_string(),
+        None => squeeze(text),
+    }
+}
+
+fn parameters(line: &str) -> Vec<Parameter> {
+    let mut out = Vec::new();
+    for part in split(line).into_iter().skip(1) {
+        let (name, value) = match part.split_once('=') {
+            Some((name, value)) => (squeeze(name), Some(value)),
+            None => (squeeze(&part), None),
+        };
+        if name.is_empty() {
+            continue;
+        }
+        let value = value.map(|v| match name.as_str() {
+            "INPUT" | "FILE" => v.trim().trim_matches('"').to_string(),
+            _ => label(v),
+        });
+        out.push(Parameter { name, value });
+    }
+    out
+}
+
+/// At commas outside quotes.
+fn split(line: &str) -> Vec<String> {
+    let mut out = vec![String::new()];
+    let mut quoted = false;
+    for c in line.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => {
+                out.push(String::new());
+                continue;
+            }
+            _ => {}
+        }
+        if let Some(last) = out.last_mut() {
+            last.push(c);
+        }
+    }
+    out
+}

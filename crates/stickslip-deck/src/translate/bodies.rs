@@ -1,0 +1,457 @@
+//! Connected cells are bodies.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use stickslip::io::abaqus::{self, Integration, Space};
+use stickslip::mesh::{Block, CellRef, FacetRef, Mesh};
+
+use super::sets::Sets;
+use super::{Job, materials, toml};
+use crate::deck::{Section, SurfaceParts};
+use crate::source::Place;
+
+/// A body of the deck.
+#[derive(Debug)]
+pub(super) struct Body {
+    pub name: String,
+    /// Its elements.
+    pub elements: BTreeSet<u64>,
+    /// Index of its `*RIGID BODY`.
+    pub rigid: Option<usize>,
+    pub place: Place,
+}
+
+/// All bodies.
+#[derive(Debug)]
+pub(super) struct Bodies {
+    pub all: Vec<Body>,
+    pub mesh: Mesh,
+    pub space: Space,
+    /// Body of a node.
+    pub of_node: BTreeMap<u64, usize>,
+    /// Cell, and body, of an element.
+    pub of_element: BTreeMap<u64, (CellRef, usize)>,
+    /// Section of an element: index into the deck's.
+    pub section: BTreeMap<u64, usize>,
+}
+
+impl Bodies {
+    pub fn dim(&self) -> usize {
+        self.mesh.dim
+    }
+
+    /// Faces of the mesh, by body. Faces that both neighbours share are inside and left out where all are asked for.
+    pub fn faces(&self, parts: &SurfaceParts) -> BTreeMap<usize, Vec<FacetRef>> {
+        let mut out: BTreeMap<usize, Vec<FacetRef>> = BTreeMap::new();
+        let SurfaceParts::Faces(faces) = parts else {
+            return out;
+        };
+        let outside = match faces.iter().any(|(_, f)| f.is_none()) {
+            true => self.mesh.boundary().into_iter().collect(),
+            false => BTreeSet::new(),
+        };
+        for (element, face) in faces {
+            let Some((cell, body)) = self.of_element.get(element) else {
+                continue;
+            };
+            let kind = self.mesh.blocks[cell.block].kind;
+            let list = out.entry(*body).or_default();
+            match face {
+                Some(n) => list.extend(
+                    abaqus::face_index(kind, *n).map(|face| FacetRef { cell: *cell, face }),
+                ),
+                None => list.extend(
+                    outside
+                        .range(
+                            FacetRef {
+                                cell: *cell,
+                                face: 0,
+                            }..,
+                        )
+                        .take_while(|f| f.cell == *cell),
+                ),
+            }
+        }
+        for list in out.values_mut() {
+            let mut seen = BTreeSet::new();
+            list.retain(|f| seen.insert(*f));
+        }
+        out
+    }
+}
+
+/// Root of a tree of joined nodes.
+fn root(parent: &mut BTreeMap<u64, u64>, mut n: u64) -> u64 {
+    loop {
+        let up = *parent.entry(n).or_insert(n);
+        if up == n {
+            return n;
+        }
+        // Shorter every time it is walked.
+        let next = *parent.entry(up).or_insert(up);
+        parent.insert(n, next);
+        n = next;
+    }
+}
+
+pub(super) fn find(job: &mut Job) -> Option<Bodies> {
+    let deck = job.deck;
+    let mut parent: BTreeMap<u64, u64> = BTreeMap::new();
+    let mut space: Option<(Space, u64)> = None;
+    let mut cells = BTreeMap::new();
+    for (id, e) in &deck.elements {
+        let Ok(t) = abaqus::element_type(&e.kind) else {
+            continue;
+        };
+        match space {
+            None => space = Some((t.space, *id)),
+            Some((s, _)) if s == t.space => {}
+            Some((_, first)) => {
+                let message = format!(
+                    "element {id} ({}) lives in another space than element {first} ({})",
+                    e.kind, deck.elements[&first].kind
+                );
+                job.error(
+                    e.place,
+                    message,
+                    "solid, plane strain, plane stress and axisymmetric elements cannot be mixed",
+                );
+                return None;
+            }
+        }
+        let first = root(&mut parent, e.nodes[0]);
+        for &n in &e.nodes[1..] {
+            let other = root(&mut parent, n);
+            let (low, high) = (first.min(other), first.max(other));
+            if low != high {
+                parent.insert(high, low);
+            }
+        }
+        // The lowest root may have moved.
+        root(&mut parent, e.nodes[0]);
+        cells.insert(*id, t);
+    }
+    let Some((space, _)) = space else {
+        job.error(
+            Place::default(),
+            "the deck has no solid or plane elements",
+            "bodies are made of C3D, CPE, CPS or CAX elements",
+        );
+        return None;
+    };
+    let dim = if space == Space::Solid { 3 } else { 2 };
+    let mut mesh = Mesh {
+        dim,
+        ..Mesh::default()
+    };
+    let used: BTreeSet<u64> = cells
+        .keys()
+        .flat_map(|id| deck.elements[id].nodes.iter().copied())
+        .collect();
+    let mut index = BTreeMap::new();
+    for n in used {
+        let mut x = deck.nodes[&n];
+        if dim == 2 {
+            x[2] = 0.0;
+        }
+        index.insert(n, mesh.points.len());
+        mesh.points.push(x);
+        mesh.point_ids.push(n);
+    }
+    // One block a kind of cell and way to integrate, in the order of the numbers.
+    let mut blocks = BTreeMap::new();
+    let (mut groups, mut all): (BTreeMap<u64, usize>, Vec<Body>) = (BTreeMap::new(), Vec::new());
+    let (mut of_node, mut of_element) = (BTreeMap::new(), BTreeMap::new());
+    for (id, t) in &cells {
+        let e = &deck.elements[id];
+        let group = root(&mut parent, e.nodes[0]);
+        let body = *groups.entry(group).or_insert_with(|| {
+            all.push(Body {
+                name: String::new(),
+                elements: BTreeSet::new(),
+                rigid: None,
+                place: e.place,
+            });
+            all.len() - 1
+        });
+        let at = *blocks.entry(t.kind.name()).or_insert_with(|| {
+            mesh.blocks.push(Block {
+                kind: t.kind,
+                connectivity: Vec::new(),
+                cell_ids: Vec::new(),
+            });
+            mesh.blocks.len() - 1
+        });
+        let block = &mut mesh.blocks[at];
+        of_element.insert(
+            *id,
+            (
+                CellRef {
+                    block: at,
+                    cell: block.cell_ids.len(),
+                },
+                body,
+            ),
+        );
+        block.cell_ids.push(*id);
+        let order = abaqus::node_order(t.kind);
+        let nodes = (0..e.nodes.len()).map(|i| e.nodes[order.get(i).copied().unwrap_or(i)]);
+        block.connectivity.extend(nodes.map(|n| index[&n]));
+        e.nodes.iter().for_each(|n| {
+            of_node.insert(*n, body);
+        });
+        all[body].elements.insert(*id);
+    }
+    let mut bodies = Bodies {
+        all,
+        mesh,
+        space,
+        of_node,
+        of_element,
+        section: BTreeMap::new(),
+    };
+    names(job, &mut bodies);
+    sections(job, &mut bodies);
+    rigid(job, &mut bodies);
+    Some(bodies)
+}
+
+/// A body is called like the set of just its elements, or by a number.
+fn names(job: &Job, bodies: &mut Bodies) {
+    let deck = job.deck;
+    let sectioned: Vec<&String> = deck.sections.iter().map(|s| &s.set).collect();
+    let mut taken = BTreeSet::new();
+    for (i, body) in bodies.all.iter_mut().enumerate() {
+        let same = |name: &&String| {
+            let set = &deck.element_sets[*name];
+            set.len() == body.elements.len() && set.iter().all(|e| body.elements.contains(e))
+        };
+        let known = sectioned
+            .iter()
+            .copied()
+            .filter(|n| deck.element_sets.contains_key(*n));
+        let found = known
+            .chain(deck.element_sets.keys())
+            .find(same)
+            .map(|n| toml::name(n));
+        body.name = found
+            .filter(|n| !taken.contains(n))
+            .unwrap_or_else(|| format!("body-{}", i + 1));
+        taken.insert(body.name.clone());
+    }
+}
+
+fn sections(job: &mut Job, bodies: &mut Bodies) {
+    let deck = job.deck;
+    for (i, s) in deck.sections.iter().enumerate() {
+        for e in deck.element_sets.get(&s.set).into_iter().flatten() {
+            bodies.section.insert(*e, i);
+        }
+    }
+    let bare = bodies
+        .of_element
+        .keys()
+        .find(|e| !bodies.section.contains_key(e));
+    if let Some(e) = bare {
+        let place = deck.elements[e].place;
+        job.error(
+            place,
+            format!("element {e} has no section"),
+            "give its set a *SOLID SECTION with a material",
+        );
+    }
+}
+
+fn rigid(job: &mut Job, bodies: &mut Bodies) {
+    let deck = job.deck;
+    for (i, r) in deck.rigid.iter().enumerate() {
+        let elements: Vec<u64> = r
+            .elements
+            .iter()
+            .flat_map(|s| deck.element_sets.get(s).into_iter().flatten().copied())
+            .collect();
+        let nodes: Vec<u64> = r
+            .nodes
+            .iter()
+            .flat_map(|s| deck.node_sets.get(s).into_iter().flatten().copied())
+            .collect();
+        let owners: BTreeSet<usize> = elements
+            .iter()
+            .filter_map(|e| bodies.of_element.get(e).map(|(_, b)| *b))
+            .chain(nodes.iter().filter_map(|n| bodies.of_node.get(n).copied()))
+            .collect();
+        let whole = |b: &usize| {
+            let body = &bodies.all[*b];
+            let mine: BTreeSet<u64> = elements.iter().copied().collect();
+            let points: BTreeSet<u64> = nodes.iter().copied().collect();
+            body.elements.iter().all(|e| {
+                mine.contains(e) || deck.elements[e].nodes.iter().all(|n| points.contains(n))
+            })
+        };
+        if owners.is_empty() || !owners.iter().all(whole) {
+            job.error(
+                r.place,
+                "the rigid body is not the whole of a connected body",
+                "a body is rigid as a whole: name all its elements, or cut it off and glue it on with *TIE",
+            );
+            continue;
+        }
+        if owners.len() > 1 {
+            job.error(
+                r.place,
+                "the rigid body consists of several parts that do not touch",
+                "give each part a *RIGID BODY",
+            );
+            continue;
+        }
+        for b in owners {
+            bodies.all[b].rigid = Some(i);
+        }
+    }
+}
+
+fn space_name(space: Space) -> &'static str {
+    match space {
+        Space::Solid => "solid",
+        Space::PlaneStress => "plane-stress",
+        Space::PlaneStrain => "plane-strain",
+        Space::Axisymmetric => "axisymmetric",
+    }
+}
+
+/// How the elements of a body are integrated.
+fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
+    let deck = job.deck;
+    let mut found: Option<(Integration, u64)> = None;
+    for id in &body.elements {
+        let e = &deck.elements[id];
+        let Ok(t) = abaqus::element_type(&e.kind) else {
+            continue;
+        };
+        // Linear triangles and tetrahedra are the same however they are integrated.
+        let simple = matches!(
+            t.kind.name(),
+            "tri3" | "tet4" | "tet10" | "wedge6" | "tri6" | "wedge15"
+        );
+        match found {
+            _ if simple && t.integration == Integration::Full => {}
+            None => found = Some((t.integration, *id)),
+            Some((f, first)) if f != t.integration => {
+                let message = format!(
+                    "{} and {} (element {first}) are mixed in one body: all are taken as fully integrated",
+                    e.kind, deck.elements[&first].kind
+                );
+                job.warn(e.place, message, "use one type of element in a body");
+                return None;
+            }
+            Some(_) => {}
+        }
+    }
+    match found.map(|f| f.0) {
+        Some(Integration::Reduced) => Some("reduced"),
+        Some(Integration::Incompatible) => Some("incompatible-modes"),
+        Some(Integration::Full) | None => None,
+    }
+}
+
+pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: &Path) {
+    let deck = job.deck;
+    job.out.line("");
+    job.out.line("[model]");
+    job.out
+        .line(&format!("space = \"{}\"", space_name(bodies.space)));
+    if matches!(bodies.space, Space::PlaneStress | Space::PlaneStrain) {
+        let thick: BTreeMap<u64, &Section> = deck
+            .sections
+            .iter()
+            .map(|s| (s.thickness.unwrap_or(1.0).to_bits(), s))
+            .collect();
+        if thick.len() > 1 {
+            let place = deck.sections.last().map_or(Place::default(), |s| s.place);
+            job.error(
+                place,
+                "sections of different thickness",
+                "all bodies of a plane problem have the same thickness",
+            );
+        }
+        if let Some(t) = deck.sections.iter().find_map(|s| s.thickness) {
+            job.out.line(&format!("thickness = {}", toml::number(t)));
+        }
+    }
+    for body in &bodies.all {
+        let formulation = formulation(job, body);
+        job.table("body", &body.name, body.place);
+        let group = sets.cells(bodies, &body.name, body.elements.iter().copied().collect());
+        let file = toml::text(&mesh_name.to_string_lossy());
+        job.out.line(&format!(
+            "gmsh = {{ file = {file}, group = {} }}",
+            toml::text(&group)
+        ));
+        let mut regions: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+        for e in &body.elements {
+            if let Some(s) = bodies.section.get(e) {
+                regions
+                    .entry(materials::of(deck, &deck.sections[*s]))
+                    .or_default()
+                    .push(*e);
+            }
+        }
+        match regions.len() {
+            1 => {
+                for material in regions.keys() {
+                    job.out
+                        .line(&format!("material = {}", toml::text(material)));
+                }
+            }
+            _ => {
+                for (material, elements) in regions {
+                    let set = sets.cells(bodies, &format!("{}-{material}", body.name), elements);
+                    job.out.line(&format!(
+                        "regions.{} = {}",
+                        toml::key(&set),
+                        toml::text(&material)
+                    ));
+                }
+            }
+        }
+        if let Some(f) = formulation {
+            job.out.line(&format!("formulation = \"{f}\""));
+        }
+        if body.rigid.is_some() {
+            job.out.line("rigid = true");
+        }
+        damping(job, bodies, body);
+    }
+}
+
+fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
+    let deck = job.deck;
+    let of = |e: &u64| {
+        let s = &deck.sections[*bodies.section.get(e)?];
+        Some((
+            deck.materials.get(&s.material)?.damping.unwrap_or_default(),
+            s.place,
+        ))
+    };
+    let mut all = body.elements.iter().filter_map(of);
+    let Some((first, place)) = all.next() else {
+        return;
+    };
+    if all.any(|(d, _)| d != first) {
+        job.error(
+            place,
+            format!(
+                "the materials of the body {} have different damping",
+                body.name
+            ),
+            "Rayleigh damping is that of a whole body",
+        );
+    } else if first != [0.0; 2] {
+        job.out.line(&format!(
+            "rayleigh = {{ mass = {}, stiffness = {} }}",
+            toml::number(first[0]),
+            toml::number(first[1])
+        ));
+    }
+}

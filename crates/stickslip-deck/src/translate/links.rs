@@ -1,0 +1,173 @@
+//! `*EQUATION`, springs and masses.
+
+use super::bodies::Bodies;
+use super::sets::Sets;
+use super::{Job, supports, toml};
+use crate::source::Place;
+
+pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    equations(job, bodies, sets);
+    springs(job, bodies, sets);
+    masses(job, bodies, sets);
+}
+
+/// A term of an equation or a spring.
+type Term = (u64, [f64; 3]);
+
+/// Terms as the problem writes them.
+fn terms(bodies: &Bodies, sets: &mut Sets, terms: &[Term]) -> String {
+    let mut out = Vec::new();
+    for (node, factors) in terms {
+        let set = sets.points(bodies, &format!("node-{node}"), &[*node]);
+        for (c, f) in ["x", "y", "z"][..bodies.dim()].iter().zip(factors) {
+            if *f != 0.0 {
+                out.push(format!(
+                    "{{ set = {}, component = \"{c}\", factor = {} }}",
+                    toml::text(&set),
+                    toml::number(*f)
+                ));
+            }
+        }
+    }
+    format!("[{}]", out.join(", "))
+}
+
+fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
+    let local = job
+        .deck
+        .transforms
+        .get(&node)
+        .and_then(|t| supports::axes(t, job.deck.nodes[&node]));
+    match local {
+        Some(axes) => axes[component].map(|c| c * factor),
+        None => std::array::from_fn(|i| if i == component { factor } else { 0.0 }),
+    }
+}
+
+/// Whether all nodes move with a body; it is an error if not.
+fn on_bodies(
+    job: &mut Job,
+    bodies: &Bodies,
+    nodes: impl IntoIterator<Item = u64>,
+    place: Place,
+) -> bool {
+    for n in nodes {
+        if !bodies.of_node.contains_key(&n) {
+            job.error(
+                place,
+                format!("node {n} belongs to no body"),
+                "only nodes of solid and plane elements move",
+            );
+            return false;
+        }
+    }
+    true
+}
+
+fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    for (i, e) in job.deck.equations.iter().enumerate() {
+        let nodes: Vec<Vec<u64>> = e.terms.iter().map(|t| job.nodes(&t.target)).collect();
+        // Sets are paired one by one, in the order of the deck.
+        let count = nodes.iter().map(Vec::len).max().unwrap_or(0);
+        if nodes.iter().any(|n| n.len() != count && n.len() != 1) {
+            job.error(
+                e.place,
+                "the sets of the equation have different numbers of nodes",
+                "each set has as many nodes as the first, or one",
+            );
+            continue;
+        }
+        for k in 0..count {
+            let list: Vec<Term> = (e.terms.iter().zip(&nodes))
+                .map(|(t, n)| {
+                    let node = if n.len() == 1 { n[0] } else { n[k] };
+                    (node, along(job, node, t.component, t.factor))
+                })
+                .collect();
+            if !on_bodies(job, bodies, list.iter().map(|t| t.0), e.place) {
+                break;
+            }
+            let name = job.fresh("coupling", &format!("equation-{}", i + 1));
+            let terms = terms(bodies, sets, &list);
+            job.table("coupling", &name, e.place);
+            job.out.line(&format!("equation = {{ terms = {terms} }}"));
+        }
+    }
+}
+
+fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let deck = job.deck;
+    for s in &deck.springs {
+        for id in deck.element_sets.get(&s.set).into_iter().flatten() {
+            let e = &deck.elements[id];
+            if !on_bodies(job, bodies, e.nodes.iter().copied(), e.place) {
+                continue;
+            }
+            let name = job.fresh("coupling", &format!("spring-{id}"));
+            let stiffness = toml::number(s.stiffness);
+            let direction = |k: usize| {
+                s.directions
+                    .get(k)
+                    .or(s.directions.first())
+                    .copied()
+                    .unwrap_or(0)
+            };
+            let line = match e.kind.as_str() {
+                "SPRINGA" => {
+                    let a = sets.points(bodies, &format!("node-{}", e.nodes[0]), &e.nodes[..1]);
+                    let b = sets.points(bodies, &format!("node-{}", e.nodes[1]), &e.nodes[1..2]);
+                    format!(
+                        "axial-spring = {{ from = {}, to = {}, stiffness = {stiffness} }}",
+                        toml::text(&a),
+                        toml::text(&b)
+                    )
+                }
+                "SPRING1" => {
+                    let list = [(e.nodes[0], along(job, e.nodes[0], direction(0), 1.0))];
+                    format!(
+                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
+                        terms(bodies, sets, &list)
+                    )
+                }
+                "SPRING2" => {
+                    let list = [
+                        (e.nodes[0], along(job, e.nodes[0], direction(0), 1.0)),
+                        (e.nodes[1], along(job, e.nodes[1], direction(1), -1.0)),
+                    ];
+                    format!(
+                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
+                        terms(bodies, sets, &list)
+                    )
+                }
+                _ => {
+                    job.error(
+                        s.place,
+                        format!("element {id} ({}) is no spring", e.kind),
+                        "*SPRING is for SPRINGA, SPRING1 and SPRING2",
+                    );
+                    continue;
+                }
+            };
+            job.table("coupling", &name, e.place);
+            job.out.line(&line);
+        }
+    }
+}
+
+fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let deck = job.deck;
+    for (set, mass, place) in &deck.masses {
+        let ids = deck.element_sets.get(set).into_iter().flatten();
+        let nodes: Vec<u64> = ids
+            .filter_map(|id| deck.elements[id].nodes.first().copied())
+            .collect();
+        if !on_bodies(job, bodies, nodes.iter().copied(), *place) {
+            continue;
+        }
+        let name = job.fresh("mass", &toml::name(set));
+        let set = sets.points(bodies, &toml::name(&format!("{set}-nodes")), &nodes);
+        job.table("mass", &name, *place);
+        job.out.line(&format!("set = {}", toml::text(&set)));
+        job.out.line(&format!("mass = {}", toml::number(*mass)));
+    }
+}

@@ -1,0 +1,387 @@
+//! `*CLOAD`, `*DLOAD`, `*DSLOAD` and `*INITIAL CONDITIONS`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use stickslip::mesh::FacetRef;
+
+use super::bodies::Bodies;
+use super::sets::Sets;
+use super::{Job, steps, supports, toml};
+use crate::deck::{Action, Distributed, SurfaceParts, Target};
+use crate::source::Place;
+
+/// A value that acts in some of the steps.
+#[derive(Debug, Clone)]
+struct Acting<T> {
+    what: T,
+    amplitude: Option<String>,
+    place: Place,
+    label: String,
+    steps: Vec<bool>,
+}
+
+/// Values by step to values with their steps, equal ones together.
+fn collect<K: Ord + Clone, T: Clone + PartialEq>(
+    by_step: &[BTreeMap<K, (T, Option<String>, Place, String)>],
+) -> Vec<(K, Acting<T>)> {
+    let mut out: Vec<(K, Acting<T>)> = Vec::new();
+    let mut at: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for (i, state) in by_step.iter().enumerate() {
+        for (key, (what, amplitude, place, label)) in state {
+            let known = at.entry(key.clone()).or_default();
+            let same = known
+                .iter()
+                .copied()
+                .find(|&j| out[j].1.what == *what && out[j].1.amplitude == *amplitude);
+            let index = same.unwrap_or_else(|| {
+                known.push(out.len());
+                let acting = Acting {
+                    what: what.clone(),
+                    amplitude: amplitude.clone(),
+                    place: *place,
+                    label: label.clone(),
+                    steps: vec![false; by_step.len()],
+                };
+                out.push((key.clone(), acting));
+                out.len() - 1
+            });
+            out[index].1.steps[i] = true;
+        }
+    }
+    out
+}
+
+pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    forces(job, bodies, sets);
+    pressures(job, bodies, sets);
+    volumes(job, bodies, sets);
+    initial(job, bodies, sets);
+}
+
+/// Opens the table of a load and writes what all have in common.
+fn open(
+    job: &mut Job,
+    name: &str,
+    set: &str,
+    place: Place,
+    (amplitude, steps): (&Option<String>, &[bool]),
+) {
+    let name = job.fresh("load", &toml::name(name));
+    let factor = amplitude
+        .as_ref()
+        .map(|a| steps::amplitude(job, a, steps, &name));
+    job.table("load", &name, place);
+    job.out.line(&format!("set = {}", toml::text(set)));
+    if let Some(factor) = factor {
+        job.out
+            .line(&format!("amplitude = {}", toml::text(&factor)));
+    }
+    job.active.push(("loads", name, steps.to_vec()));
+}
+
+fn label(target: &Target) -> String {
+    match target {
+        Target::Set(name) => name.clone(),
+        Target::One(n) => format!("node-{n}"),
+    }
+}
+
+fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    type State = BTreeMap<(u64, usize), (f64, Option<String>, Place, String)>;
+    let (mut state, mut by_step) = (State::new(), Vec::new());
+    for step in &job.deck.steps {
+        // The first force of a step replaces what was there, further ones add to it.
+        let mut touched = BTreeSet::new();
+        for action in &step.actions {
+            match action {
+                Action::ClearForces => state.clear(),
+                Action::Force {
+                    target,
+                    component,
+                    value,
+                    amplitude,
+                    place,
+                } => {
+                    for node in job.nodes(target) {
+                        let entry = state.entry((node, *component)).or_insert((
+                            0.0,
+                            None,
+                            *place,
+                            label(target),
+                        ));
+                        let before = if touched.insert((node, *component)) {
+                            0.0
+                        } else {
+                            entry.0
+                        };
+                        *entry = (before + value, amplitude.clone(), *place, label(target));
+                    }
+                }
+                _ => {}
+            }
+        }
+        by_step.push(state.clone());
+    }
+    // Directions of one node that act alike are one force, nodes with the same force one load.
+    let mut nodes: BTreeMap<(u64, Vec<bool>, Option<String>), ([f64; 3], Place, String)> =
+        BTreeMap::new();
+    for ((node, component), a) in collect(&by_step) {
+        let entry = nodes
+            .entry((node, a.steps, a.amplitude))
+            .or_insert(([0.0; 3], a.place, a.label));
+        entry.0[component] = a.what;
+    }
+    type Alike = (Vec<bool>, Option<String>, [u64; 3]);
+    let mut groups: BTreeMap<Alike, (Vec<u64>, Place, String)> = BTreeMap::new();
+    for ((node, steps, amplitude), (force, place, label)) in nodes {
+        let mut at = node;
+        if !bodies.of_node.contains_key(&node) {
+            match stand_in(job, bodies, node) {
+                Some(n) => at = n,
+                None => {
+                    job.error(place, format!("the force on node {node} acts on no body"), "the reference node of a rigid body is loaded where it coincides with a node of the body; otherwise load its nodes");
+                    continue;
+                }
+            }
+        }
+        let force = match job
+            .deck
+            .transforms
+            .get(&node)
+            .and_then(|t| supports::axes(t, job.deck.nodes[&node]))
+        {
+            Some(axes) => std::array::from_fn(|i| (0..3).map(|k| axes[k][i] * force[k]).sum()),
+            None => force,
+        };
+        if bodies.dim() == 2 && force[2] != 0.0 {
+            job.error(
+                place,
+                "a force along z in the plane",
+                "forces act along x (1) and y (2)",
+            );
+            continue;
+        }
+        let key = (steps, amplitude, force.map(|f: f64| (f + 0.0).to_bits()));
+        groups
+            .entry(key)
+            .or_insert((Vec::new(), place, label))
+            .0
+            .push(at);
+    }
+    let mut ordered: Vec<_> = groups.into_iter().collect();
+    ordered.sort_by_key(|(_, (_, place, _))| *place);
+    for ((steps, amplitude, force), (nodes, place, label)) in ordered {
+        let set = sets.points(bodies, &toml::name(&label), &nodes);
+        open(
+            job,
+            &format!("force-{label}"),
+            &set,
+            place,
+            (&amplitude, &steps),
+        );
+        let value = toml::numbers(&force.map(f64::from_bits)[..bodies.dim()]);
+        job.out
+            .line(&format!("nodal-force = {{ value = {value} }}"));
+    }
+}
+
+/// The node of a rigid body that lies where its reference node is.
+fn stand_in(job: &Job, bodies: &Bodies, node: u64) -> Option<u64> {
+    let index = job
+        .deck
+        .rigid
+        .iter()
+        .position(|r| r.reference == Some(node))?;
+    let body = bodies.all.iter().position(|b| b.rigid == Some(index))?;
+    let x = job.deck.nodes[&node];
+    let size = bodies
+        .mesh
+        .points
+        .iter()
+        .flatten()
+        .fold(0.0, |m: f64, c| m.max(c.abs()));
+    let mut mine = bodies
+        .of_node
+        .iter()
+        .filter(|(_, b)| **b == body)
+        .map(|(n, _)| *n);
+    mine.find(|n| stickslip::math::distance(job.deck.nodes[n], x) <= 1e-9 * size)
+}
+
+fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    type State = BTreeMap<(usize, FacetRef), (f64, Option<String>, Place, String)>;
+    let (mut state, mut by_step) = (State::new(), Vec::new());
+    for step in &job.deck.steps {
+        for action in &step.actions {
+            let Action::Distributed {
+                load,
+                amplitude,
+                place,
+            } = action
+            else {
+                if *action == Action::ClearDistributed {
+                    state.clear();
+                }
+                continue;
+            };
+            let (faces, value, label) = match load {
+                Distributed::Pressure(faces, value) => {
+                    let parts =
+                        SurfaceParts::Faces(faces.iter().map(|(e, f)| (*e, Some(*f))).collect());
+                    (bodies.faces(&parts), *value, "pressure".to_string())
+                }
+                Distributed::Surface(name, value) => match job.deck.surfaces.get(name) {
+                    Some(s) if matches!(s.parts, SurfaceParts::Nodes(_)) => {
+                        job.error(
+                            *place,
+                            format!("the surface {name} consists of nodes"),
+                            "a pressure acts on faces of elements",
+                        );
+                        continue;
+                    }
+                    Some(s) => (bodies.faces(&s.parts), *value, name.clone()),
+                    None => continue,
+                },
+                _ => continue,
+            };
+            for (body, list) in faces {
+                for facet in list {
+                    state.insert(
+                        (body, facet),
+                        (value, amplitude.clone(), *place, label.clone()),
+                    );
+                }
+            }
+        }
+        by_step.push(state.clone());
+    }
+    type Alike = (Vec<bool>, Option<String>, u64);
+    type Faces = BTreeMap<usize, Vec<FacetRef>>;
+    let mut groups: BTreeMap<Alike, (Faces, Place, String)> = BTreeMap::new();
+    for ((body, facet), a) in collect(&by_step) {
+        let key = (a.steps, a.amplitude, a.what.to_bits());
+        let group = groups
+            .entry(key)
+            .or_insert((Faces::new(), a.place, a.label));
+        group.1 = group.1.min(a.place);
+        group.0.entry(body).or_default().push(facet);
+    }
+    let mut ordered: Vec<_> = groups.into_iter().collect();
+    ordered.sort_by_key(|(_, (_, place, _))| *place);
+    for ((steps, amplitude, value), (faces, place, label)) in ordered {
+        for (_, set) in sets.facets(bodies, &toml::name(&job.fresh("load", &label)), &faces) {
+            open(job, &label, &set, place, (&amplitude, &steps));
+            job.out.line(&format!(
+                "pressure = {{ value = {} }}",
+                toml::number(f64::from_bits(value))
+            ));
+        }
+    }
+}
+
+/// A load on cells, as the table of the problem writes it.
+#[derive(Debug, Clone, PartialEq)]
+enum Volume {
+    Gravity([f64; 3]),
+    Body([f64; 3]),
+    Centrifugal(f64, [f64; 3], [f64; 3]),
+}
+
+fn volumes(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    // One of a kind acts on an element; body forces along each axis.
+    type State = BTreeMap<(Vec<u64>, u8), (Volume, Option<String>, Place, String)>;
+    let (mut state, mut by_step) = (State::new(), Vec::new());
+    for step in &job.deck.steps {
+        for action in &step.actions {
+            let Action::Distributed {
+                load,
+                amplitude,
+                place,
+            } = action
+            else {
+                if *action == Action::ClearDistributed {
+                    state.clear();
+                }
+                continue;
+            };
+            let (elements, kind, volume, label) = match load {
+                Distributed::Gravity(e, g) => (e, 0, Volume::Gravity(*g), "gravity"),
+                Distributed::Centrifugal(e, w, p, d) => {
+                    (e, 1, Volume::Centrifugal(*w, *p, *d), "centrifugal")
+                }
+                Distributed::Body(e, f) => {
+                    let axis = f.iter().position(|c| *c != 0.0).unwrap_or(0) as u8;
+                    (e, 2 + axis, Volume::Body(*f), "body-force")
+                }
+                _ => continue,
+            };
+            state.insert(
+                (elements.clone(), kind),
+                (volume, amplitude.clone(), *place, label.to_string()),
+            );
+        }
+        by_step.push(state.clone());
+    }
+    let dim = bodies.dim();
+    for ((elements, _), a) in collect(&by_step) {
+        for set in sets.cells_of(bodies, &toml::name(&a.label), &elements) {
+            open(job, &a.label, &set, a.place, (&a.amplitude, &a.steps));
+            let line = match &a.what {
+                Volume::Gravity(g) => format!(
+                    "gravity = {{ acceleration = {} }}",
+                    toml::numbers(&g[..dim])
+                ),
+                Volume::Body(f) => {
+                    format!("body-force = {{ value = {} }}", toml::numbers(&f[..dim]))
+                }
+                Volume::Centrifugal(w, p, d) => {
+                    let axis = match dim {
+                        3 => format!(", axis = {}", toml::numbers(d)),
+                        _ => String::new(),
+                    };
+                    format!(
+                        "centrifugal = {{ speed = {}, point = {}{axis} }}",
+                        toml::number(w.sqrt()),
+                        toml::numbers(&p[..dim])
+                    )
+                }
+            };
+            job.out.line(&line);
+        }
+    }
+}
+
+fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let mut nodes: BTreeMap<(bool, u64), ([f64; 3], Place, String)> = BTreeMap::new();
+    for i in &job.deck.initial {
+        for node in job.nodes(&i.target) {
+            let entry =
+                nodes
+                    .entry((i.velocity, node))
+                    .or_insert(([0.0; 3], i.place, label(&i.target)));
+            entry.0[i.component] = i.value;
+        }
+    }
+    let mut groups: BTreeMap<(bool, [u64; 3]), (Vec<u64>, Place, String)> = BTreeMap::new();
+    for ((velocity, node), (v, place, label)) in nodes {
+        if bodies.of_node.contains_key(&node) {
+            let key = (velocity, v.map(|c| (c + 0.0).to_bits()));
+            groups
+                .entry(key)
+                .or_insert((Vec::new(), place, label))
+                .0
+                .push(node);
+        }
+    }
+    for ((velocity, value), (nodes, place, label)) in groups {
+        let set = sets.points(bodies, &toml::name(&label), &nodes);
+        let name = job.fresh("initial", &toml::name(&label));
+        job.table("initial", &name, place);
+        job.out.line(&format!("set = {}", toml::text(&set)));
+        let key = if velocity { "velocity" } else { "displacement" };
+        job.out.line(&format!(
+            "{key} = {}",
+            toml::numbers(&value.map(f64::from_bits)[..bodies.dim()])
+        ));
+    }
+}

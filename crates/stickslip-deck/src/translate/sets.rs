@@ -1,0 +1,181 @@
+//! Sets of the mesh, under the names of the deck where it has a name for them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use stickslip::mesh::{CellRef, FacetRef, Mesh};
+
+use super::bodies::Bodies;
+use super::toml;
+use crate::deck::Deck;
+
+/// Sets that are given to the mesh, and tables of the problem that join them.
+#[derive(Debug)]
+pub(super) struct Sets {
+    points: BTreeMap<String, Vec<u64>>,
+    cells: BTreeMap<String, Vec<CellRef>>,
+    facets: BTreeMap<String, Vec<FacetRef>>,
+    /// Names by members.
+    of_points: BTreeMap<BTreeSet<u64>, String>,
+    of_cells: BTreeMap<BTreeSet<u64>, String>,
+    of_facets: BTreeMap<BTreeSet<FacetRef>, String>,
+    unions: BTreeMap<String, Vec<String>>,
+}
+
+impl Sets {
+    /// With the names that the deck has.
+    pub fn new(deck: &Deck, bodies: &Bodies) -> Self {
+        let mut sets = Sets {
+            points: BTreeMap::new(),
+            cells: BTreeMap::new(),
+            facets: BTreeMap::new(),
+            of_points: BTreeMap::new(),
+            of_cells: BTreeMap::new(),
+            of_facets: BTreeMap::new(),
+            unions: BTreeMap::new(),
+        };
+        for (name, nodes) in &deck.node_sets {
+            let known = nodes
+                .iter()
+                .copied()
+                .filter(|n| bodies.of_node.contains_key(n));
+            sets.of_points
+                .entry(known.collect())
+                .or_insert_with(|| toml::name(name));
+        }
+        for (name, elements) in &deck.element_sets {
+            let known = elements
+                .iter()
+                .copied()
+                .filter(|e| bodies.of_element.contains_key(e));
+            sets.of_cells
+                .entry(known.collect())
+                .or_insert_with(|| toml::name(name));
+        }
+        for (name, surface) in &deck.surfaces {
+            let all = bodies.faces(&surface.parts);
+            let all: BTreeSet<FacetRef> = all.into_values().flatten().collect();
+            if !all.is_empty() {
+                sets.of_facets
+                    .entry(all)
+                    .or_insert_with(|| toml::name(name));
+            }
+        }
+        sets
+    }
+
+    /// The name of a set of cells in the mesh, and of the set in the problem if there is one body only.
+    pub fn cells(&mut self, bodies: &Bodies, wanted: &str, elements: Vec<u64>) -> String {
+        let key: BTreeSet<u64> = elements.iter().copied().collect();
+        let name = self
+            .of_cells
+            .entry(key)
+            .or_insert_with(|| wanted.to_string())
+            .clone();
+        let cells = elements
+            .iter()
+            .filter_map(|e| bodies.of_element.get(e).map(|c| c.0))
+            .collect();
+        self.cells.insert(name.clone(), cells);
+        name
+    }
+
+    /// The cells by body: `body.set`, or the body where they are all of it.
+    pub fn cells_of(&mut self, bodies: &Bodies, wanted: &str, elements: &[u64]) -> Vec<String> {
+        let mut by: BTreeMap<usize, Vec<u64>> = BTreeMap::new();
+        for e in elements {
+            if let Some((_, b)) = bodies.of_element.get(e) {
+                by.entry(*b).or_default().push(*e);
+            }
+        }
+        let whole = |(b, list): (&usize, &Vec<u64>)| list.len() == bodies.all[*b].elements.len();
+        if by.iter().all(whole) {
+            return by.keys().map(|b| bodies.all[*b].name.clone()).collect();
+        }
+        let name = self.cells(bodies, wanted, elements.to_vec());
+        by.keys()
+            .map(|b| format!("{}.{name}", bodies.all[*b].name))
+            .collect()
+    }
+
+    /// The name by which the problem finds these nodes: `body.set`, or a union.
+    pub fn points(&mut self, bodies: &Bodies, wanted: &str, nodes: &[u64]) -> String {
+        let key: BTreeSet<u64> = nodes
+            .iter()
+            .copied()
+            .filter(|n| bodies.of_node.contains_key(n))
+            .collect();
+        let owners: BTreeSet<usize> = key.iter().map(|n| bodies.of_node[n]).collect();
+        let list: Vec<u64> = key.iter().copied().collect();
+        let known = self.of_points.get(&key).cloned();
+        let name = known.unwrap_or_else(|| {
+            let taken =
+                |n: &str| self.points.contains_key(n) || self.of_points.values().any(|v| v == n);
+            let first = wanted.to_string();
+            let free = std::iter::once(first)
+                .chain((2..).map(|i| format!("{wanted}-{i}")))
+                .find(|n| !taken(n));
+            free.unwrap_or_default()
+        });
+        self.of_points.insert(key, name.clone());
+        self.points.insert(name.clone(), list);
+        let parts: Vec<String> = owners
+            .iter()
+            .map(|b| format!("{}.{name}", bodies.all[*b].name))
+            .collect();
+        match parts.as_slice() {
+            [one] => one.clone(),
+            _ => {
+                self.unions.insert(name.clone(), parts);
+                name
+            }
+        }
+    }
+
+    /// The names by which the problem finds these faces, one a body: `(body, body.set)`.
+    pub fn facets(
+        &mut self,
+        bodies: &Bodies,
+        wanted: &str,
+        by: &BTreeMap<usize, Vec<FacetRef>>,
+    ) -> Vec<(usize, String)> {
+        let all: BTreeSet<FacetRef> = by.values().flatten().copied().collect();
+        let list: Vec<FacetRef> = by.values().flatten().copied().collect();
+        let name = self
+            .of_facets
+            .entry(all)
+            .or_insert_with(|| wanted.to_string())
+            .clone();
+        self.facets.insert(name.clone(), list);
+        by.keys()
+            .map(|b| (*b, format!("{}.{name}", bodies.all[*b].name)))
+            .collect()
+    }
+
+    /// The tables of the problem that join sets of several bodies.
+    pub fn tables(&self) -> Vec<String> {
+        let table = |(name, parts): (&String, &Vec<String>)| {
+            format!("[set.{}]\nunion = {}", toml::key(name), toml::texts(parts))
+        };
+        self.unions.iter().map(table).collect()
+    }
+
+    /// The mesh with the sets that were asked for.
+    pub fn into_mesh(self, bodies: &Bodies) -> Mesh {
+        let mut mesh = bodies.mesh.clone();
+        let index: BTreeMap<u64, usize> = mesh
+            .point_ids
+            .iter()
+            .enumerate()
+            .map(|(i, n)| (*n, i))
+            .collect();
+        for (name, nodes) in self.points {
+            let mut points: Vec<usize> =
+                nodes.iter().filter_map(|n| index.get(n).copied()).collect();
+            points.sort_unstable();
+            mesh.point_sets.insert(name, points);
+        }
+        mesh.cell_sets.extend(self.cells);
+        mesh.facet_sets.extend(self.facets);
+        mesh
+    }
+}

@@ -1,0 +1,237 @@
+//! Steps, amplitudes and output.
+
+use std::collections::BTreeMap;
+
+use super::{Job, toml};
+use crate::deck::{Print, Procedure, Step};
+
+fn times(step: &Step) -> [f64; 4] {
+    match step.procedure {
+        Procedure::Static { times, .. } | Procedure::Dynamic { times, .. } => times,
+    }
+}
+
+/// How long a step lasts.
+pub(super) fn duration(step: &Step) -> f64 {
+    match times(step)[1] {
+        t if t > 0.0 => t,
+        _ => 1.0,
+    }
+}
+
+/// An amplitude of the deck over the time of the analysis, as a table of its own for what acts in these steps. Its name.
+pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) -> String {
+    let Some(a) = job.deck.amplitudes.get(name) else {
+        return name.to_string();
+    };
+    let mut rows: Vec<[f64; 2]> = Vec::new();
+    if a.total_time {
+        rows.clone_from(&a.rows);
+    } else {
+        // Time starts anew in every step.
+        for ([start, length], _) in job.spans.clone().iter().zip(active).filter(|(_, on)| **on) {
+            for row in &a.rows {
+                if row[0] <= *length * (1.0 + 1e-12) {
+                    push(&mut rows, [start + row[0], row[1]]);
+                }
+            }
+            push(&mut rows, [start + length, value(&a.rows, *length)]);
+        }
+    }
+    if rows.len() == 1 {
+        // A table has two rows.
+        let end = job.spans.last().map_or(1.0, |[s, l]| s + l);
+        rows.push([rows[0][0].max(end) + 1.0, rows[0][1]]);
+    }
+    let place = a.place;
+    let name = job.fresh("amplitude", &toml::name(&format!("{name}-{user}")));
+    job.table("amplitude", &name, place);
+    let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
+    job.out.line(&format!("table = [{}]", rows.join(", ")));
+    name
+}
+
+/// Adds a row; one at the time of the last comes an instant later, as times increase.
+fn push(rows: &mut Vec<[f64; 2]>, mut row: [f64; 2]) {
+    if let Some(last) = rows.last() {
+        if *last == row {
+            return;
+        }
+        if row[0] <= last[0] {
+            if row[1] == last[1] {
+                return;
+            }
+            row[0] = last[0] + 1e-9 * last[0].abs().max(1e-30);
+        }
+    }
+    rows.push(row);
+}
+
+fn value(rows: &[[f64; 2]], t: f64) -> f64 {
+    let i = rows.partition_point(|r| r[0] <= t);
+    match (i.checked_sub(1).and_then(|k| rows.get(k)), rows.get(i)) {
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (t - a[0]) / (b[0] - a[0]),
+        (Some(a), None) => a[1],
+        (None, Some(b)) => b[1],
+        (None, None) => 0.0,
+    }
+}
+
+pub(super) fn write(job: &mut Job) {
+    let deck = job.deck;
+    output(job);
+    if deck.steps.is_empty() {
+        job.error(
+            Default::default(),
+            "the deck has no step",
+            "a deck needs *STEP with *STATIC or *DYNAMIC",
+        );
+        return;
+    }
+    for (i, step) in deck.steps.iter().enumerate() {
+        job.places.push((format!("step.{i}"), step.place));
+        job.out.line("");
+        job.out.line("[[step]]");
+        let length = duration(step);
+        job.out
+            .line(&format!("duration = {}", toml::number(length)));
+        for kind in ["supports", "loads", "couplings"] {
+            let all: Vec<&(&str, String, Vec<bool>)> =
+                job.active.iter().filter(|a| a.0 == kind).collect();
+            if all.iter().any(|a| a.2.contains(&false)) {
+                let mut names: Vec<String> =
+                    all.iter().filter(|a| a.2[i]).map(|a| a.1.clone()).collect();
+                if kind == "couplings" {
+                    // Equations and springs act in every step.
+                    let listed = |n: &str| all.iter().any(|a| a.1 == n);
+                    let always = job
+                        .places
+                        .iter()
+                        .filter_map(|(k, _)| k.strip_prefix("coupling."));
+                    names.extend(always.filter(|n| !listed(n)).map(str::to_string));
+                }
+                job.out.line(&format!("{kind} = {}", toml::texts(&names)));
+            }
+        }
+        let [first, _, smallest, largest] = times(step);
+        let (direct, dynamic) = match step.procedure {
+            Procedure::Static { direct, .. } => (direct, None),
+            Procedure::Dynamic {
+                direct,
+                explicit,
+                alpha,
+                ..
+            } => (direct, Some((explicit, alpha))),
+        };
+        let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
+        let explicit = dynamic.is_some_and(|(explicit, _)| explicit);
+        let mut sizes = Vec::new();
+        if direct && first > 0.0 {
+            sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
+        } else {
+            let initial = if first > 0.0 && !explicit {
+                fraction(first)
+            } else {
+                1.0
+            };
+            if !explicit {
+                sizes.push(format!("initial = {}", toml::number(initial)));
+            }
+            if smallest > 0.0 {
+                sizes.push(format!(
+                    "smallest = {}",
+                    toml::number(fraction(smallest).min(initial))
+                ));
+            }
+            if largest > 0.0 {
+                sizes.push(format!(
+                    "largest = {}",
+                    toml::number(fraction(largest).max(fraction(smallest)))
+                ));
+            }
+        }
+        job.out
+            .line(&format!("increments = {{ {} }}", sizes.join(", ")));
+        match dynamic {
+            Some((true, _)) => job.out.line("dynamic = { scheme.central-difference = {} }"),
+            // CalculiX's own default.
+            Some((false, alpha)) => {
+                let alpha = toml::number(alpha.unwrap_or(-0.05));
+                job.out.line(&format!(
+                    "dynamic = {{ scheme.hht = {{ alpha = {alpha} }} }}"
+                ));
+            }
+            None => {}
+        }
+        let mut changes: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (_, interface, line) in job.changes.iter().filter(|(step, ..)| *step == i) {
+            changes
+                .entry(interface.clone())
+                .or_default()
+                .push(line.clone());
+        }
+        for (interface, lines) in changes {
+            job.out.line(&format!(
+                "change.{} = {{ {} }}",
+                toml::key(&interface),
+                lines.join(", ")
+            ));
+        }
+        ramps(job, i, step);
+    }
+}
+
+/// Loads without amplitude grow over static steps and act at once in dynamic ones; `AMPLITUDE` of `*STEP` may say otherwise.
+fn ramps(job: &mut Job, index: usize, step: &Step) {
+    let dynamic = matches!(step.procedure, Procedure::Dynamic { .. });
+    if step.abrupt.is_some_and(|abrupt| abrupt != dynamic) {
+        let usual = if dynamic {
+            "at once in a dynamic step"
+        } else {
+            "linearly over a static step"
+        };
+        job.warn(
+            step.place,
+            format!(
+                "*STEP, AMPLITUDE is left out in step {}: loads act {usual}",
+                index + 1
+            ),
+            "give the loads an *AMPLITUDE",
+        );
+    }
+}
+
+fn output(job: &mut Job) {
+    let deck = job.deck;
+    let of = |p: &Print| match p {
+        Print::Node { every, .. } | Print::Element { every, .. } | Print::Contact { every, .. } => {
+            *every
+        }
+    };
+    let every = deck
+        .steps
+        .iter()
+        .flat_map(|s| s.prints.iter().map(of).chain(s.output_every))
+        .min();
+    let mut at = Vec::new();
+    for (step, [start, length]) in deck.steps.iter().zip(&job.spans) {
+        let times = step
+            .output_times
+            .iter()
+            .filter_map(|n| deck.time_points.get(n))
+            .flatten();
+        at.extend(
+            times
+                .filter(|t| **t <= *length && **t > 0.0)
+                .map(|t| start + t),
+        );
+    }
+    at.sort_by(f64::total_cmp);
+    at.dedup();
+    job.out.line("");
+    job.out.line("[output]");
+    job.out.line(&format!("every = {}", every.unwrap_or(0)));
+    if !at.is_empty() {
+        job.out.line(&format!("times = {}", toml::numbers(&at)));
+    }
+}

@@ -1,0 +1,318 @@
+//! `*BOUNDARY` to supports: one for every set of nodes that are prescribed alike over all steps.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::bodies::Bodies;
+use super::sets::Sets;
+use super::{Job, steps, toml};
+use crate::deck::{Action, Boundary, Target, Transform};
+use crate::source::Place;
+
+/// What is prescribed of one displacement in one step.
+#[derive(Debug, Clone, PartialEq)]
+struct Value {
+    value: f64,
+    amplitude: Option<String>,
+    fixed: bool,
+    place: Place,
+    /// The set it was given for.
+    label: String,
+}
+
+impl Value {
+    /// What tells one from another.
+    fn key(&self) -> (u64, Option<String>, bool) {
+        (
+            (self.value + 0.0).to_bits(),
+            self.amplitude.clone(),
+            self.fixed,
+        )
+    }
+}
+
+/// By node and direction.
+type State = BTreeMap<(u64, usize), Value>;
+
+/// A support under way: what is prescribed along the axes, when.
+type Alike = (Vec<bool>, Option<String>, [Option<(u64, bool)>; 3]);
+
+fn apply(job: &Job, state: &mut State, b: &Boundary) {
+    let label = match &b.target {
+        Target::Set(name) => name.clone(),
+        Target::One(n) => format!("node-{n}"),
+    };
+    for node in job.nodes(&b.target) {
+        for &component in &b.components {
+            state.insert(
+                (node, component),
+                Value {
+                    value: b.value,
+                    amplitude: b.amplitude.clone(),
+                    fixed: b.fixed,
+                    place: b.place,
+                    label: label.clone(),
+                },
+            );
+        }
+    }
+}
+
+/// What is prescribed in each step.
+fn by_step(job: &Job) -> Vec<State> {
+    let mut state = State::new();
+    for b in &job.deck.supports {
+        apply(job, &mut state, b);
+    }
+    let mut out = Vec::new();
+    for step in &job.deck.steps {
+        for action in &step.actions {
+            match action {
+                Action::ClearBoundaries => state.clear(),
+                Action::Boundary(b) => apply(job, &mut state, b),
+                _ => {}
+            }
+        }
+        out.push(state.clone());
+    }
+    out
+}
+
+pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let states = by_step(job);
+    let count = states.len();
+    let dofs: BTreeSet<(u64, usize)> = states.iter().flat_map(|s| s.keys().copied()).collect();
+    // Every value of every displacement, with the steps in which it holds.
+    let mut lines: BTreeMap<(u64, Vec<bool>, Option<String>), [Option<Value>; 3]> = BTreeMap::new();
+    let mut wrong = BTreeSet::new();
+    for (node, component) in dofs {
+        let mut values: Vec<(Value, Vec<bool>)> = Vec::new();
+        for (i, state) in states.iter().enumerate() {
+            let Some(v) = state.get(&(node, component)) else {
+                continue;
+            };
+            let at = values
+                .iter()
+                .position(|(w, _)| w.key() == v.key())
+                .unwrap_or_else(|| {
+                    values.push((v.clone(), vec![false; count]));
+                    values.len() - 1
+                });
+            values[at].1[i] = true;
+        }
+        for (v, steps) in values {
+            if component >= bodies.dim() {
+                // Directions that the space does not have, and rotations, which cells do not have.
+                let turns = component >= 3
+                    && job
+                        .deck
+                        .rigid
+                        .iter()
+                        .any(|r| [r.reference, r.rotation].contains(&Some(node)));
+                if v.value != 0.0 && !turns && wrong.insert(v.place) {
+                    job.error(
+                        v.place,
+                        format!("node {node} has no direction {}", component + 1),
+                        "only zero may be prescribed there",
+                    );
+                }
+                continue;
+            }
+            let slot = lines.entry((node, steps, v.amplitude.clone())).or_default();
+            slot[component] = Some(v);
+        }
+    }
+    let mut groups: BTreeMap<Alike, (Vec<u64>, Value)> = BTreeMap::new();
+    for ((node, steps, amplitude), values) in lines {
+        let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
+            continue;
+        };
+        if !bodies.of_node.contains_key(&node) {
+            reference(job, bodies, (node, &steps, &amplitude), &values, &states);
+            continue;
+        }
+        let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
+        let all = values[..bodies.dim()].iter().all(Option::is_some);
+        if let Some(t) = job.deck.transforms.get(&node).copied()
+            && !(zero && all)
+        {
+            local(job, bodies, sets, (node, &steps, &amplitude), (&values, t));
+            continue;
+        }
+        let alike = values
+            .each_ref()
+            .map(|v| v.as_ref().map(|v| ((v.value + 0.0).to_bits(), v.fixed)));
+        let group = groups
+            .entry((steps, amplitude, alike))
+            .or_insert((Vec::new(), first.clone()));
+        group.0.push(node);
+    }
+    // In the order of the deck.
+    let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
+    ordered.sort_by_key(|(_, (_, v))| v.place);
+    for ((steps, amplitude, values), (nodes, first)) in ordered {
+        let name = job.fresh("support", &toml::name(&first.label));
+        let set = sets.points(bodies, &toml::name(&first.label), &nodes);
+        let factor = amplitude
+            .as_ref()
+            .map(|a| steps::amplitude(job, a, &steps, &name));
+        job.table("support", &name, first.place);
+        job.out.line(&format!("set = {}", toml::text(&set)));
+        let mut held = Vec::new();
+        for (axis, v) in ["x", "y", "z"].iter().zip(values) {
+            match v {
+                Some((_, true)) => held.push(*axis),
+                Some((bits, false)) => job
+                    .out
+                    .line(&format!("{axis} = {}", toml::number(f64::from_bits(bits)))),
+                None => {}
+            }
+        }
+        if !held.is_empty() {
+            job.out.line(&format!("hold = {}", toml::texts(&held)));
+        }
+        if let Some(factor) = factor {
+            job.out
+                .line(&format!("amplitude = {}", toml::text(&factor)));
+        }
+        job.active.push(("supports", name, steps));
+    }
+}
+
+/// A node that is in no cell: the reference of a rigid body, or nothing that could move.
+fn reference(
+    job: &mut Job,
+    bodies: &Bodies,
+    (node, steps, amplitude): (u64, &[bool], &Option<String>),
+    values: &[Option<Value>; 3],
+    states: &[State],
+) {
+    let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
+        return;
+    };
+    let rigid = &job.deck.rigid;
+    if rigid.iter().any(|r| r.rotation == Some(node)) {
+        // Judged with the reference node.
+        return;
+    }
+    let Some(index) = rigid.iter().position(|r| r.reference == Some(node)) else {
+        job.note(
+            first.place,
+            format!("node {node} is in no element: what is prescribed there has no effect"),
+        );
+        return;
+    };
+    let Some(body) = bodies.all.iter().find(|b| b.rigid == Some(index)) else {
+        return;
+    };
+    let dim = bodies.dim();
+    let rotation = rigid[index].rotation;
+    // Rotations are directions 4 to 6 of the reference node, or 1 to 3 of the rotation node.
+    let axes: &[usize] = if dim == 2 { &[2] } else { &[0, 1, 2] };
+    let held = |state: &State, axis: usize| {
+        let value = |key: (u64, usize)| state.get(&key).map(|v| v.value);
+        value((node, 3 + axis)).or_else(|| rotation.and_then(|r| value((r, axis))))
+    };
+    let all = values[..dim].iter().all(Option::is_some);
+    let still = states
+        .iter()
+        .zip(steps)
+        .filter(|(_, on)| **on)
+        .all(|(s, _)| axes.iter().all(|&a| held(s, a) == Some(0.0)));
+    if !(all && still) {
+        job.error(
+            first.place,
+            format!("the reference node {node} of a rigid body is held in part"),
+            "prescribe all its displacements and hold its rotations (directions 4 to 6), or prescribe nodes of the body instead",
+        );
+        return;
+    }
+    let name = job.fresh("support", &toml::name(&first.label));
+    let (body, place) = (body.name.clone(), first.place);
+    let factor = amplitude
+        .as_ref()
+        .map(|a| steps::amplitude(job, a, steps, &name));
+    job.table("support", &name, place);
+    job.out.line(&format!("set = {}", toml::text(&body)));
+    for (axis, v) in ["x", "y", "z"].iter().zip(values) {
+        if let Some(v) = v {
+            job.out.line(&format!("{axis} = {}", toml::number(v.value)));
+        }
+    }
+    if let Some(factor) = factor {
+        job.out
+            .line(&format!("amplitude = {}", toml::text(&factor)));
+    }
+    job.active.push(("supports", name, steps.to_vec()));
+}
+
+/// The local axes of a node in a `*TRANSFORM`.
+pub(super) fn axes(t: &Transform, x: [f64; 3]) -> Option<[[f64; 3]; 3]> {
+    use stickslip::math::{add_scaled, cross, dot, normalize, sub};
+    if !t.cylindrical {
+        return crate::parse_frame(t.a, t.b);
+    }
+    let axial = normalize(sub(t.b, t.a))?;
+    let arm = sub(x, t.a);
+    let radial = normalize(add_scaled(arm, -dot(arm, axial), axial))?;
+    Some([radial, cross(axial, radial), axial])
+}
+
+/// A node with local axes: an equation along each that is prescribed.
+fn local(
+    job: &mut Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    (node, steps, amplitude): (u64, &[bool], &Option<String>),
+    (values, transform): (&[Option<Value>; 3], Transform),
+) {
+    let Some(first) = values.iter().flatten().next().cloned() else {
+        return;
+    };
+    let Some(axes) = axes(&transform, job.deck.nodes[&node]) else {
+        job.error(
+            first.place,
+            format!("the *TRANSFORM of node {node} has no axes there"),
+            "its points must span a plane; a node cannot lie on the axis of a cylinder",
+        );
+        return;
+    };
+    let set = sets.points(bodies, &format!("node-{node}"), &[node]);
+    for (axis, v) in axes.iter().zip(values) {
+        let Some(v) = v else { continue };
+        if v.fixed {
+            job.error(
+                v.place,
+                "FIXED is not supported in local axes",
+                "prescribe a value",
+            );
+            return;
+        }
+        let name = job.fresh("coupling", &toml::name(&format!("{}-{node}", v.label)));
+        let factor = amplitude
+            .as_ref()
+            .map(|a| steps::amplitude(job, a, steps, &name));
+        let terms: Vec<String> = ["x", "y", "z"][..bodies.dim()]
+            .iter()
+            .zip(axis)
+            .filter(|(_, f)| f.abs() > 1e-14)
+            .map(|(c, f)| {
+                format!(
+                    "{{ set = {}, component = \"{c}\", factor = {} }}",
+                    toml::text(&set),
+                    toml::number(*f)
+                )
+            })
+            .collect();
+        job.table("coupling", &name, v.place);
+        job.out.line(&format!(
+            "equation = {{ terms = [{}], value = {} }}",
+            terms.join(", "),
+            toml::number(v.value)
+        ));
+        if let Some(factor) = factor {
+            job.out
+                .line(&format!("amplitude = {}", toml::text(&factor)));
+        }
+        job.active.push(("couplings", name, steps.to_vec()));
+    }
+}
