@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use stickslip::Error;
 use stickslip::error::{ProblemError, line_column};
+use stickslip_deck::DeckError;
 
 /// The exception for an error.
 pub fn raise(py: Python<'_>, error: Error) -> PyErr {
@@ -39,6 +40,28 @@ fn exception(py: Python<'_>, error: Error) -> PyResult<PyErr> {
     };
     let class = py.import("stickslip._errors")?.getattr(name)?;
     Ok(PyErr::from_value(class.call((message,), Some(&fields))?))
+}
+
+/// The exception for what is wrong with a deck.
+pub fn raise_deck(py: Python<'_>, error: &DeckError) -> PyErr {
+    let exception = || -> PyResult<PyErr> {
+        let list = PyList::empty(py);
+        let mut lines = Vec::new();
+        for finding in &error.findings {
+            let entry = PyDict::new(py);
+            entry.set_item("key", "")?;
+            entry.set_item("message", &finding.message)?;
+            entry.set_item("help", &finding.help)?;
+            entry.set_item("file", &finding.file)?;
+            entry.set_item("line", (finding.line > 0).then_some(finding.line))?;
+            entry.set_item("column", None::<usize>)?;
+            list.append(entry)?;
+            lines.push(finding.to_string());
+        }
+        let class = py.import("stickslip._errors")?.getattr("ProblemError")?;
+        Ok(PyErr::from_value(class.call1((lines.join("\n"), list))?))
+    };
+    exception().unwrap_or_else(|e| e)
 }
 
 fn findings<'py>(py: Python<'py>, error: &ProblemError) -> PyResult<Bound<'py, PyList>> {

@@ -11,8 +11,9 @@ use stickslip::Error;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Meshes};
 use stickslip::simulation::Model;
+use stickslip_deck::{Deck, Translation};
 
-use super::errors::raise;
+use super::errors::{raise, raise_deck};
 use super::laws::{Function, Raised};
 use super::mesh::Mesh;
 use super::run::Simulation;
@@ -40,6 +41,8 @@ pub struct Problem {
     document: Document,
     problem: stickslip::problem::Problem,
     meshes: Meshes,
+    /// What it was translated from.
+    deck: Option<Arc<Translation>>,
 }
 
 fn given(meshes: BTreeMap<String, PyRef<'_, Mesh>>) -> Meshes {
@@ -51,12 +54,24 @@ fn given(meshes: BTreeMap<String, PyRef<'_, Mesh>>) -> Meshes {
 
 impl Problem {
     fn read(py: Python<'_>, document: Document, meshes: Meshes) -> PyResult<Self> {
-        let problem = document.problem().map_err(|e| raise(py, e.into()))?;
-        Ok(Problem {
-            document,
-            problem,
-            meshes,
-        })
+        Problem::translated(py, document, meshes, None)
+    }
+
+    fn translated(
+        py: Python<'_>,
+        document: Document,
+        meshes: Meshes,
+        deck: Option<Arc<Translation>>,
+    ) -> PyResult<Self> {
+        match document.problem() {
+            Ok(problem) => Ok(Problem {
+                document,
+                problem,
+                meshes,
+                deck,
+            }),
+            Err(e) => Err(of_deck(py, deck.as_deref(), e.into())),
+        }
     }
 
     fn model(&self) -> Result<Model, Error> {
@@ -112,7 +127,24 @@ impl Problem {
             document,
             problem,
             meshes: given(meshes),
+            deck: None,
         })
+    }
+
+    /// From an input deck of Abaqus or CalculiX.
+    #[staticmethod]
+    fn from_inp(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
+        let translate = || Deck::read(&file)?.translate(&file);
+        let deck = py.detach(translate).map_err(|e| raise_deck(py, &e))?;
+        let document = deck.document(Vec::new());
+        Problem::translated(py, document, deck.meshes(), Some(Arc::new(deck)))
+    }
+
+    /// What is to be said about the deck that it comes from.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        let notes = self.deck.iter().flat_map(|deck| &deck.notes);
+        notes.map(ToString::to_string).collect()
     }
 
     /// The same problem with other values, by the paths of their keys.
@@ -123,7 +155,7 @@ impl Problem {
             overrides.push(format!("{path}={}", value::inline(&object, &path)?));
         }
         let document = self.document.clone().with_overrides(overrides);
-        Problem::read(py, document, self.meshes.clone())
+        Problem::translated(py, document, self.meshes.clone(), self.deck.clone())
     }
 
     /// As the text of a problem file.
@@ -139,7 +171,7 @@ impl Problem {
             let json = serde_json::to_string(&report).unwrap_or_default();
             Ok((report.to_string(), json))
         });
-        checked.map_err(|e| raise(py, e))
+        checked.map_err(|e| of_deck(py, self.deck.as_deref(), e))
     }
 
     /// Makes a simulation.
@@ -149,7 +181,8 @@ impl Problem {
         factors: Option<PyRef<'_, Factors>>,
         laws: BTreeMap<String, BTreeMap<String, Py<PyAny>>>,
     ) -> PyResult<Simulation> {
-        let mut model = py.detach(|| self.model()).map_err(|e| raise(py, e))?;
+        let built = py.detach(|| self.model());
+        let mut model = built.map_err(|e| of_deck(py, self.deck.as_deref(), e))?;
         let raised = Raised::default();
         bring(&mut model, laws, &raised)?;
         let library = match factors {
@@ -168,6 +201,14 @@ impl Problem {
             .as_deref()
             .and_then(Path::parent)
             .map_or_else(PathBuf::new, Path::to_path_buf)
+    }
+}
+
+/// The exception for an error about a problem that may come from a deck, whose lines it then names.
+fn of_deck(py: Python<'_>, deck: Option<&Translation>, error: Error) -> PyErr {
+    match deck.map(|deck| deck.located(error.clone())) {
+        Some(Ok(e)) => raise_deck(py, &e),
+        _ => raise(py, error),
     }
 }
 

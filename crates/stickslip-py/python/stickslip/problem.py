@@ -59,11 +59,21 @@ class Problem:
 
     @classmethod
     def from_inp(cls, path: Union[str, os.PathLike[str]]) -> Problem:
-        """From an input deck of Abaqus or CalculiX."""
-        read = getattr(_core.Problem, "from_inp", None)
-        if read is None:
-            raise NotImplementedError("this build of stickslip does not read decks")
-        return cls(read(Path(path)))
+        """From an input deck of Abaqus or CalculiX.
+
+        `notes` says what was left out or taken differently without changing the answer.
+
+        Raises
+        ------
+        ProblemError
+            With all that is wrong or not supported; its findings have a ``file`` and a ``line``.
+        """
+        return cls(_core.Problem.from_inp(Path(path)))
+
+    @property
+    def notes(self) -> list[str]:
+        """What is to be said about the deck that the problem comes from, a sentence each with its file and line."""
+        return self._core.notes
 
     def with_values(self, values: Mapping[str, Any]) -> Problem:
         """The same problem with other values, by the paths of their keys: ``{"interface.base.friction.coulomb.mu": 0.3}``."""
