@@ -54,7 +54,7 @@ fuzz_target!(|edits: &[u8]| {
         let at = u32::from_le_bytes([*a, *b, *c, 0]) as usize % bytes.len();
         bytes[at] = *value;
     }
-    if let [cut @ 1.., ..] = rest {
+    if let Some(cut) = rest.first() {
         let left = bytes.len() * usize::from(255 - cut) / 255;
         bytes.truncate(left);
     }
