@@ -520,3 +520,133 @@ x = 0
     );
     assert!(said.contains("cannot be made of wedge6"), "{said}");
 }
+
+/// One distorted cell with prescribed displacements: the stress at its last point (xx yy zz xy xz yz, in the order of the file) and its energy
+/// as CalculiX 2.20 prints them.
+#[test]
+fn stresses_and_energies_are_those_that_calculix_prints() {
+    use ElementKind::*;
+    for (kind, formulation, printed, energy) in [
+        (
+            Hex8,
+            Formulation::Standard,
+            [
+                1.523662e8, 1.165649e8, 1.552822e8, 6.334130e7, 5.014436e7, 1.185365e7,
+            ],
+            6.215601e5,
+        ),
+        (
+            Hex8,
+            Formulation::Reduced,
+            [
+                1.182707e8,
+                3.232135e7,
+                6.099509e7,
+                4.734613e7,
+                2.761465e7,
+                -2.487104e7,
+            ],
+            4.119393e5,
+        ),
+        (
+            Hex20,
+            Formulation::Standard,
+            [
+                8.361035e8, 9.276803e8, 8.399194e8, 1.821980e8, 1.282744e8, 3.161794e8,
+            ],
+            5.390917e6,
+        ),
+        (
+            Hex20,
+            Formulation::Reduced,
+            [
+                2.955804e8, 3.801199e8, 3.479636e8, 1.199452e7, 1.587334e7, 1.748073e8,
+            ],
+            4.890867e6,
+        ),
+        (
+            Tet4,
+            Formulation::Standard,
+            [
+                2.278092e7,
+                -1.677230e8,
+                -3.891646e8,
+                8.472081e7,
+                -4.379516e7,
+                -1.821513e8,
+            ],
+            1.063727e5,
+        ),
+        (
+            Tet10,
+            Formulation::Standard,
+            [
+                -1.440430e9,
+                -9.475976e8,
+                -1.003793e9,
+                -4.812626e8,
+                -3.204635e8,
+                -8.577342e7,
+            ],
+            6.681349e5,
+        ),
+        (
+            Wedge6,
+            Formulation::Reduced,
+            [
+                8.776280e7, 2.626621e8, 4.481491e7, 7.960030e7, 8.206130e6, 6.754410e7,
+            ],
+            1.617987e5,
+        ),
+        (
+            Wedge15,
+            Formulation::Standard,
+            [
+                -3.366903e8,
+                -1.974974e8,
+                1.751815e8,
+                -1.999598e8,
+                8.884774e7,
+                1.453104e8,
+            ],
+            1.047290e6,
+        ),
+    ] {
+        let place = |(i, p): (usize, &[f64; 3])| {
+            let i = i as f64;
+            [
+                p[0] + 0.05 * i.sin(),
+                p[1] + 0.04 * (2.0 * i).cos(),
+                p[2] + 0.03 * (3.0 * i).sin(),
+            ]
+        };
+        let nodes = kind.reference().nodes().iter().enumerate();
+        let mesh = Mesh {
+            dim: 3,
+            points: nodes.map(place).collect(),
+            point_ids: (1..=kind.node_count() as u64).collect(),
+            blocks: vec![Block {
+                kind,
+                connectivity: (0..kind.node_count()).collect(),
+                cell_ids: vec![1],
+            }],
+            ..Mesh::default()
+        };
+        let body = elastic(mesh, Space::Solid, formulation, 0.3);
+        let u: Vec<f64> = (0..3 * kind.node_count())
+            .map(|d| 1e-3 * (12.9898 * d as f64).sin())
+            .collect();
+        let state = states(&body, &u).remove(0);
+        let s = state.points.last().expect("points").stress;
+        let own = [s[0], s[1], s[2], s[3], s[5], s[4]];
+        let size = own.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        for (a, b) in own.iter().zip(printed) {
+            assert!((a - b).abs() < 1e-6 * size, "{kind}: {a} {b}");
+        }
+        let inside = state.energy - state.hourglass;
+        assert!(
+            (inside / energy - 1.0).abs() < 1e-6,
+            "{kind}: {inside} {energy}"
+        );
+    }
+}

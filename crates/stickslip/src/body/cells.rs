@@ -17,6 +17,8 @@ pub struct CellState {
     pub cell: CellRef,
     /// Strain energy `[J]`, by the points of the stiffness; that of the stiffness against hourglassing included.
     pub energy: f64,
+    /// What of it is energy of the stiffness against hourglassing `[J]`; CalculiX leaves it out.
+    pub hourglass: f64,
     /// Volume `[m³]`, with thickness or all around the axis.
     pub volume: f64,
     /// Its integration points as CalculiX and Abaqus have and number them: local coordinates in the order ξ, η, ζ, ξ fastest;
@@ -52,13 +54,14 @@ impl Elastic {
         self.each_cell::<N>(
             part,
             u,
-            2 + rule.len() * WIDTH,
+            3 + rule.len() * WIDTH,
             |medium, [x, v], recovered, values| {
                 values[0] = recovered.energy();
                 values[1] = recovered.volume();
+                values[2] = recovered.hourglass();
                 // Strains that are more than those of the displacements are at hand: these schemes have the points of the rule.
                 let own = matches!(medium.scheme, Scheme::Uniform | Scheme::Incompatible);
-                for (q, out) in values[2..].chunks_exact_mut(WIDTH).enumerate() {
+                for (q, out) in values[3..].chunks_exact_mut(WIDTH).enumerate() {
                     let (n, volume, strain) = if own {
                         let p = &recovered.points[q];
                         (medium.values(q), p.volume, recovered.strain[q])
@@ -88,7 +91,8 @@ impl Elastic {
                     cell,
                     energy: values[0],
                     volume: values[1],
-                    points: values[2..].chunks_exact(WIDTH).map(point).collect(),
+                    hourglass: values[2],
+                    points: values[3..].chunks_exact(WIDTH).map(point).collect(),
                 });
             },
         );

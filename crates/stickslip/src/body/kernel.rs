@@ -65,7 +65,7 @@ pub(super) fn stiffness<const N: usize>(
             let mean = hourglass::mean(&scratch.points);
             let vectors = of
                 .hourglass
-                .vectors(x, &of.table, &scratch.points, &mean, of.shear);
+                .vectors(x, &of.table, &scratch.points, &mean, of.modulus);
             for (v, directions) in vectors.iter().zip(of.hourglass.directions()) {
                 add_square(v, directions, dim, out);
             }

@@ -1,7 +1,7 @@
 //! What all cells of a part share.
 
 use super::geometry::Table;
-use super::hourglass::{Hourglass, shear_modulus};
+use super::hourglass::{Hourglass, modulus};
 use super::incompatible::Modes;
 use super::operator::Operator;
 use super::scheme::{Scheme, stiffness_rule};
@@ -21,8 +21,8 @@ pub(super) struct Medium<const N: usize> {
     pub operator: Operator,
     /// Motions without strain; none unless the scheme has them.
     pub hourglass: Hourglass<N>,
-    /// Their shear modulus `[Pa]`.
-    pub shear: f64,
+    /// Young's modulus for them `[Pa]`.
+    pub modulus: f64,
     /// Modes inside the cell; of use with the scheme that has them.
     pub modes: Modes<N>,
     /// Shape functions at the centre, where the stress of a uniform strain is taken to be.
@@ -48,7 +48,7 @@ impl<const N: usize> Medium<N> {
             acting: *acting,
             operator: Operator::new(acting, space, scheme),
             hourglass: Hourglass::new(kind, space),
-            shear: shear_modulus(acting, space),
+            modulus: modulus(acting, space),
             modes: Modes::new(kind, rule),
             centre,
         }

@@ -83,7 +83,7 @@ impl<const N: usize> Recovered<N> {
             let mean = hourglass::mean(&self.points);
             self.vectors = of
                 .hourglass
-                .vectors(x, &of.table, &self.points, &mean, of.shear);
+                .vectors(x, &of.table, &self.points, &mean, of.modulus);
             let each = self.amplitudes.iter_mut().zip(&self.vectors);
             for ((amplitude, v), directions) in each.zip(of.hourglass.directions()) {
                 for i in directions {
@@ -149,8 +149,13 @@ impl<const N: usize> Recovered<N> {
             .zip(self.strain.iter().zip(&self.stress))
             .map(|(p, (e, s))| 0.5 * p.volume * e.iter().zip(s).map(|(e, s)| e * s).sum::<f64>())
             .sum();
-        let beside: f64 = self.amplitudes.as_flattened().iter().map(|a| a * a).sum();
-        inside + 0.5 * beside
+        inside + self.hourglass()
+    }
+
+    /// What of it is energy of the motions without strain.
+    pub fn hourglass(&self) -> f64 {
+        let squares = self.amplitudes.as_flattened().iter().map(|a| a * a);
+        0.5 * squares.sum::<f64>()
     }
 
     /// Volume of the cell.

@@ -57,7 +57,7 @@ pub enum Formulation {
     /// together, but for some of a single straight row of hex20: a beam of them wants two cells across.
     ///
     /// quad4 and hex8 have the mean strain of the cell and a stiffness against motions without
-    /// one ([`flanagan_1981`](crate::references::flanagan_1981)), 0.05 of that of shear. They do not lock, in bending either, but one
+    /// one ([`flanagan_1981`](crate::references::flanagan_1981)), as small as in CalculiX. They do not lock, in bending either, but one
     /// cell through a thickness has hardly any bending stiffness: take four.
     ///
     /// Triangles, tetrahedra and wedge15 are not changed. Weight and mass are integrated as in the standard formulation.

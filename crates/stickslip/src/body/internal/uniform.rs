@@ -120,7 +120,7 @@ impl<L: Law, const N: usize, const D: usize, const V: usize> CellForce<N, D>
             *force = traction(&stress, b, force);
         }
 
-        let stiffness = self.medium.hourglass.factor(self.medium.shear);
+        let stiffness = self.medium.hourglass.factor(self.medium.modulus);
         let kappa = Lane::splat(simd, stiffness) * square * inverse;
         // What the forces have of `B` over the volume, by direction of `B` and of the force.
         let mut along = [[zero; D]; D];
