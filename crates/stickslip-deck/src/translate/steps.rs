@@ -1,9 +1,9 @@
 //! Steps, amplitudes and output.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Job, toml};
-use crate::deck::{Print, Procedure, Step};
+use crate::deck::{Deck, Print, Procedure, Step, When};
 
 fn times(step: &Step) -> [f64; 4] {
     match step.procedure {
@@ -201,29 +201,46 @@ fn ramps(job: &mut Job, index: usize, step: &Step) {
     }
 }
 
+fn gcd(a: usize, b: usize) -> usize {
+    match b {
+        0 => a,
+        _ => gcd(b, a % b),
+    }
+}
+
+/// The times of `*TIME POINTS` that lie in a step, in the time of the analysis.
+pub(super) fn points(deck: &Deck, name: &str, [start, length]: [f64; 2]) -> Vec<f64> {
+    let Some(points) = deck.time_points.get(name) else {
+        return Vec::new();
+    };
+    let from = if points.total_time { 0.0 } else { start };
+    let all = points.times.iter().map(|t| from + t);
+    all.filter(|t| *t > start && *t <= start + length).collect()
+}
+
 fn output(job: &mut Job) {
     let deck = job.deck;
     let of = |p: &Print| match p {
-        Print::Node { every, .. } | Print::Element { every, .. } | Print::Contact { every, .. } => {
-            *every
+        Print::Node { when, .. } | Print::Element { when, .. } | Print::Contact { when, .. } => {
+            match when {
+                When::Every(n) => Some(*n),
+                When::Times(_) => None,
+            }
         }
     };
     let every = deck
         .steps
         .iter()
-        .flat_map(|s| s.prints.iter().map(of).chain(s.output_every))
-        .min();
+        .flat_map(|s| s.prints.iter().filter_map(of).chain(s.output_every))
+        // Whatever is due is due at an output.
+        .reduce(gcd);
     let mut at = Vec::new();
     for (step, [start, length]) in deck.steps.iter().zip(&job.spans) {
-        let times = step
-            .output_times
-            .iter()
-            .filter_map(|n| deck.time_points.get(n))
-            .flatten();
+        let names: BTreeSet<&String> = step.output_times.iter().collect();
         at.extend(
-            times
-                .filter(|t| **t <= *length && **t > 0.0)
-                .map(|t| start + t),
+            names
+                .into_iter()
+                .flat_map(|n| points(deck, n, [*start, *length])),
         );
     }
     at.sort_by(f64::total_cmp);
