@@ -314,7 +314,11 @@ impl Reader<'_> {
             || abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());
         if !known {
             let message = format!("element {element} ({kind}) has no face {face}");
-            self.error(place, message, "");
+            self.error(
+                place,
+                message,
+                "faces are numbered as in the manual of CalculiX, from 1",
+            );
         }
         known
     }
@@ -355,13 +359,17 @@ impl Reader<'_> {
                     };
                     match whole(field) {
                         Some(n) if self.deck.nodes.contains_key(&n) => nodes.push(n),
-                        Some(n) => self.error(data.place, format!("there is no node {n}"), ""),
+                        Some(n) => self.error(
+                            data.place,
+                            format!("there is no node {n}"),
+                            "*NODE must stand before what refers to it",
+                        ),
                         None => match self.deck.node_sets.get(&label(field)) {
                             Some(set) => nodes.extend(set),
                             None => self.error(
                                 data.place,
                                 format!("there is no set of nodes {}", clip(field)),
-                                "",
+                                "define it with *NSET before",
                             ),
                         },
                     }
@@ -379,14 +387,22 @@ impl Reader<'_> {
             SurfaceParts::Nodes(n) => n.is_empty(),
         };
         if empty && self.errors.is_empty() {
-            self.error(card.place, format!("the surface {name} is empty"), "");
+            self.error(
+                card.place,
+                format!("the surface {name} is empty"),
+                "name faces of elements, or nodes with TYPE=NODE",
+            );
         }
         let surface = Surface {
             parts,
             place: card.place,
         };
         if self.deck.surfaces.insert(name.clone(), surface).is_some() {
-            self.error(card.place, format!("the surface {name} is given twice"), "");
+            self.error(
+                card.place,
+                format!("the surface {name} is given twice"),
+                "give each surface a name of its own",
+            );
         }
     }
 
@@ -510,7 +526,7 @@ impl Reader<'_> {
                 r.error(
                     card.place,
                     format!("*RIGID BODY: {name} is {}, which is no node", clip(text)),
-                    "",
+                    "give the number of a node that exists",
                 );
             }
             id
@@ -580,7 +596,11 @@ impl Reader<'_> {
         let Some(line) = self.line(card) else { return };
         let mass = self.number(line, 0, 0.0);
         if mass < 0.0 {
-            self.error(line.place, "the mass is negative", "");
+            self.error(
+                line.place,
+                "the mass is negative",
+                "write the mass of each point",
+            );
         }
         self.deck.masses.push((set, mass, card.place));
     }

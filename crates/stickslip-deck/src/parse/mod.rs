@@ -335,7 +335,11 @@ impl<'a> Reader<'a> {
                 field + 1,
                 clip(text)
             );
-            self.error(data.place, message, "");
+            self.error(
+                data.place,
+                message,
+                "numbers of nodes and elements and directions count from 1",
+            );
         }
         value
     }
@@ -343,7 +347,11 @@ impl<'a> Reader<'a> {
     /// The first data line.
     fn line<'c>(&mut self, card: &'c Card) -> Option<&'c Data> {
         if card.data.is_empty() {
-            self.error(card.place, format!("{} has no data line", card.written), "");
+            self.error(
+                card.place,
+                format!("{} has no data line", card.written),
+                "the numbers stand in the line after the keyword",
+            );
         }
         card.data.first()
     }
@@ -355,7 +363,7 @@ impl<'a> Reader<'a> {
             self.error(
                 data.place,
                 "a node or a set of nodes is expected in the first field",
-                "",
+                "write node or set, direction, value",
             );
             return None;
         }
@@ -416,7 +424,11 @@ impl<'a> Reader<'a> {
         let deck = &self.deck;
         let mut nodes = |target: &Target, place: Place| match target {
             Target::One(n) if !deck.nodes.contains_key(n) => {
-                findings.push((place, format!("there is no node {n}"), String::new()));
+                findings.push((
+                    place,
+                    format!("there is no node {n}"),
+                    "nodes are given by *NODE".into(),
+                ));
             }
             Target::Set(s) if !deck.node_sets.contains_key(s) => {
                 findings.push((
@@ -601,7 +613,7 @@ fn parameter(reader: &mut Reader, card: &Card, name: &str) -> Option<f64> {
             card.written,
             clip(text)
         );
-        reader.error(card.place, message, "");
+        reader.error(card.place, message, "write it as 1.5 or 2.E-3");
     }
     value
 }

@@ -54,7 +54,11 @@ impl Reader<'_> {
 
     pub(super) fn end_step(&mut self, card: &Card) {
         if !self.in_step {
-            self.error(card.place, "*END STEP without *STEP", "");
+            self.error(
+                card.place,
+                "*END STEP without *STEP",
+                "a step begins with *STEP",
+            );
             return;
         }
         self.step_without_procedure();
@@ -217,7 +221,7 @@ impl Reader<'_> {
                 self.error(
                     card.place,
                     format!("*BOUNDARY, {name} is not supported"),
-                    "",
+                    "prescribe displacements, with an *AMPLITUDE where they change in time",
                 );
                 return;
             }
@@ -527,7 +531,11 @@ impl Reader<'_> {
         let print = match card.keyword.as_str() {
             "NODEPRINT" => match card.get("NSET").map(str::to_string) {
                 Some(set) if !self.deck.node_sets.contains_key(&set) => {
-                    self.error(card.place, format!("there is no set of nodes {set}"), "");
+                    self.error(
+                        card.place,
+                        format!("there is no set of nodes {set}"),
+                        "define it with *NSET before it is printed",
+                    );
                     return;
                 }
                 Some(set) => Print::Node {
@@ -545,7 +553,11 @@ impl Reader<'_> {
             },
             "ELPRINT" => match card.get("ELSET").map(str::to_string) {
                 Some(set) if !self.deck.element_sets.contains_key(&set) => {
-                    self.error(card.place, format!("there is no set of elements {set}"), "");
+                    self.error(
+                        card.place,
+                        format!("there is no set of elements {set}"),
+                        "define it with *ELSET before it is printed",
+                    );
                     return;
                 }
                 Some(set) => Print::Element {

@@ -324,8 +324,13 @@ fn names(job: &Job, bodies: &mut Bodies) {
             .iter()
             .copied()
             .filter(|n| deck.element_sets.contains_key(*n));
+        // Sets that a pre-processor made for itself are the last that one would name a body by.
+        let own = |n: &&String| !n.starts_with("INTERNAL") && !n.starts_with('_');
+        let all = deck.element_sets.keys();
         let found = known
-            .chain(deck.element_sets.keys())
+            .chain(all.clone())
+            .filter(own)
+            .chain(all)
             .find(same)
             .map(|n| toml::name(n));
         body.name = found

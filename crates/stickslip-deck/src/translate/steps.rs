@@ -51,6 +51,54 @@ pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) 
     name
 }
 
+/// The course of a load that ends at once with some steps, as a table of its own: what the steps before say, then nothing.
+pub(super) fn ending(
+    job: &mut Job,
+    name: Option<&String>,
+    (active, ends): (&[bool], &[bool]),
+    user: &str,
+) -> String {
+    let given = name.and_then(|n| job.deck.amplitudes.get(n));
+    let mut rows: Vec<[f64; 2]> = Vec::new();
+    let mut before = 0.0;
+    for (i, [start, length]) in job.spans.clone().into_iter().enumerate() {
+        let end = start + length;
+        let dynamic = matches!(job.deck.steps[i].procedure, Procedure::Dynamic { .. });
+        match (given, active[i]) {
+            (Some(a), true) => {
+                let from = if a.total_time { 0.0 } else { start };
+                push(&mut rows, [start, value(&a.rows, start - from)]);
+                let within = |t: f64| t > start && t < end;
+                for row in a.rows.iter().filter(|r| within(from + r[0])) {
+                    push(&mut rows, [from + row[0], row[1]]);
+                }
+                before = value(&a.rows, end - from);
+            }
+            (None, true) => {
+                push(&mut rows, [start, if dynamic { 1.0 } else { before }]);
+                before = 1.0;
+            }
+            // It falls over a static step, unless something takes its place.
+            (_, false) => {
+                let fades = !ends[i] && !dynamic;
+                push(&mut rows, [start, if fades { before } else { 0.0 }]);
+                before = 0.0;
+            }
+        }
+        push(&mut rows, [end, before]);
+    }
+    let place = job
+        .deck
+        .steps
+        .first()
+        .map_or_else(Default::default, |s| s.place);
+    let name = job.fresh("amplitude", &toml::name(&format!("{user}-course")));
+    job.table("amplitude", &name, given.map_or(place, |a| a.place));
+    let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
+    job.out.line(&format!("table = [{}]", rows.join(", ")));
+    name
+}
+
 /// Adds a row; one at the time of the last comes an instant later, as times increase.
 fn push(rows: &mut Vec<[f64; 2]>, mut row: [f64; 2]) {
     if let Some(last) = rows.last() {

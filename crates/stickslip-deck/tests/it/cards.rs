@@ -135,8 +135,9 @@ fn transforms_turn_supports_forces_and_what_is_printed() {
 
     // A force along a local axis that is z.
     let force = format!(
-        "{}*TRANSFORM, NSET=NTOP\n0., 0., 1., 1., 0., 0.\n*STEP\n*STATIC\n*CLOAD\nNTOP, 1, 2.5\n*END STEP\n",
-        column()
+        "{}{}*BOUNDARY\nNBOT, 1, 3\nNTOP, 2, 3\n*TRANSFORM, NSET=NTOP\n0., 0., 1., 1., 0., 0.\n*STEP\n*STATIC\n*CLOAD\nNTOP, 1, 2.5\n*END STEP\n",
+        cube("N", 1, 0.0),
+        sections(&["EN"])
     );
     near(run("transform-force", &force).u(7)[2], 0.01, 1e-9);
 }
@@ -241,8 +242,8 @@ fn clearances_count_from_what_the_deck_says() {
 fn friction_holds_up_to_its_limit_and_changes_with_steps() {
     // Pressed by 4 the interface carries 0.5 * 4 = 2, and 0.25 * 4 from the second step on.
     let slide = "*STEP\n*STATIC\n*BOUNDARY\nB, 1, 1, 0.\n*DLOAD\nEB, P2, 4.\n*END STEP\n\
-                 *STEP\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .2\n*NODE PRINT, NSET=B, TOTALS=ONLY\nRF\n*CONTACT PRINT\nCSTR\n*END STEP\n\
-                 *STEP\n*CHANGE FRICTION, INTERACTION=SI\n*FRICTION\n.25, 1.E4\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .4\n\
+                 *STEP\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .02\n*NODE PRINT, NSET=B, TOTALS=ONLY\nRF\n*CONTACT PRINT\nCSTR\n*END STEP\n\
+                 *STEP\n*CHANGE FRICTION, INTERACTION=SI\n*FRICTION\n.25, 1.E4\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .04\n\
                  *NODE PRINT, NSET=B, TOTALS=ONLY\nRF\n*END STEP\n";
     let text = pair(
         0.0,
@@ -251,8 +252,8 @@ fn friction_holds_up_to_its_limit_and_changes_with_steps() {
     ) + slide;
     let r = run("friction", &text);
     let force: Vec<f64> = r.all("total force").iter().map(|b| b.2[0][0]).collect();
-    near(force[force.len() / 2 - 1], 2.0, 1e-4);
-    near(*force.last().expect("it is printed"), 1.0, 1e-4);
+    near(force[force.len() / 2 - 1], 2.0, 1e-3);
+    near(*force.last().expect("it is printed"), 1.0, 1e-3);
     for row in &r.all("contact stress")[1].2 {
         near(row[1], 4.0, 1e-3);
         near(row[2].abs(), 2.0, 1e-3);
@@ -262,7 +263,7 @@ fn friction_holds_up_to_its_limit_and_changes_with_steps() {
         .split("*STEP\n*CHANGE")
         .next()
         .expect("a part")
-        .replace("1, 1, .2", "1, 1, .0001");
+        .replace("1, 1, .02", "1, 1, .0001");
     let r = run("stick", &stick);
     // Shear of the lower cube, G = 500, and of the interface in series.
     near(r.last("total force")[0], 1e-4 / (1.0 / 500.0 + 1e-4), 2e-2);
@@ -322,7 +323,7 @@ fn springs_equations_and_rigid_bodies_tie_nodes() {
     );
     near(r.u(3)[2], 0.0, 1e-12);
     near(r.u(7)[2], -0.008, 1e-6);
-    near(r.last("total force")[2], 8.0, 1e-6);
+    near(r.last("total force")[2], 8.0, 1e-5);
 }
 
 #[test]
