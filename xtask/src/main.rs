@@ -1,5 +1,6 @@
 //! Developer tasks: `cargo xtask TASK`.
 
+mod book;
 mod browser;
 mod chatter;
 mod dist;
@@ -15,6 +16,10 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
+  book [--pages] [--verification]
+                            write the generated pages of the book and build it into target/book, with mdBook, which is installed into
+                            target/tools where it is missing; --pages only writes pages; --verification runs all examples first and
+                            writes their numbers
   browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
@@ -43,6 +48,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => schema::write(),
         Some((task, [])) if task == "dist" => dist::pack(),
+        Some((task, what)) if task == "book" => book::build(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),

@@ -1,0 +1,49 @@
+//! The page of the command line: the help of every command as it is printed.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// The page, from what the binary says of itself.
+pub fn page(binary: &Path) -> Result<String, String> {
+    let all = help(binary, &[])?;
+    let mut page = String::from(
+        "# The command line\n\n<!-- Generated from `stickslip COMMAND --help` by `cargo xtask book`. -->\n\n",
+    );
+    page += "Results and listings go to standard output, progress and diagnostics to standard error. Exit codes: 0 done; 1 the input is wrong, or runs of a \
+        sweep failed; 2 a check of `compare` or the quality gate fails, results are kept; 3 the analysis did not finish; 130 interrupted.\n";
+    section(&mut page, "stickslip", &all);
+    let names = all
+        .lines()
+        .skip_while(|line| !line.starts_with("Commands:"))
+        .skip(1)
+        .take_while(|line| !line.trim().is_empty());
+    for name in names.filter_map(|line| line.split_whitespace().next()) {
+        if name != "help" {
+            section(
+                &mut page,
+                &format!("stickslip {name}"),
+                &help(binary, &[name])?,
+            );
+        }
+    }
+    Ok(page)
+}
+
+fn section(page: &mut String, title: &str, help: &str) {
+    let _ = write!(page, "\n## {title}\n\n```text\n{}\n```\n", help.trim_end());
+}
+
+fn help(binary: &Path, command: &[&str]) -> Result<String, String> {
+    let output = Command::new(binary)
+        .args(command)
+        .arg("--help")
+        .output()
+        .map_err(|e| format!("cannot run {}: {e}", binary.display()))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    // Lines of blanks are nobody's meaning.
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    // The binary may have another name where it was built.
+    let name = binary.file_name().unwrap_or_default().to_string_lossy();
+    Ok(lines.join("\n").replace(&format!("Usage: {name}"), "Usage: stickslip"))
+}

@@ -1,0 +1,409 @@
+//! The reference of the problem file, one page a table, from the JSON schema.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use serde_json::{Map, Value};
+
+use crate::workspace;
+
+const NOTE: &str = "<!-- Generated from stickslip.schema.json by `cargo xtask book`. -->\n";
+
+/// The pages as `(name, text)`, the list of them first.
+pub fn pages() -> Result<Vec<(String, String)>, String> {
+    let file = workspace::root().join("stickslip.schema.json");
+    let text = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    let schema: Value =
+        serde_json::from_str(&text).map_err(|e| format!("{}: {e}", file.display()))?;
+    let schema = Schema { root: &schema };
+    let keys = schema.root["properties"]
+        .as_object()
+        .ok_or("the schema has no properties")?;
+    let mut pages = vec![("problem-file.md".to_string(), schema.overview(keys))];
+    for (key, property) in keys {
+        if let Some(name) = schema.target(property) {
+            pages.push((format!("{key}.md"), schema.page(key, property, &name)));
+        }
+    }
+    Ok(pages)
+}
+
+/// The schema, and how its parts are said in words.
+struct Schema<'a> {
+    root: &'a Value,
+}
+
+impl Schema<'_> {
+    fn definition(&self, name: &str) -> &Value {
+        &self.root["$defs"][name]
+    }
+
+    /// The list of tables.
+    fn overview(&self, keys: &Map<String, Value>) -> String {
+        let mut page = format!("# The problem file\n\n{NOTE}\n");
+        page += "A problem file is [TOML](https://toml.io). Keys that are not listed here are refused. `NAME` stands for a name of your own. \
+            Units say what is multiplied with what: any consistent set of units will do, unless a key says otherwise.\n\n\
+            | key | | required | |\n|---|---|---|---|\n";
+        let required = required(self.root);
+        for (key, property) in keys {
+            let named = match (
+                property["additionalProperties"].is_object(),
+                &property["type"],
+            ) {
+                (true, _) => format!("[`[{key}.NAME]`]({key}.md)"),
+                (_, Value::String(t)) if t == "array" => format!("[`[[{key}]]`]({key}.md)"),
+                _ if self.target(property).is_some() => format!("[`[{key}]`]({key}.md)"),
+                _ => format!("`{key}`"),
+            };
+            let kind = match self.target(property) {
+                Some(_) => "table".to_string(),
+                None => self.kind(property),
+            };
+            let must = if required.contains(key.as_str()) {
+                "yes"
+            } else {
+                ""
+            };
+            let _ = writeln!(
+                page,
+                "| {named} | {kind} | {must} | {} |",
+                cell(text(property))
+            );
+        }
+        page
+    }
+
+    /// The page of a table of the problem file.
+    fn page(&self, key: &str, property: &Value, name: &str) -> String {
+        let title = match (
+            property["additionalProperties"].is_object(),
+            &property["type"],
+        ) {
+            (true, _) => format!("[{key}.NAME]"),
+            (_, Value::String(t)) if t == "array" => format!("[[{key}]]"),
+            _ => format!("[{key}]"),
+        };
+        let mut page = format!("# `{title}`\n\n{NOTE}\n");
+        let mut seen = BTreeSet::new();
+        self.section(&mut page, key, name, 1, &mut seen);
+        page
+    }
+
+    /// The text, keys and kinds of a definition, then those of what it refers to.
+    fn section(
+        &self,
+        page: &mut String,
+        path: &str,
+        name: &str,
+        level: usize,
+        seen: &mut BTreeSet<String>,
+    ) {
+        seen.insert(name.to_string());
+        let definition = self.definition(name);
+        page.push_str(&prose(&untitled(text(definition))));
+        page.push_str("\n\n");
+        let mut next: Vec<(String, String, String)> = Vec::new();
+        if let Some(properties) = definition["properties"]
+            .as_object()
+            .filter(|p| !p.is_empty())
+        {
+            page.push_str("| key | type | unit | default | |\n|---|---|---|---|---|\n");
+            let required = required(definition);
+            for (key, property) in properties {
+                self.row(page, key, property, required.contains(key.as_str()));
+                if let Some(target) = self.target(property) {
+                    next.push((format!("{path}.{key}"), format!("`{key}`"), target));
+                }
+            }
+            page.push('\n');
+        }
+        let kinds = self.kinds(definition);
+        if !kinds.is_empty() {
+            page.push_str("One of\n\n| kind | |\n|---|---|\n");
+            for (kind, what, target) in &kinds {
+                let anchor = match target {
+                    Some(_) => format!("[`{kind}`](#{})", anchor(&format!("{path}.{kind}"))),
+                    None => format!("`{kind}`"),
+                };
+                let _ = writeln!(page, "| {anchor} | {} |", cell(what));
+                if let Some(target) = target {
+                    next.push((
+                        format!("{path}.{kind}"),
+                        format!("`{kind}`"),
+                        target.clone(),
+                    ));
+                }
+            }
+            page.push('\n');
+        }
+        for (path, _, target) in next {
+            if self.words(&target).is_some() {
+                continue;
+            }
+            let marks = "#".repeat((level + 1).min(4));
+            let _ = writeln!(page, "{marks} <a id=\"{}\"></a>`{path}`\n", anchor(&path));
+            if seen.contains(&target) {
+                let _ = writeln!(
+                    page,
+                    "{}. Keys as above.\n",
+                    first(text(self.definition(&target)))
+                );
+                continue;
+            }
+            self.section(page, &path, &target, level + 1, seen);
+        }
+    }
+
+    fn row(&self, page: &mut String, key: &str, property: &Value, required: bool) {
+        let mut what = text(property).to_string();
+        if let Some(words) = self.target(property).and_then(|t| self.words(&t)) {
+            let list: Vec<String> = words
+                .iter()
+                .map(|(word, meaning)| format!("`\"{word}\"`: {}", meaning.trim_end_matches('.')))
+                .collect();
+            what = format!("{what} {}.", list.join("; "));
+        }
+        let default = match (&property["default"], required) {
+            (_, true) => "required".to_string(),
+            (Value::Null, _) => String::new(),
+            (Value::Object(map), _) if map.len() > 1 => "as below".to_string(),
+            (value, _) => format!("`{}`", toml(value)),
+        };
+        let _ = writeln!(
+            page,
+            "| `{key}` | {} | {} | {default} | {} |",
+            self.kind(property),
+            unit(&what, self.root).unwrap_or_default(),
+            cell(&what)
+        );
+    }
+
+    /// `(name, text, definition)` of the kinds one of which is chosen by key.
+    fn kinds(&self, definition: &Value) -> Vec<(String, String, Option<String>)> {
+        let mut kinds = Vec::new();
+        for entry in definition["oneOf"].as_array().into_iter().flatten() {
+            for (key, property) in entry["properties"].as_object().into_iter().flatten() {
+                let what = match (text(entry), text(property)) {
+                    ("", inner) => inner.to_string(),
+                    (outer, _) => outer.to_string(),
+                };
+                kinds.push((key.clone(), what, self.target(property)));
+            }
+        }
+        kinds
+    }
+
+    /// `(word, meaning)` where a definition is a choice of words.
+    fn words(&self, name: &str) -> Option<Vec<(String, String)>> {
+        let mut words = Vec::new();
+        for entry in self.definition(name)["oneOf"].as_array()? {
+            words.push((
+                entry["const"].as_str()?.to_string(),
+                text(entry).to_string(),
+            ));
+        }
+        Some(words)
+    }
+
+    /// The definition that a property, its entries or its alternatives refer to.
+    fn target(&self, property: &Value) -> Option<String> {
+        let inside = [
+            &property["additionalProperties"],
+            &property["items"],
+            &property["anyOf"][0],
+        ];
+        let direct = property["$ref"].as_str();
+        let found = direct.or_else(|| inside.iter().find_map(|p| p["$ref"].as_str()))?;
+        let name = found.strip_prefix("#/$defs/")?;
+        // Alternatives that are no tables are said in the row.
+        let definition = self.definition(name);
+        (definition["anyOf"].is_null()).then(|| name.to_string())
+    }
+
+    /// The type of a property in words.
+    fn kind(&self, property: &Value) -> String {
+        let name = match &property["type"] {
+            Value::String(name) => name.as_str(),
+            Value::Array(names) => names
+                .iter()
+                .find_map(|n| n.as_str().filter(|n| *n != "null"))
+                .unwrap_or(""),
+            _ => match self.target(property) {
+                Some(target) if self.words(&target).is_some() => return "word".to_string(),
+                Some(target) if !self.kinds(self.definition(&target)).is_empty() => {
+                    return "kind".to_string();
+                }
+                Some(_) => return "table".to_string(),
+                None => return "list".to_string(),
+            },
+        };
+        let bounds = bounds(property);
+        match name {
+            "array" => {
+                let count = match (property["minItems"].as_u64(), property["maxItems"].as_u64()) {
+                    (Some(a), Some(b)) if a == b => format!("{a} × "),
+                    _ => "list of ".to_string(),
+                };
+                format!("{count}{}", self.kind(&property["items"]))
+            }
+            "object" => "table".to_string(),
+            "integer" => format!("whole number{bounds}"),
+            "boolean" => "true, false".to_string(),
+            "string" => "text".to_string(),
+            other => format!("{other}{bounds}"),
+        }
+    }
+}
+
+fn text(value: &Value) -> &str {
+    value["description"].as_str().unwrap_or("")
+}
+
+fn required(definition: &Value) -> BTreeSet<&str> {
+    let list = definition["required"].as_array().into_iter().flatten();
+    list.filter_map(Value::as_str).collect()
+}
+
+fn bounds(property: &Value) -> String {
+    let signs = BTreeMap::from([
+        ("exclusiveMinimum", ">"),
+        ("minimum", "≥"),
+        ("maximum", "≤"),
+        ("exclusiveMaximum", "<"),
+    ]);
+    let mut list: Vec<String> = signs
+        .iter()
+        .filter(|(key, _)| property[**key].is_number())
+        .map(|(key, sign)| format!("{sign} {}", toml(&property[*key])))
+        .collect();
+    if property["infinite"] == Value::Bool(true) {
+        list.push("or `inf`".to_string());
+    }
+    match list.is_empty() {
+        true => String::new(),
+        false => format!(" {}", list.join(", ")),
+    }
+}
+
+/// A value as it is written in a problem file.
+fn toml(value: &Value) -> String {
+    match value {
+        Value::Object(map) if map.is_empty() => "{}".to_string(),
+        Value::Object(map) => {
+            let entries: Vec<String> = map
+                .iter()
+                .map(|(k, v)| format!("{k} = {}", toml(v)))
+                .collect();
+            format!("{{ {} }}", entries.join(", "))
+        }
+        Value::Array(list) => {
+            let entries: Vec<String> = list.iter().map(toml).collect();
+            format!("[{}]", entries.join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The unit in brackets in a description; other brackets are names of tables, examples and rows.
+fn unit<'t>(description: &'t str, root: &Value) -> Option<&'t str> {
+    let mut rest = description;
+    while let Some(open) = rest.find('[') {
+        rest = &rest[open + 1..];
+        let end = rest.find([']', '['])?;
+        let inside = &rest[..end];
+        let table = root["properties"].get(inside).is_some()
+            || inside.contains("NAME")
+            || inside.contains('.');
+        if rest[end..].starts_with(']')
+            && !table
+            && !inside.contains([',', '"', '{', '`', '='])
+            && !inside.is_empty()
+        {
+            return Some(match inside {
+                "1" => "-",
+                other => other,
+            });
+        }
+    }
+    None
+}
+
+/// A description as a paragraph; angle brackets and stars outside of code must not become HTML.
+fn prose(text: &str) -> String {
+    let mut out = String::new();
+    for (i, part) in text.split('`').enumerate() {
+        let code = i % 2 == 1;
+        if i > 0 {
+            out.push('`');
+        }
+        out.push_str(&match code {
+            true => part.replace('\n', " "),
+            false => part.replace('<', "&lt;").replace('*', "\\*"),
+        });
+    }
+    out
+}
+
+/// A description in a cell of a table.
+fn cell(text: &str) -> String {
+    prose(text)
+        .replace("\n\n", "<br>")
+        .replace('\n', " ")
+        .replace('|', "\\|")
+}
+
+/// A description without the name of its table, which the title says.
+fn untitled(text: &str) -> String {
+    let body = match text.split_once("]: ") {
+        Some((table, body)) if table.starts_with('[') && !table.contains(' ') => body,
+        _ => text,
+    };
+    let mut letters = body.chars();
+    match letters.next() {
+        Some(letter) => letter.to_uppercase().chain(letters).collect(),
+        None => String::new(),
+    }
+}
+
+fn first(text: &str) -> String {
+    let sentence = text.split(['\n', ':']).next().unwrap_or("");
+    prose(sentence.trim_end_matches('.'))
+}
+
+fn anchor(path: &str) -> String {
+    path.replace('.', "-")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reference_in_the_book_is_current() {
+        let folder = workspace::root().join("book/src/reference");
+        let summary =
+            std::fs::read_to_string(workspace::root().join("book/src/SUMMARY.md")).unwrap();
+        for (name, text) in pages().unwrap() {
+            let there = std::fs::read_to_string(folder.join(&name)).unwrap_or_default();
+            assert!(
+                there == text,
+                "reference/{name} is stale: run `cargo xtask book --pages`"
+            );
+            assert!(
+                summary.contains(&format!("reference/{name}")),
+                "{name} is not in SUMMARY.md"
+            );
+        }
+    }
+
+    #[test]
+    fn units_are_told_from_other_brackets() {
+        let root = serde_json::json!({ "properties": { "model": {} } });
+        assert_eq!(unit("Young's modulus [Pa], positive.", &root), Some("Pa"));
+        assert_eq!(
+            unit("The [material.NAME] of [model], `[20, 10]`", &root),
+            None
+        );
+        assert_eq!(unit("Rows of [time, angle [rad]]", &root), Some("rad"));
+    }
+}
