@@ -88,7 +88,8 @@ mod tests {
              9 | durtion = 1\n  \
              | ^^^^^^^\n  \
              |\n  \
-             = help: did you mean `duration`? allowed here: duration, dynamic, increments, interfaces, loads, name, supports"
+             = help: did you mean `duration`? allowed here: change, couplings, duration, dynamic, increments, interfaces, \
+             loads, name, supports"
         );
     }
 

@@ -51,8 +51,8 @@ pub struct Deck {
     pub masses: Vec<(String, f64, Place)>,
     /// `*INITIAL CONDITIONS`.
     pub initial: Vec<InitialCondition>,
-    /// `*TIME POINTS` by name: times of a step.
-    pub time_points: BTreeMap<String, Vec<f64>>,
+    /// `*TIME POINTS` by name.
+    pub time_points: BTreeMap<String, TimePoints>,
     /// `*BOUNDARY` before the first step.
     pub supports: Vec<Boundary>,
     /// The steps.
@@ -468,6 +468,24 @@ pub enum Totals {
     Only,
 }
 
+/// `*TIME POINTS`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TimePoints {
+    /// The times.
+    pub times: Vec<f64>,
+    /// Times are those of the analysis, not of the step.
+    pub total_time: bool,
+}
+
+/// When something is printed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum When {
+    /// Every so many increments, and at the end of the step.
+    Every(usize),
+    /// At the times of `*TIME POINTS`.
+    Times(String),
+}
+
 /// `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Print {
@@ -479,8 +497,10 @@ pub enum Print {
         keys: Vec<String>,
         /// Totals.
         totals: Totals,
-        /// Every so many increments.
-        every: usize,
+        /// In global axes where nodes have a `*TRANSFORM`; CalculiX prints along the local ones otherwise.
+        global: bool,
+        /// When.
+        when: When,
     },
     /// At elements.
     Element {
@@ -490,8 +510,8 @@ pub enum Print {
         keys: Vec<String>,
         /// Totals.
         totals: Totals,
-        /// Every so many increments.
-        every: usize,
+        /// When.
+        when: When,
     },
     /// At contact points.
     Contact {
@@ -501,7 +521,7 @@ pub enum Print {
         keys: Vec<String>,
         /// Totals.
         totals: Totals,
-        /// Every so many increments.
-        every: usize,
+        /// When.
+        when: When,
     },
 }

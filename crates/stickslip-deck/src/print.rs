@@ -8,11 +8,11 @@ use stickslip::Error;
 use stickslip::body::CellState;
 use stickslip::contact::interface::Interface;
 use stickslip::io::write_atomically;
-use stickslip::math::{add, cross, norm, scale, sub};
+use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::simulation::{Event, Observer, Simulation};
 use stickslip::system::Force;
 
-use crate::deck::{Print, Totals};
+use crate::deck::{Print, Totals, When};
 use crate::translate::Translation;
 
 /// Writes the `.dat` file of a deck while it runs. It is complete up to the last increment that was printed.
@@ -24,6 +24,11 @@ pub struct Printer {
     node_sets: BTreeMap<String, Vec<u64>>,
     element_sets: BTreeMap<String, Vec<u64>>,
     pairs: Vec<(String, String, String)>,
+    /// Times of `*TIME POINTS` in the time of the analysis.
+    times: BTreeMap<String, Vec<f64>>,
+    /// Local axes of nodes and elements; rows are the axes.
+    node_axes: BTreeMap<u64, [Vec3; 3]>,
+    element_axes: BTreeMap<u64, [Vec3; 3]>,
     /// Point by node, found at the first output.
     points: BTreeMap<u64, usize>,
     step: usize,
@@ -89,6 +94,9 @@ impl Printer {
                 node_sets: translation.node_sets.clone(),
                 element_sets: translation.element_sets.clone(),
                 pairs: translation.pairs.clone(),
+                times: translation.times.clone(),
+                node_axes: translation.node_axes.clone(),
+                element_axes: translation.element_axes.clone(),
                 points: BTreeMap::new(),
                 step: 0,
                 increment: 0,
@@ -103,8 +111,13 @@ impl Printer {
         &self.text
     }
 
-    fn due(&self, every: usize) -> bool {
-        self.last || self.increment.is_multiple_of(every.max(1))
+    fn due(&self, when: &When) -> bool {
+        let near = |t: &f64| (t - self.time).abs() <= 1e-9 * self.time.abs();
+        self.last
+            || match when {
+                When::Every(n) => self.increment.is_multiple_of((*n).max(1)),
+                When::Times(name) => self.times.get(name).is_some_and(|t| t.iter().any(near)),
+            }
     }
 
     fn print(&mut self, simulation: &Simulation) {
@@ -126,20 +139,23 @@ impl Printer {
                     set,
                     keys,
                     totals,
-                    every,
-                } if self.due(*every) => self.nodes(simulation, &mut out, (set, keys, *totals)),
+                    global,
+                    when,
+                } if self.due(when) => {
+                    self.nodes(simulation, &mut out, (set, keys, *totals, *global));
+                }
                 Print::Element {
                     set,
                     keys,
                     totals,
-                    every,
-                } if self.due(*every) => self.elements(simulation, &mut out, (set, keys, *totals)),
+                    when,
+                } if self.due(when) => self.elements(simulation, &mut out, (set, keys, *totals)),
                 Print::Contact {
                     pair,
                     keys,
                     totals,
-                    every,
-                } if self.due(*every) => {
+                    when,
+                } if self.due(when) => {
                     self.contact(simulation, &mut out, (pair.as_ref(), keys, *totals))
                 }
                 _ => {}
@@ -168,7 +184,7 @@ impl Printer {
         &self,
         simulation: &Simulation,
         out: &mut String,
-        (set, keys, totals): (&str, &[String], Totals),
+        (set, keys, totals, global): (&str, &[String], Totals, bool),
     ) {
         let dofs = simulation.model.dofs;
         let Some(nodes) = self.node_sets.get(set) else {
@@ -203,7 +219,10 @@ impl Printer {
                 );
             }
             for (node, point) in &nodes {
-                let v = dofs.vector(&values, *point);
+                let mut v = dofs.vector(&values, *point);
+                if let Some(axes) = self.node_axes.get(node).filter(|_| !global) {
+                    v = axes.map(|axis| dot(axis, v));
+                }
                 sum = add(sum, v);
                 if totals != Totals::Only {
                     row(out, &format!("{node:>10}"), &v);
@@ -256,13 +275,8 @@ impl Printer {
                             } else {
                                 (p.strain, 0.5)
                             };
-                            // Ours run xx yy zz xy yz xz.
-                            let shear = [v[3], v[5], v[4]].map(|s| half * s);
-                            row(
-                                out,
-                                &format!("{id:>10} {:>3}", i + 1),
-                                &[v[0], v[1], v[2], shear[0], shear[1], shear[2]],
-                            );
+                            let v = tensor(&v, half, self.element_axes.get(id));
+                            row(out, &format!("{id:>10} {:>3}", i + 1), &v);
                         }
                     }
                 }
@@ -384,6 +398,17 @@ impl Printer {
             }
         }
     }
+}
+
+/// Components xx yy zz xy xz yz of a symmetric tensor along axes, from ours, which run xx yy zz xy yz xz.
+fn tensor(v: &[f64; 6], shear: f64, axes: Option<&[Vec3; 3]>) -> [f64; 6] {
+    let [xy, yz, xz] = [v[3], v[4], v[5]].map(|s| shear * s);
+    let Some(a) = axes else {
+        return [v[0], v[1], v[2], xy, xz, yz];
+    };
+    let m = [[v[0], xy, xz], [xy, v[1], yz], [xz, yz, v[2]]];
+    let at = |i: usize, j: usize| dot(a[i], m.map(|row| dot(row, a[j])));
+    [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(0, 2), at(1, 2)]
 }
 
 /// What `CF` prints of a pair.

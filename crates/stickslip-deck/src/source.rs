@@ -71,6 +71,9 @@ pub struct Source {
 /// Deepest nesting of included files.
 const DEPTH: usize = 16;
 
+/// Most files of one deck, with repetitions.
+const MOST: usize = 1000;
+
 struct Line {
     text: String,
     place: Place,
@@ -132,12 +135,12 @@ impl Source {
                 continue;
             }
             let line = match pending.take() {
-                Some(mut begun) if !line.starts_with('*') => {
+                Some(mut begun) if continues(line) => {
                     begun.text.push_str(line);
                     begun
                 }
                 Some(begun) => {
-                    lines.push(begun);
+                    self.take(begun, path, open, lines)?;
                     Line {
                         text: line.to_string(),
                         place,
@@ -185,18 +188,29 @@ impl Source {
             ));
         };
         // Decks written on Windows name files with backslashes.
-        let inner = path
-            .parent()
-            .unwrap_or(Path::new(""))
-            .join(name.replace('\\', "/"));
-        if open.contains(&inner) || open.len() >= DEPTH {
+        let name = name.replace('\\', "/");
+        let beside = |file: &Path| file.parent().unwrap_or(Path::new("")).join(&name);
+        let mut inner = beside(path);
+        if !inner.exists() && open.first().is_some_and(|root| beside(root).exists()) {
+            // Both programs look from the folder of the job.
+            inner = beside(&open[0]);
+        }
+        if open.contains(&inner) || open.len() >= DEPTH || self.files.len() >= MOST {
             return Err(self.error(
                 line.place,
-                format!("the files include each other in a circle, or {DEPTH} deep: {name}"),
+                format!("the files include each other in a circle, are {DEPTH} deep, or more than {MOST}: {name}"),
                 "each *INCLUDE must name a file that does not lead back here",
             ));
         }
         let here = self.files[line.place.file].clone();
+        if inner.exists() && !inner.is_file() {
+            // A device might never end.
+            return Err(self.error(
+                line.place,
+                format!("{} is no file", inner.display()),
+                "*INCLUDE names an ordinary file",
+            ));
+        }
         let bytes = std::fs::read(&inner)
             .map_err(|e| DeckError::io(&inner, &e, Some((&here, line.place.line))))?;
         open.push(inner.clone());
@@ -218,8 +232,13 @@ impl Source {
                 });
                 continue;
             }
-            let mut fields: Vec<String> =
-                line.text.split(',').map(|f| f.trim().to_string()).collect();
+            let mut fields: Vec<String> = match line.text.contains('"') {
+                true => split(&line.text)
+                    .iter()
+                    .map(|f| f.trim().to_string())
+                    .collect(),
+                false => line.text.split(',').map(|f| f.trim().to_string()).collect(),
+            };
             while fields.last().is_some_and(String::is_empty) {
                 fields.pop();
             }
@@ -246,6 +265,12 @@ impl Source {
         }
         Ok(())
     }
+}
+
+/// Whether a line after a keyword line that ends with a comma goes on with its parameters. They begin with a letter: numbers are data,
+/// and the comma is one too many.
+fn continues(line: &str) -> bool {
+    line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)))
 }
 
 /// Capitals without blanks.

@@ -31,7 +31,7 @@ impl Reader<'_> {
             self.error(
                 card.place,
                 format!("the surface interaction {name} is given twice"),
-                "",
+                "names are unique: blanks and case do not count",
             );
         }
         self.context = Context::Interaction(name);
@@ -186,7 +186,11 @@ impl Reader<'_> {
             given = data.fields.len();
         }
         if v[0] < 0.0 {
-            self.error(card.place, "the coefficient of friction is negative", "");
+            self.error(
+                card.place,
+                "the coefficient of friction is negative",
+                "write 0 or more",
+            );
         }
         let decay = card.has("EXPONENTIALDECAY").then_some([v[1], v[2]]);
         for name in ["SLIPTOLERANCE", "ELASTICSLIP"] {
@@ -414,7 +418,11 @@ impl Reader<'_> {
             "FLUIDCYCLIC",
         ] {
             if card.has(name) {
-                self.error(card.place, format!("*TIE, {name} is not supported"), "");
+                self.error(
+                    card.place,
+                    format!("*TIE, {name} is not supported"),
+                    "only surfaces that stay together are tied",
+                );
                 return;
             }
         }

@@ -33,7 +33,7 @@ impl Reader<'_> {
             self.error(
                 card.place,
                 format!("the material {name} is given twice"),
-                "",
+                "names are unique: blanks and case do not count",
             );
         }
         self.context = Context::Material(name);
@@ -216,7 +216,12 @@ impl Reader<'_> {
         let v: Vec<f64> = (0..9).map(|i| self.number(data, i, 0.0)).collect();
         let (a, b, c) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]);
         let less = |x: [f64; 3]| [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
-        let Some(mut axes) = frame(less(a), less(b)) else {
+        // A cylinder is given by two points of its axis.
+        let found = match uniform {
+            true => frame(less(a), less(b)),
+            false => Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        };
+        let Some(mut axes) = found else {
             self.error(
                 data.place,
                 "the two points do not span a plane",
@@ -231,7 +236,7 @@ impl Reader<'_> {
                 self.error(
                     line.place,
                     "the axis of the further rotation is 1, 2 or 3",
-                    "",
+                    "write axis, angle in degrees",
                 );
                 return;
             }

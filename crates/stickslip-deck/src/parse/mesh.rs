@@ -5,7 +5,7 @@ use stickslip::io::abaqus;
 use super::{Reader, clip, number, parameter, whole};
 use crate::deck::{
     Element, Equation, InitialCondition, Rigid, SpringSection, Surface, SurfaceParts, Term,
-    Transform,
+    TimePoints, Transform,
 };
 use crate::source::{Card, Data, Place, label, squeeze};
 
@@ -18,7 +18,46 @@ fn other_nodes(kind: &str) -> Option<usize> {
     }
 }
 
+/// Nodes of lines and faces, which generators of meshes write beside the cells that they bound.
+fn bounding(kind: &str) -> Option<usize> {
+    let (start, rest) = ["T2D", "T3D", "STRI", "S", "M3D", "B3", "B2"]
+        .into_iter()
+        .find_map(|start| Some((start, kind.strip_prefix(start)?)))?;
+    let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+    match (start, &rest[..digits]) {
+        ("T2D" | "T3D", n @ ("2" | "3")) => n.parse().ok(),
+        ("STRI", "3") => Some(3),
+        ("STRI", "65") => Some(6),
+        ("S" | "M3D", n @ ("3" | "4" | "6" | "8")) => n.parse().ok(),
+        ("B2" | "B3", "1") => Some(2),
+        ("B2" | "B3", "2") => Some(3),
+        _ => None,
+    }
+}
+
 impl Reader<'_> {
+    /// Lines and faces without a section bound the cells beside them, and are there for their sets: Gmsh writes them. Without such cells,
+    /// or with a section, they are meant to be computed.
+    pub(super) fn judge_bounding(&mut self) {
+        for (kind, place) in std::mem::take(&mut self.bounding) {
+            let flat = kind.starts_with("T") || kind.starts_with("B");
+            let cells = self.deck.elements.values().any(|e| {
+                abaqus::element_type(&e.kind).is_ok_and(|t| flat || t.space == abaqus::Space::Solid)
+            });
+            let deck = &self.deck;
+            let sectioned = deck.sections.iter().any(|s| {
+                let mut all = deck.element_sets.get(&s.set).into_iter().flatten();
+                all.any(|e| deck.elements.get(e).is_some_and(|e| e.kind == kind))
+            });
+            if cells && !sectioned {
+                self.note(place, format!("elements of type {kind} have no section: they are taken as lines or faces of the cells, for their sets"));
+            } else if let Err(why) = abaqus::element_type(&kind) {
+                let message = format!("elements of type {kind} ({}) are not supported", why.what);
+                self.error(place, message, why.help);
+            }
+        }
+    }
+
     pub(super) fn nodes(&mut self, card: &Card) {
         self.parameters(card, &["NSET"], &["SYSTEM"]);
         if card
@@ -68,6 +107,12 @@ impl Reader<'_> {
                     self.note(card.place, format!("{kind}: {note}"));
                 }
                 t.kind.node_count()
+            }
+            (None, Err(_)) if bounding(&kind).is_some() => {
+                if !self.bounding.iter().any(|(k, _)| *k == kind) {
+                    self.bounding.push((kind.clone(), card.place));
+                }
+                bounding(&kind).unwrap_or_default()
             }
             (None, Err(why)) => {
                 let message = format!("elements of type {kind} ({}) are not supported", why.what);
@@ -143,8 +188,12 @@ impl Reader<'_> {
         }
     }
 
-    /// `start, end, step` as numbers that exist.
-    fn generated(&mut self, data: &Data, exists: impl Fn(&Self, u64) -> bool) -> Vec<u64> {
+    /// `start, end, step` as those of the numbers that exist.
+    fn generated<T>(
+        &mut self,
+        data: &Data,
+        known: impl Fn(&Self) -> &std::collections::BTreeMap<u64, T>,
+    ) -> Vec<u64> {
         let (Some(from), Some(to)) = (self.whole(data, 0), self.whole(data, 1)) else {
             return Vec::new();
         };
@@ -160,10 +209,8 @@ impl Reader<'_> {
             );
             return Vec::new();
         }
-        (from..=to)
-            .step_by(by as usize)
-            .filter(|&n| exists(self, n))
-            .collect()
+        let all = known(self).range(from..=to).map(|(n, _)| *n);
+        all.filter(|n| (n - from).is_multiple_of(by)).collect()
     }
 
     pub(super) fn node_set(&mut self, card: &Card) {
@@ -190,7 +237,7 @@ impl Reader<'_> {
         }
         for data in &card.data {
             if card.has("GENERATE") {
-                out.extend(self.generated(data, |r, n| r.deck.nodes.contains_key(&n)));
+                out.extend(self.generated(data, |r| &r.deck.nodes));
                 continue;
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
@@ -229,7 +276,7 @@ impl Reader<'_> {
         let mut out = Vec::new();
         for data in &card.data {
             if card.has("GENERATE") {
-                out.extend(self.generated(data, |r, n| r.deck.elements.contains_key(&n)));
+                out.extend(self.generated(data, |r| &r.deck.elements));
                 continue;
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
@@ -242,6 +289,9 @@ impl Reader<'_> {
     /// `S3` or `P3` as 3.
     pub(super) fn face(&mut self, text: &str, letter: char, place: Place) -> Option<usize> {
         let text = squeeze(text);
+        // Sides of shells and membranes.
+        let side = matches!(text.as_str(), "SPOS" | "SNEG" | "SP" | "SN") && letter == 'S';
+        let text = if side { "S1".to_string() } else { text };
         let n = text
             .strip_prefix(letter)
             .and_then(|n| n.parse().ok())
@@ -260,11 +310,15 @@ impl Reader<'_> {
     /// Whether an element has the face; it is an error if not.
     pub(super) fn has_face(&mut self, element: u64, face: usize, place: Place) -> bool {
         let kind = &self.deck.elements[&element].kind;
-        let known =
-            abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());
+        let known = bounding(kind).is_some()
+            || abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());
         if !known {
             let message = format!("element {element} ({kind}) has no face {face}");
-            self.error(place, message, "");
+            self.error(
+                place,
+                message,
+                "faces are numbered as in the manual of CalculiX, from 1",
+            );
         }
         known
     }
@@ -305,13 +359,17 @@ impl Reader<'_> {
                     };
                     match whole(field) {
                         Some(n) if self.deck.nodes.contains_key(&n) => nodes.push(n),
-                        Some(n) => self.error(data.place, format!("there is no node {n}"), ""),
+                        Some(n) => self.error(
+                            data.place,
+                            format!("there is no node {n}"),
+                            "*NODE must stand before what refers to it",
+                        ),
                         None => match self.deck.node_sets.get(&label(field)) {
                             Some(set) => nodes.extend(set),
                             None => self.error(
                                 data.place,
                                 format!("there is no set of nodes {}", clip(field)),
-                                "",
+                                "define it with *NSET before",
                             ),
                         },
                     }
@@ -329,14 +387,22 @@ impl Reader<'_> {
             SurfaceParts::Nodes(n) => n.is_empty(),
         };
         if empty && self.errors.is_empty() {
-            self.error(card.place, format!("the surface {name} is empty"), "");
+            self.error(
+                card.place,
+                format!("the surface {name} is empty"),
+                "name faces of elements, or nodes with TYPE=NODE",
+            );
         }
         let surface = Surface {
             parts,
             place: card.place,
         };
         if self.deck.surfaces.insert(name.clone(), surface).is_some() {
-            self.error(card.place, format!("the surface {name} is given twice"), "");
+            self.error(
+                card.place,
+                format!("the surface {name} is given twice"),
+                "give each surface a name of its own",
+            );
         }
     }
 
@@ -422,6 +488,14 @@ impl Reader<'_> {
                     });
                 }
             }
+            if terms.len() as u64 != count {
+                self.error(
+                    data.place,
+                    format!("the equation has {} terms instead of {count}", terms.len()),
+                    "each term is node, direction, factor",
+                );
+                return;
+            }
             if terms.first().is_some_and(|t| t.factor == 0.0) {
                 self.error(
                     data.place,
@@ -452,7 +526,7 @@ impl Reader<'_> {
                 r.error(
                     card.place,
                     format!("*RIGID BODY: {name} is {}, which is no node", clip(text)),
-                    "",
+                    "give the number of a node that exists",
                 );
             }
             id
@@ -522,7 +596,11 @@ impl Reader<'_> {
         let Some(line) = self.line(card) else { return };
         let mass = self.number(line, 0, 0.0);
         if mass < 0.0 {
-            self.error(line.place, "the mass is negative", "");
+            self.error(
+                line.place,
+                "the mass is negative",
+                "write the mass of each point",
+            );
         }
         self.deck.masses.push((set, mass, card.place));
     }
@@ -638,7 +716,7 @@ impl Reader<'_> {
             if card.has("GENERATE") {
                 let [from, to, by] = [0, 1, 2].map(|i| self.number(data, i, 0.0));
                 let count = (to - from) / by;
-                if !(0.0..=1e6).contains(&count) {
+                if !(0.0..=1e6 - times.len() as f64).contains(&count) {
                     self.error(
                         data.place,
                         "these times cannot be made",
@@ -651,7 +729,11 @@ impl Reader<'_> {
             }
             times.extend(data.fields.iter().filter_map(|f| number(f)));
         }
-        self.deck.time_points.insert(name, times);
+        let points = TimePoints {
+            times,
+            total_time: card.get("TIME") == Some("TOTALTIME"),
+        };
+        self.deck.time_points.insert(name, points);
     }
 }
 

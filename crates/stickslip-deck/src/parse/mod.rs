@@ -65,9 +65,13 @@ struct Reader<'a> {
     in_step: bool,
     /// Whether the step has its procedure.
     procedure: bool,
+    /// What cards with `OP` have been met in the step, each by what clears it.
+    touched: Vec<Action>,
     /// Elements of types that are not supported, and sets of them: one error is enough.
     skipped: std::collections::BTreeSet<u64>,
     skipped_sets: std::collections::BTreeSet<String>,
+    /// Types of elements that may bound others, where they were met first.
+    bounding: Vec<(String, Place)>,
 }
 
 /// After so many errors no more are looked for: something else is wrong than single lines.
@@ -86,8 +90,10 @@ impl<'a> Reader<'a> {
             context: Context::None,
             in_step: false,
             procedure: false,
+            touched: Vec::new(),
             skipped: Default::default(),
             skipped_sets: Default::default(),
+            bounding: Vec::new(),
         }
     }
 
@@ -125,6 +131,7 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self) -> Result<Deck, DeckError> {
         let end = Place::default();
+        self.judge_bounding();
         if self.deck.nodes.is_empty() && self.errors.is_empty() {
             self.error(end, "the deck has no nodes", "give them with *NODE");
         }
@@ -328,7 +335,11 @@ impl<'a> Reader<'a> {
                 field + 1,
                 clip(text)
             );
-            self.error(data.place, message, "");
+            self.error(
+                data.place,
+                message,
+                "numbers of nodes and elements and directions count from 1",
+            );
         }
         value
     }
@@ -336,7 +347,11 @@ impl<'a> Reader<'a> {
     /// The first data line.
     fn line<'c>(&mut self, card: &'c Card) -> Option<&'c Data> {
         if card.data.is_empty() {
-            self.error(card.place, format!("{} has no data line", card.written), "");
+            self.error(
+                card.place,
+                format!("{} has no data line", card.written),
+                "the numbers stand in the line after the keyword",
+            );
         }
         card.data.first()
     }
@@ -348,7 +363,7 @@ impl<'a> Reader<'a> {
             self.error(
                 data.place,
                 "a node or a set of nodes is expected in the first field",
-                "",
+                "write node or set, direction, value",
             );
             return None;
         }
@@ -409,7 +424,11 @@ impl<'a> Reader<'a> {
         let deck = &self.deck;
         let mut nodes = |target: &Target, place: Place| match target {
             Target::One(n) if !deck.nodes.contains_key(n) => {
-                findings.push((place, format!("there is no node {n}"), String::new()));
+                findings.push((
+                    place,
+                    format!("there is no node {n}"),
+                    "nodes are given by *NODE".into(),
+                ));
             }
             Target::Set(s) if !deck.node_sets.contains_key(s) => {
                 findings.push((
@@ -536,12 +555,21 @@ use crate::deck::{Action, Boundary, Distributed};
 
 /// A number as Fortran reads it: `1.D5` is 1e5.
 pub(crate) fn number(text: &str) -> Option<f64> {
-    let text = text.trim().replace(['d', 'D'], "e");
+    let mut text = text.trim().replace(['d', 'D'], "e");
     // Rust reads words as numbers that decks must not contain.
     let plain = text
         .bytes()
         .all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
-    text.parse().ok().filter(|v: &f64| plain && v.is_finite())
+    if !plain {
+        return None;
+    }
+    // `1.5+3`: Fortran leaves the letter out where the exponent is long, and reads it so.
+    if !text.contains(['e', 'E'])
+        && let Some(at) = text.char_indices().skip(1).find(|(_, c)| "+-".contains(*c))
+    {
+        text.insert(at.0, 'e');
+    }
+    text.parse().ok().filter(|v: &f64| v.is_finite())
 }
 
 pub(crate) fn whole(text: &str) -> Option<u64> {
@@ -585,7 +613,7 @@ fn parameter(reader: &mut Reader, card: &Card, name: &str) -> Option<f64> {
             card.written,
             clip(text)
         );
-        reader.error(card.place, message, "");
+        reader.error(card.place, message, "write it as 1.5 or 2.E-3");
     }
     value
 }

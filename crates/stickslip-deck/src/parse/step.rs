@@ -1,7 +1,7 @@
 //! Steps: procedure, loads, supports, output.
 
-use super::{Reader, keys, number, parameter, whole};
-use crate::deck::{Action, Boundary, Distributed, Print, Procedure, Step, Totals};
+use super::{Reader, keys, parameter, whole};
+use crate::deck::{Action, Boundary, Distributed, Print, Procedure, Step, Totals, When};
 use crate::source::{Card, Place, label, squeeze};
 
 impl Reader<'_> {
@@ -49,11 +49,16 @@ impl Reader<'_> {
         });
         self.in_step = true;
         self.procedure = false;
+        self.touched.clear();
     }
 
     pub(super) fn end_step(&mut self, card: &Card) {
         if !self.in_step {
-            self.error(card.place, "*END STEP without *STEP", "");
+            self.error(
+                card.place,
+                "*END STEP without *STEP",
+                "a step begins with *STEP",
+            );
             return;
         }
         self.step_without_procedure();
@@ -179,11 +184,16 @@ impl Reader<'_> {
         }
     }
 
-    /// `OP=NEW` takes away what was prescribed before.
+    /// `OP=NEW` takes away what was prescribed before. It counts on the first card of its kind in a step, as in CalculiX; Abaqus wants it
+    /// on all of them, which comes to the same.
     fn operation(&mut self, card: &Card, clear: Action) {
+        let first = !self.touched.contains(&clear);
+        if first {
+            self.touched.push(clear.clone());
+        }
         match card.get("OP") {
-            Some("NEW") => self.act(clear),
-            None | Some("MOD") => {}
+            Some("NEW") if first => self.act(clear),
+            None | Some("MOD" | "NEW") => {}
             Some(other) => self.error(
                 card.place,
                 format!("OP={other} is not known"),
@@ -211,7 +221,7 @@ impl Reader<'_> {
                 self.error(
                     card.place,
                     format!("*BOUNDARY, {name} is not supported"),
-                    "",
+                    "prescribe displacements, with an *AMPLITUDE where they change in time",
                 );
                 return;
             }
@@ -453,15 +463,22 @@ impl Reader<'_> {
         }
     }
 
-    /// Every so many increments.
-    fn frequency(&mut self, card: &Card) -> usize {
-        let value = ["FREQUENCY", "FREQUENCYF"]
-            .iter()
-            .find_map(|n| card.get(n))
-            .and_then(number);
-        value
-            .filter(|v| (1.0..1e9).contains(v))
-            .map_or(1, |v| v as usize)
+    /// Every so many increments, or at times; `None` is never.
+    fn when(&mut self, card: &Card) -> Option<When> {
+        if let Some(name) = card.get("TIMEPOINTS").map(str::to_string) {
+            if let Some(step) = self.deck.steps.last_mut() {
+                step.output_times.push(name.clone());
+            }
+            return Some(When::Times(name));
+        }
+        let name = ["FREQUENCY", "FREQUENCYF"]
+            .into_iter()
+            .find(|n| card.has(n));
+        let every = name
+            .and_then(|n| parameter(self, card, n))
+            .unwrap_or(1.0)
+            .max(0.0);
+        (every >= 1.0).then_some(When::Every(every.min(1e9) as usize))
     }
 
     pub(super) fn print(&mut self, card: &Card) {
@@ -476,8 +493,9 @@ impl Reader<'_> {
                 "TIMEPOINTS",
                 "SLAVE",
                 "MASTER",
+                "GLOBAL",
             ],
-            &["GLOBAL", "SUMMARY"],
+            &["SUMMARY", "POSITION", "LASTITERATIONS", "CONTACTELEMENTS"],
         );
         if self.own_step(card).is_none() {
             return;
@@ -487,7 +505,7 @@ impl Reader<'_> {
             Some("ONLY") => Totals::Only,
             _ => Totals::No,
         };
-        let every = self.frequency(card);
+        let Some(when) = self.when(card) else { return };
         let keys = keys(card);
         let known: &[&str] = match card.keyword.as_str() {
             "NODEPRINT" => &["U", "RF", "V", "A", "NT"],
@@ -511,31 +529,48 @@ impl Reader<'_> {
             .filter(|k| known.contains(&k.as_str()))
             .collect();
         let print = match card.keyword.as_str() {
-            "NODEPRINT" => match self.required(card, "NSET") {
+            "NODEPRINT" => match card.get("NSET").map(str::to_string) {
                 Some(set) if !self.deck.node_sets.contains_key(&set) => {
-                    self.error(card.place, format!("there is no set of nodes {set}"), "");
+                    self.error(
+                        card.place,
+                        format!("there is no set of nodes {set}"),
+                        "define it with *NSET before it is printed",
+                    );
                     return;
                 }
                 Some(set) => Print::Node {
                     set,
                     keys,
                     totals,
-                    every,
+                    global: card.get("GLOBAL") == Some("YES"),
+                    when,
                 },
-                None => return,
+                None => {
+                    let message = format!("{} names no set: nothing is printed", card.written);
+                    self.note(card.place, message);
+                    return;
+                }
             },
-            "ELPRINT" => match self.required(card, "ELSET") {
+            "ELPRINT" => match card.get("ELSET").map(str::to_string) {
                 Some(set) if !self.deck.element_sets.contains_key(&set) => {
-                    self.error(card.place, format!("there is no set of elements {set}"), "");
+                    self.error(
+                        card.place,
+                        format!("there is no set of elements {set}"),
+                        "define it with *ELSET before it is printed",
+                    );
                     return;
                 }
                 Some(set) => Print::Element {
                     set,
                     keys,
                     totals,
-                    every,
+                    when,
                 },
-                None => return,
+                None => {
+                    let message = format!("{} names no set: nothing is printed", card.written);
+                    self.note(card.place, message);
+                    return;
+                }
             },
             _ => {
                 let pair = card.get("SLAVE").zip(card.get("MASTER"));
@@ -543,7 +578,7 @@ impl Reader<'_> {
                     pair: pair.map(|(s, m)| (s.to_string(), m.to_string())),
                     keys,
                     totals,
-                    every,
+                    when,
                 }
             }
         };
@@ -553,12 +588,12 @@ impl Reader<'_> {
     }
 
     pub(super) fn output(&mut self, card: &Card) {
-        let every = self.frequency(card);
-        let times = card.get("TIMEPOINTS").map(str::to_string);
-        let Some(step) = self.own_step(card) else {
+        if self.own_step(card).is_none() {
             return;
-        };
-        step.output_every = Some(step.output_every.map_or(every, |e| e.min(every)));
-        step.output_times.extend(times);
+        }
+        let when = self.when(card);
+        if let (Some(When::Every(n)), Some(step)) = (when, self.deck.steps.last_mut()) {
+            step.output_every = Some(step.output_every.map_or(n, |e| e.min(n)));
+        }
     }
 }

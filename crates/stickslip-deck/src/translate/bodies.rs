@@ -32,6 +32,10 @@ pub(super) struct Bodies {
     pub of_node: BTreeMap<u64, usize>,
     /// Cell, and body, of an element.
     pub of_element: BTreeMap<u64, (CellRef, usize)>,
+    /// Face of a cell, and body, of an element that bounds one.
+    pub of_face: BTreeMap<u64, (FacetRef, usize)>,
+    /// Nodes of a `*RIGID BODY` that are part of a body that is elastic: they move as its reference node is prescribed to.
+    pub rigid_nodes: BTreeMap<usize, Vec<u64>>,
     /// Section of an element: index into the deck's.
     pub section: BTreeMap<u64, usize>,
 }
@@ -53,6 +57,9 @@ impl Bodies {
         };
         for (element, face) in faces {
             let Some((cell, body)) = self.of_element.get(element) else {
+                if let Some((facet, body)) = self.of_face.get(element) {
+                    out.entry(*body).or_default().push(*facet);
+                }
                 continue;
             };
             let kind = self.mesh.blocks[cell.block].kind;
@@ -110,10 +117,14 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
     let mut parent: BTreeMap<u64, u64> = BTreeMap::new();
     let mut space: Option<(Space, u64)> = None;
     let mut cells = BTreeMap::new();
+    let bounding = bounding(job);
     for (id, e) in &deck.elements {
         let Ok(t) = abaqus::element_type(&e.kind) else {
             continue;
         };
+        if bounding.contains(id) {
+            continue;
+        }
         match space {
             None => space = Some((t.space, *id)),
             Some((s, _)) if s == t.space => {}
@@ -213,14 +224,90 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
         });
         all[body].elements.insert(*id);
     }
+    let of_face = faces_of(job, &bounding, &mesh, &of_node);
     Some(Bodies {
         all,
         mesh,
         space,
         of_node,
         of_element,
+        of_face,
+        rigid_nodes: BTreeMap::new(),
         section: BTreeMap::new(),
     })
+}
+
+/// Elements that bound others: those that are no cells, and plane ones without section beside solid ones.
+fn bounding(job: &mut Job) -> BTreeSet<u64> {
+    let deck = job.deck;
+    let space = |id: &u64| {
+        let t = abaqus::element_type(&deck.elements[id].kind);
+        t.ok().map(|t| t.space == Space::Solid)
+    };
+    let solid = deck.elements.keys().any(|id| space(id) == Some(true));
+    let sectioned: BTreeSet<u64> = (deck.sections.iter())
+        .filter_map(|s| deck.element_sets.get(&s.set))
+        .flatten()
+        .copied()
+        .collect();
+    let mut out = BTreeSet::new();
+    let mut plane: BTreeMap<&str, Place> = BTreeMap::new();
+    for (id, e) in &deck.elements {
+        match space(id) {
+            None => out.insert(*id),
+            Some(false) if solid && !sectioned.contains(id) => {
+                plane.entry(&e.kind).or_insert(e.place);
+                out.insert(*id)
+            }
+            Some(_) => false,
+        };
+    }
+    for (kind, place) in plane {
+        job.note(
+            place,
+            format!(
+                "elements of type {kind} have no section: they are taken as faces of the solid ones, for their sets"
+            ),
+        );
+    }
+    out
+}
+
+/// The faces of cells that have the nodes of elements that bound them.
+fn faces_of(
+    job: &Job,
+    bounding: &BTreeSet<u64>,
+    mesh: &Mesh,
+    of_node: &BTreeMap<u64, usize>,
+) -> BTreeMap<u64, (FacetRef, usize)> {
+    let deck = job.deck;
+    let nodes = |id: &u64| -> Vec<u64> {
+        let mut nodes = deck.elements[id].nodes.clone();
+        nodes.sort_unstable();
+        nodes
+    };
+    let least = mesh.dim;
+    let wanted: BTreeMap<Vec<u64>, Vec<u64>> = bounding
+        .iter()
+        .filter(|id| deck.elements[id].nodes.len() >= least)
+        .fold(BTreeMap::new(), |mut all, id| {
+            all.entry(nodes(id)).or_default().push(*id);
+            all
+        });
+    let mut out = BTreeMap::new();
+    if wanted.is_empty() {
+        return out;
+    }
+    for facet in mesh.boundary() {
+        let (_, points) = mesh.facet_points(facet);
+        let mut key: Vec<u64> = points.iter().map(|p| mesh.point_ids[*p]).collect();
+        key.sort_unstable();
+        let body = key.first().and_then(|n| of_node.get(n));
+        if let (Some(ids), Some(body)) = (wanted.get(&key), body) {
+            out.extend(ids.iter().map(|id| (*id, (facet, *body))));
+        }
+    }
+    out
 }
 
 /// A body is called like the set of just its elements, or by a number.
@@ -237,8 +324,13 @@ fn names(job: &Job, bodies: &mut Bodies) {
             .iter()
             .copied()
             .filter(|n| deck.element_sets.contains_key(*n));
+        // Sets that a pre-processor made for itself are the last that one would name a body by.
+        let own = |n: &&String| !n.starts_with("INTERNAL") && !n.starts_with('_');
+        let all = deck.element_sets.keys();
         let found = known
-            .chain(deck.element_sets.keys())
+            .chain(all.clone())
+            .filter(own)
+            .chain(all)
             .find(same)
             .map(|n| toml::name(n));
         body.name = found
@@ -295,6 +387,10 @@ fn rigid(job: &mut Job, bodies: &mut Bodies) {
                 mine.contains(e) || deck.elements[e].nodes.iter().all(|n| points.contains(n))
             })
         };
+        if elements.is_empty() && !owners.is_empty() && !owners.iter().any(whole) {
+            bodies.rigid_nodes.insert(i, nodes);
+            continue;
+        }
         if owners.is_empty() || !owners.iter().all(whole) {
             job.error(
                 r.place,

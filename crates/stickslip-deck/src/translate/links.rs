@@ -1,13 +1,16 @@
 //! `*EQUATION`, springs and masses.
 
+use std::collections::BTreeSet;
+
 use super::bodies::Bodies;
 use super::sets::Sets;
 use super::{Job, supports, toml};
 use crate::source::Place;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    equations(job, bodies, sets);
-    springs(job, bodies, sets);
+    let ground = ground(job, bodies);
+    equations(job, bodies, sets, &ground);
+    springs(job, bodies, sets, &ground);
     masses(job, bodies, sets);
 }
 
@@ -44,6 +47,19 @@ fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
     }
 }
 
+/// Nodes of no cell that are held in every step: the ground.
+fn ground(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
+    let states = supports::by_step(job);
+    let still = |n: &u64| {
+        let held = |s: &supports::State, c| s.get(&(*n, c)).is_some_and(|v| v.value == 0.0);
+        states.iter().all(|s| (0..bodies.dim()).all(|c| held(s, c)))
+    };
+    let named = states.first().into_iter().flat_map(|s| s.keys());
+    let mut out: BTreeSet<u64> = named.map(|(n, _)| *n).collect();
+    out.retain(|n| !bodies.of_node.contains_key(n) && still(n));
+    out
+}
+
 /// Whether all nodes move with a body; it is an error if not.
 fn on_bodies(
     job: &mut Job,
@@ -64,7 +80,7 @@ fn on_bodies(
     true
 }
 
-fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     for (i, e) in job.deck.equations.iter().enumerate() {
         let nodes: Vec<Vec<u64>> = e.terms.iter().map(|t| job.nodes(&t.target)).collect();
         // Sets are paired one by one, in the order of the deck.
@@ -83,6 +99,7 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     let node = if n.len() == 1 { n[0] } else { n[k] };
                     (node, along(job, node, t.component, t.factor))
                 })
+                .filter(|t| !ground.contains(&t.0))
                 .collect();
             if !on_bodies(job, bodies, list.iter().map(|t| t.0), e.place) {
                 break;
@@ -95,12 +112,14 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     }
 }
 
-fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     let deck = job.deck;
     for s in &deck.springs {
         for id in deck.element_sets.get(&s.set).into_iter().flatten() {
             let e = &deck.elements[id];
-            if !on_bodies(job, bodies, e.nodes.iter().copied(), e.place) {
+            let moving = e.nodes.iter().copied().filter(|n| !ground.contains(n));
+            let moving: Vec<u64> = moving.collect();
+            if moving.is_empty() || !on_bodies(job, bodies, moving.iter().copied(), e.place) {
                 continue;
             }
             let name = job.fresh("coupling", &format!("spring-{id}"));
@@ -113,6 +132,22 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     .unwrap_or(0)
             };
             let line = match e.kind.as_str() {
+                "SPRINGA" if moving.len() < 2 => {
+                    // To the ground: along the line to it.
+                    let [a, b] = [e.nodes[0], e.nodes[1]].map(|n| deck.nodes[&n]);
+                    let Some(line) = stickslip::math::normalize(stickslip::math::sub(b, a)) else {
+                        job.error(
+                            e.place,
+                            format!("spring {id} has no length"),
+                            "use SPRING2 with directions",
+                        );
+                        continue;
+                    };
+                    format!(
+                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
+                        terms(bodies, sets, &[(moving[0], line)])
+                    )
+                }
                 "SPRINGA" => {
                     let a = sets.points(bodies, &format!("node-{}", e.nodes[0]), &e.nodes[..1]);
                     let b = sets.points(bodies, &format!("node-{}", e.nodes[1]), &e.nodes[1..2]);
@@ -134,6 +169,8 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                         (e.nodes[0], along(job, e.nodes[0], direction(0), 1.0)),
                         (e.nodes[1], along(job, e.nodes[1], direction(1), -1.0)),
                     ];
+                    let list: Vec<Term> =
+                        list.into_iter().filter(|t| moving.contains(&t.0)).collect();
                     format!(
                         "spring = {{ terms = {}, stiffness = {stiffness} }}",
                         terms(bodies, sets, &list)

@@ -18,6 +18,27 @@ struct Acting<T> {
     place: Place,
     label: String,
     steps: Vec<bool>,
+    /// Steps in which a value with an amplitude takes its place: it ends at once, instead of falling over the step.
+    ends: Vec<bool>,
+}
+
+impl<T> Acting<T> {
+    /// When it acts.
+    fn when(&self) -> When {
+        When {
+            amplitude: self.amplitude.clone(),
+            steps: self.steps.clone(),
+            ends: self.ends.clone(),
+        }
+    }
+}
+
+/// When a load acts.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct When {
+    amplitude: Option<String>,
+    steps: Vec<bool>,
+    ends: Vec<bool>,
 }
 
 /// Values by step to values with their steps, equal ones together.
@@ -41,11 +62,18 @@ fn collect<K: Ord + Clone, T: Clone + PartialEq>(
                     place: *place,
                     label: label.clone(),
                     steps: vec![false; by_step.len()],
+                    ends: vec![false; by_step.len()],
                 };
                 out.push((key.clone(), acting));
                 out.len() - 1
             });
             out[index].1.steps[i] = true;
+        }
+    }
+    for (key, acting) in &mut out {
+        for (i, state) in by_step.iter().enumerate().skip(1) {
+            let replaced = state.get(key).is_some_and(|v| v.1.is_some());
+            acting.ends[i] = replaced && acting.steps[i - 1] && !acting.steps[i];
         }
     }
     out
@@ -59,24 +87,27 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 }
 
 /// Opens the table of a load and writes what all have in common.
-fn open(
-    job: &mut Job,
-    name: &str,
-    set: &str,
-    place: Place,
-    (amplitude, steps): (&Option<String>, &[bool]),
-) {
+fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
     let name = job.fresh("load", &toml::name(name));
-    let factor = amplitude
-        .as_ref()
-        .map(|a| steps::amplitude(job, a, steps, &name));
+    let factor = match (&when.amplitude, when.ends.contains(&true)) {
+        (None, false) => None,
+        (Some(a), false) => Some(steps::amplitude(job, a, &when.steps, &name)),
+        (a, true) => Some(steps::ending(
+            job,
+            a.as_ref(),
+            (&when.steps, &when.ends),
+            &name,
+        )),
+    };
+    let steps = when.steps.iter().zip(&when.ends).map(|(a, b)| *a || *b);
+    let steps: Vec<bool> = steps.collect();
     job.table("load", &name, place);
     job.out.line(&format!("set = {}", toml::text(set)));
     if let Some(factor) = factor {
         job.out
             .line(&format!("amplitude = {}", toml::text(&factor)));
     }
-    job.active.push(("loads", name, steps.to_vec()));
+    job.active.push(("loads", name, steps));
 }
 
 fn label(target: &Target) -> String {
@@ -123,17 +154,16 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         by_step.push(state.clone());
     }
     // Directions of one node that act alike are one force, nodes with the same force one load.
-    let mut nodes: BTreeMap<(u64, Vec<bool>, Option<String>), ([f64; 3], Place, String)> =
-        BTreeMap::new();
+    let mut nodes: BTreeMap<(u64, When), ([f64; 3], Place, String)> = BTreeMap::new();
     for ((node, component), a) in collect(&by_step) {
         let entry = nodes
-            .entry((node, a.steps, a.amplitude))
+            .entry((node, a.when()))
             .or_insert(([0.0; 3], a.place, a.label));
         entry.0[component] = a.what;
     }
-    type Alike = (Vec<bool>, Option<String>, [u64; 3]);
+    type Alike = (When, [u64; 3]);
     let mut groups: BTreeMap<Alike, (Vec<u64>, Place, String)> = BTreeMap::new();
-    for ((node, steps, amplitude), (force, place, label)) in nodes {
+    for ((node, when), (force, place, label)) in nodes {
         let mut at = node;
         if !bodies.of_node.contains_key(&node) {
             match stand_in(job, bodies, node) {
@@ -161,7 +191,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             );
             continue;
         }
-        let key = (steps, amplitude, force.map(|f: f64| (f + 0.0).to_bits()));
+        let key = (when, force.map(|f: f64| (f + 0.0).to_bits()));
         groups
             .entry(key)
             .or_insert((Vec::new(), place, label))
@@ -170,15 +200,9 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     }
     let mut ordered: Vec<_> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, place, _))| *place);
-    for ((steps, amplitude, force), (nodes, place, label)) in ordered {
+    for ((when, force), (nodes, place, label)) in ordered {
         let set = sets.points(bodies, &toml::name(&label), &nodes);
-        open(
-            job,
-            &format!("force-{label}"),
-            &set,
-            place,
-            (&amplitude, &steps),
-        );
+        open(job, &format!("force-{label}"), &set, place, &when);
         let value = toml::numbers(&force.map(f64::from_bits)[..bodies.dim()]);
         job.out
             .line(&format!("nodal-force = {{ value = {value} }}"));
@@ -255,11 +279,11 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
         by_step.push(state.clone());
     }
-    type Alike = (Vec<bool>, Option<String>, u64);
+    type Alike = (When, u64);
     type Faces = BTreeMap<usize, Vec<FacetRef>>;
     let mut groups: BTreeMap<Alike, (Faces, Place, String)> = BTreeMap::new();
     for ((body, facet), a) in collect(&by_step) {
-        let key = (a.steps, a.amplitude, a.what.to_bits());
+        let key = (a.when(), a.what.to_bits());
         let group = groups
             .entry(key)
             .or_insert((Faces::new(), a.place, a.label));
@@ -268,9 +292,9 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     }
     let mut ordered: Vec<_> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, place, _))| *place);
-    for ((steps, amplitude, value), (faces, place, label)) in ordered {
+    for ((when, value), (faces, place, label)) in ordered {
         for (_, set) in sets.facets(bodies, &toml::name(&job.fresh("load", &label)), &faces) {
-            open(job, &label, &set, place, (&amplitude, &steps));
+            open(job, &label, &set, place, &when);
             job.out.line(&format!(
                 "pressure = {{ value = {} }}",
                 toml::number(f64::from_bits(value))
@@ -325,7 +349,7 @@ fn volumes(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let dim = bodies.dim();
     for ((elements, _), a) in collect(&by_step) {
         for set in sets.cells_of(bodies, &toml::name(&a.label), &elements) {
-            open(job, &a.label, &set, a.place, (&a.amplitude, &a.steps));
+            open(job, &a.label, &set, a.place, &a.when());
             let line = match &a.what {
                 Volume::Gravity(g) => format!(
                     "gravity = {{ acceleration = {} }}",

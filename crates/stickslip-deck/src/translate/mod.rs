@@ -10,7 +10,7 @@ mod steps;
 mod supports;
 mod toml;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,6 +43,11 @@ pub struct Translation {
     pub element_sets: BTreeMap<String, Vec<u64>>,
     /// Interfaces by slave and master, in the order of the deck: `(name, slave, master)`.
     pub pairs: Vec<(String, String, String)>,
+    /// Times of `*TIME POINTS` in the time of the analysis.
+    pub(crate) times: BTreeMap<String, Vec<f64>>,
+    /// Local axes (rows) of nodes with a `*TRANSFORM`, and of elements with an `*ORIENTATION`.
+    pub(crate) node_axes: BTreeMap<u64, [[f64; 3]; 3]>,
+    pub(crate) element_axes: BTreeMap<u64, [[f64; 3]; 3]>,
     /// The deck, for messages.
     path: PathBuf,
     /// Where tables of the problem come from.
@@ -164,7 +169,26 @@ impl Deck {
                 .filter_map(|n| Some((n.clone(), sets.get(n)?.clone())))
                 .collect()
         };
+        let node_axes = self.transforms.iter().filter_map(|(n, t)| {
+            let x = *self.nodes.get(n)?;
+            Some((*n, supports::axes(t, x)?))
+        });
+        let element_axes = bodies.section.iter().filter_map(|(e, s)| {
+            let o = self.sections[*s].orientation.as_ref()?;
+            let o = self.orientations.get(o).filter(|o| o.uniform)?;
+            Some((*e, o.axes))
+        });
+        let mut times: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for (step, span) in self.steps.iter().zip(&job.spans) {
+            for name in &step.output_times {
+                let points = steps::points(self, name, *span);
+                times.entry(name.clone()).or_default().extend(points);
+            }
+        }
         Ok(Translation {
+            times,
+            node_axes: node_axes.collect(),
+            element_axes: element_axes.collect(),
             toml: job.out.finish(),
             mesh_name,
             mesh,
@@ -197,6 +221,15 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
     for (name, elements) in &deck.element_sets {
         sets.keep_cells(&bodies, &toml::name(name), elements);
     }
+    for (name, elements) in &deck.element_sets {
+        // What bounds cells in a file of Gmsh is what its user has named.
+        let faces =
+            crate::deck::SurfaceParts::Faces(elements.iter().map(|e| (*e, Some(0))).collect());
+        let by = bodies.faces(&faces);
+        if by.values().any(|list| !list.is_empty()) {
+            sets.keep_facets(&toml::name(name), &by);
+        }
+    }
     for (name, surface) in &deck.surfaces {
         match &surface.parts {
             crate::deck::SurfaceParts::Nodes(nodes) => {
@@ -221,11 +254,15 @@ struct Job<'a> {
     errors: Vec<Finding>,
     notes: Vec<Finding>,
     places: Vec<(String, Place)>,
+    /// The tables there are, for their names.
+    tables: BTreeSet<String>,
     pairs: Vec<(String, String, String)>,
     /// Names of tables that act in some steps only: kind (`supports`, `loads`, ...), name, by step.
     active: Vec<(&'static str, String, Vec<bool>)>,
     /// Changes of laws: step, interface, key and value.
     changes: Vec<(usize, String, String)>,
+    /// Rigid bodies whose reference node is prescribed.
+    led: BTreeSet<usize>,
     /// Starts and lengths of the steps.
     spans: Vec<[f64; 2]>,
 }
@@ -244,9 +281,11 @@ impl<'a> Job<'a> {
             errors: Vec::new(),
             notes: Vec::new(),
             places: Vec::new(),
+            tables: BTreeSet::new(),
             pairs: Vec::new(),
             active: Vec::new(),
             changes: Vec::new(),
+            led: BTreeSet::new(),
             spans: spans.collect(),
         }
     }
@@ -290,6 +329,7 @@ impl<'a> Job<'a> {
         let header = format!("{kind}.{}", toml::key(name));
         self.out.line("");
         self.out.line(&format!("[{header}]"));
+        self.tables.insert(format!("{kind}.{name}"));
         self.places.push((format!("{kind}.{name}"), place));
     }
 
@@ -305,11 +345,7 @@ impl<'a> Job<'a> {
 
     /// A name that no other table of the kind has yet.
     fn fresh(&self, kind: &str, wanted: &str) -> String {
-        let taken = |name: &str| {
-            self.places
-                .iter()
-                .any(|(k, _)| *k == format!("{kind}.{name}"))
-        };
+        let taken = |name: &str| self.tables.contains(&format!("{kind}.{name}"));
         if !taken(wanted) {
             return wanted.to_string();
         }

@@ -19,6 +19,15 @@ pub(super) struct Sets {
     of_cells: BTreeMap<BTreeSet<u64>, String>,
     of_facets: BTreeMap<BTreeSet<FacetRef>, String>,
     unions: BTreeMap<String, Vec<String>>,
+    /// Names of sets of points that are taken.
+    point_names: BTreeSet<String>,
+}
+
+/// A name that is not taken: the one wanted, or that with a number.
+fn free(wanted: &str, taken: impl Fn(&str) -> bool) -> String {
+    let more = (2..).map(|i| format!("{wanted}-{i}"));
+    let all = std::iter::once(wanted.to_string()).chain(more);
+    all.into_iter().find(|n| !taken(n)).unwrap_or_default()
 }
 
 impl Sets {
@@ -32,45 +41,50 @@ impl Sets {
             of_cells: BTreeMap::new(),
             of_facets: BTreeMap::new(),
             unions: BTreeMap::new(),
+            point_names: BTreeSet::new(),
         };
+        // Two names of the deck can be one here, as points are replaced: the second gets a number.
+        let mut taken = BTreeSet::new();
         for (name, nodes) in &deck.node_sets {
             let known = nodes
                 .iter()
                 .copied()
                 .filter(|n| bodies.of_node.contains_key(n));
-            sets.of_points
-                .entry(known.collect())
-                .or_insert_with(|| toml::name(name));
+            let name = free(&toml::name(name), |n| taken.contains(n));
+            let entry = sets.of_points.entry(known.collect());
+            taken.insert(entry.or_insert(name).clone());
         }
+        taken.clear();
         for (name, elements) in &deck.element_sets {
             let known = elements
                 .iter()
                 .copied()
                 .filter(|e| bodies.of_element.contains_key(e));
-            sets.of_cells
-                .entry(known.collect())
-                .or_insert_with(|| toml::name(name));
+            let name = free(&toml::name(name), |n| taken.contains(n));
+            let entry = sets.of_cells.entry(known.collect());
+            taken.insert(entry.or_insert(name).clone());
         }
+        taken.clear();
         for (name, surface) in &deck.surfaces {
             let all = bodies.faces(&surface.parts);
             let all: BTreeSet<FacetRef> = all.into_values().flatten().collect();
             if !all.is_empty() {
-                sets.of_facets
-                    .entry(all)
-                    .or_insert_with(|| toml::name(name));
+                let name = free(&toml::name(name), |n| taken.contains(n));
+                let entry = sets.of_facets.entry(all);
+                taken.insert(entry.or_insert(name).clone());
             }
         }
+        sets.point_names = sets.of_points.values().cloned().collect();
         sets
     }
 
     /// The name of a set of cells in the mesh, and of the set in the problem if there is one body only.
     pub fn cells(&mut self, bodies: &Bodies, wanted: &str, elements: Vec<u64>) -> String {
         let key: BTreeSet<u64> = elements.iter().copied().collect();
-        let name = self
-            .of_cells
-            .entry(key)
-            .or_insert_with(|| wanted.to_string())
-            .clone();
+        let known = self.of_cells.get(&key).cloned();
+        let name =
+            known.unwrap_or_else(|| free(wanted, |n| self.of_cells.values().any(|v| v == n)));
+        self.of_cells.insert(key, name.clone());
         let cells = elements
             .iter()
             .filter_map(|e| bodies.of_element.get(e).map(|c| c.0))
@@ -107,15 +121,8 @@ impl Sets {
         let owners: BTreeSet<usize> = key.iter().map(|n| bodies.of_node[n]).collect();
         let list: Vec<u64> = key.iter().copied().collect();
         let known = self.of_points.get(&key).cloned();
-        let name = known.unwrap_or_else(|| {
-            let taken =
-                |n: &str| self.points.contains_key(n) || self.of_points.values().any(|v| v == n);
-            let first = wanted.to_string();
-            let free = std::iter::once(first)
-                .chain((2..).map(|i| format!("{wanted}-{i}")))
-                .find(|n| !taken(n));
-            free.unwrap_or_default()
-        });
+        let name = known.unwrap_or_else(|| free(wanted, |n| self.point_names.contains(n)));
+        self.point_names.insert(name.clone());
         self.of_points.insert(key, name.clone());
         self.points.insert(name.clone(), list);
         let parts: Vec<String> = owners
@@ -140,11 +147,10 @@ impl Sets {
     ) -> Vec<(usize, String)> {
         let all: BTreeSet<FacetRef> = by.values().flatten().copied().collect();
         let list: Vec<FacetRef> = by.values().flatten().copied().collect();
-        let name = self
-            .of_facets
-            .entry(all)
-            .or_insert_with(|| wanted.to_string())
-            .clone();
+        let known = self.of_facets.get(&all).cloned();
+        let name =
+            known.unwrap_or_else(|| free(wanted, |n| self.of_facets.values().any(|v| v == n)));
+        self.of_facets.insert(all, name.clone());
         self.facets.insert(name.clone(), list);
         by.keys()
             .map(|b| (*b, format!("{}.{name}", bodies.all[*b].name)))

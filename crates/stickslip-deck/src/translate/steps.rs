@@ -1,9 +1,9 @@
 //! Steps, amplitudes and output.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Job, toml};
-use crate::deck::{Print, Procedure, Step};
+use crate::deck::{Deck, Print, Procedure, Step, When};
 
 fn times(step: &Step) -> [f64; 4] {
     match step.procedure {
@@ -46,6 +46,54 @@ pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) 
     let place = a.place;
     let name = job.fresh("amplitude", &toml::name(&format!("{name}-{user}")));
     job.table("amplitude", &name, place);
+    let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
+    job.out.line(&format!("table = [{}]", rows.join(", ")));
+    name
+}
+
+/// The course of a load that ends at once with some steps, as a table of its own: what the steps before say, then nothing.
+pub(super) fn ending(
+    job: &mut Job,
+    name: Option<&String>,
+    (active, ends): (&[bool], &[bool]),
+    user: &str,
+) -> String {
+    let given = name.and_then(|n| job.deck.amplitudes.get(n));
+    let mut rows: Vec<[f64; 2]> = Vec::new();
+    let mut before = 0.0;
+    for (i, [start, length]) in job.spans.clone().into_iter().enumerate() {
+        let end = start + length;
+        let dynamic = matches!(job.deck.steps[i].procedure, Procedure::Dynamic { .. });
+        match (given, active[i]) {
+            (Some(a), true) => {
+                let from = if a.total_time { 0.0 } else { start };
+                push(&mut rows, [start, value(&a.rows, start - from)]);
+                let within = |t: f64| t > start && t < end;
+                for row in a.rows.iter().filter(|r| within(from + r[0])) {
+                    push(&mut rows, [from + row[0], row[1]]);
+                }
+                before = value(&a.rows, end - from);
+            }
+            (None, true) => {
+                push(&mut rows, [start, if dynamic { 1.0 } else { before }]);
+                before = 1.0;
+            }
+            // It falls over a static step, unless something takes its place.
+            (_, false) => {
+                let fades = !ends[i] && !dynamic;
+                push(&mut rows, [start, if fades { before } else { 0.0 }]);
+                before = 0.0;
+            }
+        }
+        push(&mut rows, [end, before]);
+    }
+    let place = job
+        .deck
+        .steps
+        .first()
+        .map_or_else(Default::default, |s| s.place);
+    let name = job.fresh("amplitude", &toml::name(&format!("{user}-course")));
+    job.table("amplitude", &name, given.map_or(place, |a| a.place));
     let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
     job.out.line(&format!("table = [{}]", rows.join(", ")));
     name
@@ -200,29 +248,46 @@ fn ramps(job: &mut Job, index: usize, step: &Step) {
     }
 }
 
+fn gcd(a: usize, b: usize) -> usize {
+    match b {
+        0 => a,
+        _ => gcd(b, a % b),
+    }
+}
+
+/// The times of `*TIME POINTS` that lie in a step, in the time of the analysis.
+pub(super) fn points(deck: &Deck, name: &str, [start, length]: [f64; 2]) -> Vec<f64> {
+    let Some(points) = deck.time_points.get(name) else {
+        return Vec::new();
+    };
+    let from = if points.total_time { 0.0 } else { start };
+    let all = points.times.iter().map(|t| from + t);
+    all.filter(|t| *t > start && *t <= start + length).collect()
+}
+
 fn output(job: &mut Job) {
     let deck = job.deck;
     let of = |p: &Print| match p {
-        Print::Node { every, .. } | Print::Element { every, .. } | Print::Contact { every, .. } => {
-            *every
+        Print::Node { when, .. } | Print::Element { when, .. } | Print::Contact { when, .. } => {
+            match when {
+                When::Every(n) => Some(*n),
+                When::Times(_) => None,
+            }
         }
     };
     let every = deck
         .steps
         .iter()
-        .flat_map(|s| s.prints.iter().map(of).chain(s.output_every))
-        .min();
+        .flat_map(|s| s.prints.iter().filter_map(of).chain(s.output_every))
+        // Whatever is due is due at an output.
+        .reduce(gcd);
     let mut at = Vec::new();
     for (step, [start, length]) in deck.steps.iter().zip(&job.spans) {
-        let times = step
-            .output_times
-            .iter()
-            .filter_map(|n| deck.time_points.get(n))
-            .flatten();
+        let names: BTreeSet<&String> = step.output_times.iter().collect();
         at.extend(
-            times
-                .filter(|t| **t <= *length && **t > 0.0)
-                .map(|t| start + t),
+            names
+                .into_iter()
+                .flat_map(|n| points(deck, n, [*start, *length])),
         );
     }
     at.sort_by(f64::total_cmp);

@@ -10,8 +10,8 @@ use crate::source::Place;
 
 /// What is prescribed of one displacement in one step.
 #[derive(Debug, Clone, PartialEq)]
-struct Value {
-    value: f64,
+pub(super) struct Value {
+    pub value: f64,
     amplitude: Option<String>,
     fixed: bool,
     place: Place,
@@ -31,7 +31,7 @@ impl Value {
 }
 
 /// By node and direction.
-type State = BTreeMap<(u64, usize), Value>;
+pub(super) type State = BTreeMap<(u64, usize), Value>;
 
 /// A support under way: what is prescribed along the axes, when.
 type Alike = (Vec<bool>, Option<String>, [Option<(u64, bool)>; 3]);
@@ -58,7 +58,7 @@ fn apply(job: &Job, state: &mut State, b: &Boundary) {
 }
 
 /// What is prescribed in each step.
-fn by_step(job: &Job) -> Vec<State> {
+pub(super) fn by_step(job: &Job) -> Vec<State> {
     let mut state = State::new();
     for b in &job.deck.supports {
         apply(job, &mut state, b);
@@ -127,7 +127,14 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             continue;
         };
         if !bodies.of_node.contains_key(&node) {
-            reference(job, bodies, (node, &steps, &amplitude), &values, &states);
+            reference(
+                job,
+                bodies,
+                sets,
+                (node, &steps, &amplitude),
+                &values,
+                &states,
+            );
             continue;
         }
         let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
@@ -145,6 +152,19 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             .entry((steps, amplitude, alike))
             .or_insert((Vec::new(), first.clone()));
         group.0.push(node);
+    }
+    for (index, _) in bodies
+        .rigid_nodes
+        .iter()
+        .filter(|(i, _)| !job.led.contains(i))
+        .collect::<Vec<_>>()
+    {
+        let place = job.deck.rigid[*index].place;
+        job.error(
+            place,
+            "the rigid set of nodes is part of a body and its reference node is not prescribed",
+            "prescribe all displacements and hold all rotations of the reference node in every step; a force can act on the nodes themselves, or make a body of its own rigid and *TIE it",
+        );
     }
     // In the order of the deck.
     let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
@@ -182,6 +202,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 fn reference(
     job: &mut Job,
     bodies: &Bodies,
+    sets: &mut Sets,
     (node, steps, amplitude): (u64, &[bool], &Option<String>),
     values: &[Option<Value>; 3],
     states: &[State],
@@ -195,13 +216,13 @@ fn reference(
         return;
     }
     let Some(index) = rigid.iter().position(|r| r.reference == Some(node)) else {
-        job.note(
-            first.place,
-            format!("node {node} is in no element: what is prescribed there has no effect"),
-        );
-        return;
-    };
-    let Some(body) = bodies.all.iter().find(|b| b.rigid == Some(index)) else {
+        let mut all = job.deck.elements.values();
+        if !all.any(|e| e.nodes.contains(&node)) {
+            job.note(
+                first.place,
+                format!("node {node} is in no element: what is prescribed there has no effect"),
+            );
+        }
         return;
     };
     let dim = bodies.dim();
@@ -212,28 +233,37 @@ fn reference(
         let value = |key: (u64, usize)| state.get(&key).map(|v| v.value);
         value((node, 3 + axis)).or_else(|| rotation.and_then(|r| value((r, axis))))
     };
-    let all = values[..dim].iter().all(Option::is_some);
     let still = states
         .iter()
         .zip(steps)
         .filter(|(_, on)| **on)
-        .all(|(s, _)| axes.iter().all(|&a| held(s, a) == Some(0.0)));
-    if !(all && still) {
+        .all(|(s, _)| {
+            (0..dim).all(|c| s.contains_key(&(node, c)))
+                && axes.iter().all(|&a| held(s, a) == Some(0.0))
+        });
+    if !still {
         job.error(
             first.place,
             format!("the reference node {node} of a rigid body is held in part"),
-            "prescribe all its displacements and hold its rotations (directions 4 to 6), or prescribe nodes of the body instead",
+            "prescribe all its displacements and hold its rotations (directions 4 to 6, or those of its ROT NODE), or prescribe nodes of the body instead",
         );
         return;
     }
     let name = job.fresh("support", &toml::name(&first.label));
-    let (body, place) = (body.name.clone(), first.place);
+    let body = bodies.all.iter().find(|b| b.rigid == Some(index));
+    let set = match (body, bodies.rigid_nodes.get(&index)) {
+        (Some(body), _) => body.name.clone(),
+        (None, Some(nodes)) => sets.points(bodies, &toml::name(&first.label), nodes),
+        _ => return,
+    };
+    job.led.insert(index);
+    let place = first.place;
     let factor = amplitude
         .as_ref()
         .map(|a| steps::amplitude(job, a, steps, &name));
     job.table("support", &name, place);
-    job.out.line(&format!("set = {}", toml::text(&body)));
-    for (axis, v) in ["x", "y", "z"].iter().zip(values) {
+    job.out.line(&format!("set = {}", toml::text(&set)));
+    for (axis, v) in ["x", "y", "z"][..dim].iter().zip(values) {
         if let Some(v) = v {
             job.out.line(&format!("{axis} = {}", toml::number(v.value)));
         }

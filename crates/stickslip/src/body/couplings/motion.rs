@@ -8,6 +8,9 @@ use crate::system::{Links, StepFailure};
 /// Relative residual to which the accelerations of equations are made to vanish.
 const EXACT: f64 = 1e-12;
 
+/// Accelerations under forces, both by dof.
+type Accelerate<'a> = &'a mut dyn FnMut(&[f64]) -> Result<Vec<f64>, StepFailure>;
+
 impl Couplings {
     /// Finds the multipliers with which accelerations `a` satisfy the equations that act at `t`, and adds their forces to the internal ones in `out` and what
     /// they do to `a`. Without that the trapezoidal rule would swing about them for ever.
@@ -20,7 +23,7 @@ impl Couplings {
         &mut self,
         (t, links): (f64, &Links),
         massless: &[bool],
-        accelerate: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, StepFailure>,
+        accelerate: Accelerate<'_>,
         (a, out): (&mut [f64], &mut [f64]),
     ) -> Result<(), StepFailure> {
         let mut rows: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();

@@ -426,7 +426,7 @@ fn sort<T: Ord>(set: &mut Vec<T>) {
 /// A whole number that is not negative.
 fn whole(value: f64) -> Option<usize> {
     // Beyond 2^53 not every whole number is an f64, and no array is that long.
-    (value >= 0.0 && value < 9e15 && value.fract() == 0.0).then_some(value as usize)
+    ((0.0..9e15).contains(&value) && value.fract() == 0.0).then_some(value as usize)
 }
 
 /// Numbers by the first of these arrays that has one for all of `total` entries, for the `count` entries that are kept; it is

@@ -1,0 +1,136 @@
+//! What programs and people see of a run while it goes on, and that it can be stopped.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+const CASE: &str = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
+support.top = { set = "block.top", x = 0.0, y = -1e-5 }
+step = [{ name = "press", increments = { fixed = 3 } }]
+"#;
+
+fn place(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("progress")
+        .join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
+    }
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
+    folder
+}
+
+fn stickslip(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
+    command.current_dir(folder);
+    command
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn programs_get_a_line_of_json_for_each_event() {
+    let folder = place("json");
+    let output = stickslip(&folder)
+        .args(["run", "case.toml", "--json"])
+        .output();
+    let output = output.expect("the binary runs");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let lines: Vec<Value> = text(&output.stdout)
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{line}: {e}")))
+        .collect();
+    let of = |event: &str| {
+        lines
+            .iter()
+            .filter(|l| l["event"] == event)
+            .collect::<Vec<_>>()
+    };
+    let increments = of("increment");
+    assert_eq!(increments.len(), 3);
+    assert_eq!(increments[2]["row"]["TIME"], 1.0);
+    assert_eq!(increments[0]["step"], "press");
+    assert_eq!(lines.last().map(|l| l["event"].clone()), Some("end".into()));
+    assert_eq!(of("end")[0]["summary"]["increments"], 3);
+    // nothing else is in the way of who reads it
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_pipe_gets_no_line_an_increment() {
+    let folder = place("piped");
+    let output = stickslip(&folder)
+        .args(["run", "case.toml"])
+        .output()
+        .expect("the binary runs");
+    let said = text(&output.stderr);
+    assert!(said.contains("done: 3 increments"), "{said}");
+    assert!(!said.lines().any(|l| l.starts_with("press")), "{said}");
+    let output = stickslip(&folder)
+        .args(["run", "case.toml", "--verbose"])
+        .output();
+    let said = text(&output.expect("the binary runs").stderr);
+    assert_eq!(
+        said.lines().filter(|l| l.starts_with("press")).count(),
+        3,
+        "{said}"
+    );
+}
+
+/// Ctrl-C is a signal where there are signals.
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_interrupted_leaves_valid_results() {
+    let folder = place("interrupted");
+    let run = stickslip(&folder)
+        .args([
+            "run",
+            "case.toml",
+            "--json",
+            "--set",
+            "step.0.increments.fixed=100000000",
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut run = run.expect("the binary runs");
+    // It is under way when it has said something.
+    let mut lines =
+        std::io::BufRead::lines(std::io::BufReader::new(run.stdout.take().expect("a pipe")));
+    let first = lines.next().expect("a line").expect("text");
+    assert!(first.contains("increment"), "{first}");
+    let sent = Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status();
+    assert!(sent.expect("kill").success());
+    let rest: Vec<String> = lines.map_while(Result::ok).collect();
+    let status = run.wait().expect("it ends");
+    assert_eq!(status.code(), Some(130));
+    let end: Value = serde_json::from_str(rest.last().expect("an end")).expect("JSON");
+    assert_eq!(end["event"], "end");
+    let summary = std::fs::read_to_string(folder.join("case.out/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    let history = std::fs::read_to_string(folder.join("case.out/history.csv")).expect("a history");
+    let rows = history.lines().filter(|l| !l.starts_with('#')).count() - 1;
+    assert_eq!(summary["increments"], rows);
+    assert!(rows > 0);
+    // and other commands take them for what they are
+    let explained = stickslip(&folder)
+        .args(["explain", "case.out"])
+        .output()
+        .expect("the binary runs");
+    assert!(
+        explained.status.code().is_some_and(|c| c < 4),
+        "{}",
+        text(&explained.stderr)
+    );
+}

@@ -1,0 +1,9 @@
+//! Decks in the format of Abaqus and CalculiX, from text to results.
+
+mod cards;
+mod elements;
+mod malformed;
+mod reading;
+mod steps;
+mod styles;
+mod support;

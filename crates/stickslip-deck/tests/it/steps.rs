@@ -1,0 +1,189 @@
+//! Steps: how values go from one to the next, amplitudes, dynamics, and when something is printed.
+
+use crate::support::{column, cube, near, run, sections, translate};
+
+/// A rod with E A = 1000 and length 1 through these steps; the displacement of its end.
+fn rod(name: &str, steps: &str) -> Vec<(f64, f64)> {
+    let text = format!("{}*NSET, NSET=END\n7\n{steps}", column());
+    run(name, &text).course("displacements", 3)
+}
+
+/// Compares with pairs of time and displacement in thousandths.
+#[track_caller]
+fn is(course: &[(f64, f64)], wanted: &[(f64, f64)]) {
+    let close =
+        |a: &(f64, f64), b: &(f64, f64)| (a.0 - b.0).abs() < 1e-6 && (1e3 * a.1 - b.1).abs() < 1e-4;
+    assert!(
+        course.len() == wanted.len() && course.iter().zip(wanted).all(|(a, b)| close(a, b)),
+        "{course:?} is not {wanted:?}"
+    );
+}
+
+const PRINT: &str = "*NODE PRINT, NSET=END\nU\n*END STEP\n";
+
+#[test]
+fn forces_stay_until_they_are_changed_or_cleared() {
+    // Each node of the end has a quarter. CalculiX 2.20 gives the same: values go linearly from one step to the next.
+    let steps = format!(
+        "*STEP\n*STATIC, DIRECT\n.5, 1.\n*CLOAD\nNTOP, 3, 1.\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n*CLOAD\nNTOP, 3, 2.\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n*CLOAD, OP=MOD\n*DLOAD\nEN, P2, 4.\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n*CLOAD, OP=NEW\n*DLOAD, OP=NEW\n{PRINT}"
+    );
+    let wanted = [2.0, 4.0, 6.0, 8.0, 6.0, 4.0, 2.0, 0.0];
+    let wanted: Vec<(f64, f64)> = (1..).map(|i| 0.5 * i as f64).zip(wanted).collect();
+    is(&rod("op", &steps), &wanted);
+}
+
+#[test]
+fn new_counts_on_the_first_card_of_a_step() {
+    // Two cards with OP=NEW, as PrePoMax writes them, keep what both say.
+    let steps = format!(
+        "*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 9.\n*END STEP\n\
+         *STEP\n*STATIC\n*BOUNDARY, OP=NEW\n*BOUNDARY, OP=NEW\nN, 1, 2\n*BOUNDARY, OP=NEW\nNBOT, 3\n\
+         *CLOAD, OP=NEW\n5, 3, 1.\n6, 3, 1.\n*CLOAD, OP=NEW\n7, 3, 1.\n8, 3, 1.\n{PRINT}"
+    );
+    is(&rod("op-new", &steps), &[(2.0, 4.0)]);
+}
+
+#[test]
+fn several_forces_on_a_node_add_up() {
+    let steps =
+        format!("*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n7, 3, .5\nNTOP, 3, 1.\n7, 3, -.5\n{PRINT}");
+    is(&rod("sum", &steps), &[(1.0, 8.0)]);
+}
+
+#[test]
+fn prescribed_displacements_stay_are_replaced_or_let_go() {
+    let steps = format!(
+        "*STEP\n*STATIC, DIRECT\n.5, 1.\n*BOUNDARY\nNTOP, 3, 3, .004\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n*BOUNDARY\nNTOP, 3, 3, -.002\n{PRINT}\
+         *STEP\n*STATIC, DIRECT\n.5, 1.\n*BOUNDARY, OP=NEW\nN, 1, 2\nNBOT, 3\nNTOP, 3, 3, 0.\n{PRINT}"
+    );
+    let wanted = [2.0, 4.0, 4.0, 4.0, 1.0, -2.0, -1.0, 0.0];
+    let wanted: Vec<(f64, f64)> = (1..).map(|i| 0.5 * i as f64).zip(wanted).collect();
+    is(&rod("boundary", &steps), &wanted);
+}
+
+#[test]
+fn fixed_holds_where_things_are() {
+    let steps = format!(
+        "*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n*END STEP\n\
+         *STEP\n*STATIC\n*BOUNDARY, FIXED\nNTOP, 3\n*CLOAD, OP=NEW\n{PRINT}"
+    );
+    is(&rod("fixed", &steps), &[(2.0, 4.0)]);
+}
+
+#[test]
+fn amplitudes_run_over_the_time_of_the_step_or_of_the_analysis() {
+    let steps = |amplitude: &str| {
+        format!(
+            "*AMPLITUDE, NAME=A{amplitude}\n0., 0., .5, 2., 1.5, 2.,\n2., 1.\n\
+             *STEP\n*STATIC, DIRECT\n.25, 1.\n*CLOAD, AMPLITUDE=A\nNTOP, 3, 1.\n{PRINT}\
+             *STEP\n*STATIC, DIRECT\n.5, 1.\n*CLOAD, AMPLITUDE=A\nNTOP, 3, 2.\n{PRINT}"
+        )
+    };
+    let times = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
+    let course = |values: [f64; 6]| -> Vec<(f64, f64)> { times.into_iter().zip(values).collect() };
+    is(
+        &rod("amplitude-step", &steps("")),
+        &course([4.0, 8.0, 8.0, 8.0, 16.0, 16.0]),
+    );
+    is(
+        &rod("amplitude-total", &steps(", TIME=TOTAL TIME")),
+        &course([4.0, 8.0, 8.0, 8.0, 16.0, 8.0]),
+    );
+}
+
+#[test]
+fn time_points_and_frequencies_say_when_something_is_printed() {
+    let steps = "*TIME POINTS, NAME=T, GENERATE\n.25, .75, .5\n*STEP\n*STATIC, DIRECT\n.125, 1.\n*CLOAD\nNTOP, 3, 1.\n\
+                 *NODE PRINT, NSET=END, TIME POINTS=T\nU\n*END STEP\n";
+    is(
+        &rod("time-points", steps),
+        &[(0.25, 1.0), (0.75, 3.0), (1.0, 4.0)],
+    );
+    let steps = "*STEP\n*STATIC, DIRECT\n.125, 1.\n*CLOAD\nNTOP, 3, 1.\n*NODE PRINT, NSET=END, FREQUENCY=3\nU\n\
+                 *EL PRINT, ELSET=EN, FREQUENCY=2, TOTALS=ONLY\nEVOL\n*NODE PRINT, NSET=N, FREQUENCY=0\nV\n*END STEP\n";
+    let r = run(
+        "frequency",
+        &format!("{}*NSET, NSET=END\n7\n{steps}", column()),
+    );
+    is(
+        &r.course("displacements", 3),
+        &[(0.375, 1.5), (0.75, 3.0), (1.0, 4.0)],
+    );
+    assert_eq!(r.all("total volume").len(), 4);
+    assert!(r.all("velocities").is_empty());
+}
+
+#[test]
+fn bodies_fly_from_their_initial_velocity() {
+    let free = |procedure: &str| {
+        format!(
+            "{}{}*INITIAL CONDITIONS, TYPE=VELOCITY\nN, 3, 2.\nN, 1, -1.\n*STEP\n*DYNAMIC{procedure}\n*NODE PRINT, NSET=NTOP\nU, V\n*END STEP\n",
+            cube("N", 1, 0.0),
+            sections(&["EN"])
+        )
+    };
+    for (name, procedure) in [
+        ("implicit", "\n.1, .5"),
+        ("direct", ", DIRECT\n.1, .5"),
+        ("alpha", ", ALPHA=-.1\n.1, .5"),
+        ("explicit", ", EXPLICIT\n.1, .5"),
+    ] {
+        let r = run(&format!("fly-{name}"), &free(procedure));
+        near(r.u(7)[2], 1.0, 1e-6);
+        near(r.u(7)[0], -0.5, 1e-6);
+        near(r.last("velocities")[3], 2.0, 1e-6);
+    }
+}
+
+#[test]
+fn masses_swing_on_springs() {
+    // Eight springs of 12.5 and eight masses of 0.375 beside the cube of mass 1: omega² = 100 / 4, u = v / omega sin(omega t).
+    let elements = |from: u64| {
+        (1..9)
+            .map(|n| format!("{}, {n}\n", from + n))
+            .collect::<String>()
+    };
+    let text = format!(
+        "{}{}*ELEMENT, TYPE=SPRING1, ELSET=SP\n{}*SPRING, ELSET=SP\n3\n12.5\n*ELEMENT, TYPE=MASS, ELSET=MA\n{}*MASS, ELSET=MA\n.375\n\
+         *BOUNDARY\nN, 1, 2\n*INITIAL CONDITIONS, TYPE=VELOCITY\nN, 3, 1.\n*STEP, INC=1000\n*DYNAMIC, DIRECT, ALPHA=0.\n.002, .3141592653589793\n\
+         *NODE PRINT, NSET=N, FREQUENCY=1000\nU\n*END STEP\n",
+        cube("N", 1, 0.0),
+        sections(&["EN"]),
+        elements(100),
+        elements(200)
+    );
+    near(run("swing", &text).u(7)[2], 0.2, 1e-3);
+}
+
+#[test]
+fn loads_act_at_once_in_dynamic_steps() {
+    // A free cube under a constant force of 4: u = 2 t².
+    let text = format!(
+        "{}{}*STEP\n*DYNAMIC, DIRECT\n.01, .1\n*CLOAD\nN, 3, .5\n*NODE PRINT, NSET=N\nU\n*END STEP\n",
+        cube("N", 1, 0.0),
+        sections(&["EN"])
+    );
+    near(run("at-once", &text).u(7)[2], 0.02, 2e-2);
+}
+
+#[test]
+fn what_a_step_says_of_its_increments_is_kept() {
+    let toml = translate(&format!(
+        "{}*STEP, INC=50\n*STATIC\n.1, 2., 1.E-3, .5\n*CLOAD\n7, 3, 1.\n*END STEP\n",
+        column()
+    ))
+    .toml;
+    for wanted in [
+        "duration = 2.0",
+        "initial = 0.05",
+        "smallest = 0.0005",
+        "largest = 0.25",
+    ] {
+        assert!(toml.contains(wanted), "{toml}");
+    }
+}
