@@ -16,10 +16,10 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  book [--pages] [--verification]
+  book [--pages] [--verification [--full]]
                             write the generated pages of the book and build it into target/book, with mdBook, which is installed into
                             target/tools where it is missing; --pages only writes pages; --verification runs all examples first and
-                            writes their numbers
+                            writes their numbers, with --full those that take minutes too
   browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files

@@ -21,11 +21,12 @@ const VERSION: &str = "0.4.52";
 
 /// Writes the generated pages and builds the book into `target/book`.
 pub fn build(what: &[String]) -> Result<(), String> {
-    let (mut pages_only, mut measure) = (false, false);
+    let (mut pages_only, mut measure, mut full) = (false, false, false);
     for argument in what {
         match argument.as_str() {
             "--pages" => pages_only = true,
             "--verification" => measure = true,
+            "--full" => full = true,
             other => return Err(format!("book: unknown argument {other}")),
         }
     }
@@ -37,7 +38,10 @@ pub fn build(what: &[String]) -> Result<(), String> {
         &commands::page(&workspace::stickslip()?)?,
     )?;
     if measure {
-        write(&source().join("verification.md"), &verification::page()?)?;
+        write(
+            &source().join("verification.md"),
+            &verification::page(full)?,
+        )?;
     }
     if pages_only {
         return Ok(());
