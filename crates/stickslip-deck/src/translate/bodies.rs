@@ -450,6 +450,11 @@ fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
             Some(_) => {}
         }
     }
+    // C3D6 has two integration points; ours has six unless it is reduced.
+    let wedges = |id: &u64| deck.elements[id].kind.starts_with("C3D6");
+    if found.is_none() && body.elements.iter().any(wedges) {
+        return Some("reduced");
+    }
     match found.map(|f| f.0) {
         Some(Integration::Reduced) => Some("reduced"),
         Some(Integration::Incompatible) => Some("incompatible-modes"),
