@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 HERE = Path(__file__).resolve().parents[1]
-BOOK = HERE.parents[1] / "book" / "src" / "python.md"
+BOOK = HERE.parents[1] / "book" / "src"
+PAGES = sorted(p for p in BOOK.rglob("*.md") if "```python\n" in p.read_text())
 NOTEBOOKS = sorted((HERE / "notebooks").glob("*.ipynb"))
 
 
@@ -17,14 +18,23 @@ def execute(code, name):
         exec(compile(part, f"{name}, part {i + 1}", "exec"), space)
 
 
-@pytest.mark.skipif(not BOOK.exists(), reason="the book is not here")
-def test_the_chapter_runs(capsys):
+def test_the_book_has_pages_with_python():
+    assert not BOOK.exists() or len(PAGES) >= 2
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.stem)
+def test_pages_of_the_book_run(page, capsys, tmp_path, monkeypatch):
+    """The Python of a page is one script, which may read the files that the page defines."""
     pytest.importorskip("pyvista")
-    code = re.findall(r"^```python\n(.*?)^```", BOOK.read_text(), re.M | re.S)
-    assert len(code) > 6
-    execute(code, BOOK.name)
+    monkeypatch.chdir(tmp_path)
+    for name, body in re.findall(r"^```\w+\n# file: (\S+)\n(.*?)^```", page.read_text(), re.M | re.S):
+        (tmp_path / name).write_text(body)
+    code = re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S)
+    execute(code, page.name)
     said = capsys.readouterr().out
-    assert "suport - unknown key `suport` - did you mean `support`?" in said
+    if page.name == "python.md":
+        assert len(code) > 6
+        assert "suport - unknown key `suport` - did you mean `support`?" in said
 
 
 def test_there_are_notebooks():

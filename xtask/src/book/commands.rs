@@ -45,5 +45,7 @@ fn help(binary: &Path, command: &[&str]) -> Result<String, String> {
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     // The binary may have another name where it was built.
     let name = binary.file_name().unwrap_or_default().to_string_lossy();
-    Ok(lines.join("\n").replace(&format!("Usage: {name}"), "Usage: stickslip"))
+    Ok(lines
+        .join("\n")
+        .replace(&format!("Usage: {name}"), "Usage: stickslip"))
 }

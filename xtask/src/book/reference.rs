@@ -159,9 +159,9 @@ impl Schema<'_> {
         if let Some(words) = self.target(property).and_then(|t| self.words(&t)) {
             let list: Vec<String> = words
                 .iter()
-                .map(|(word, meaning)| format!("`\"{word}\"`: {}", meaning.trim_end_matches('.')))
+                .map(|(word, meaning)| format!("\n\n`\"{word}\"`: {meaning}"))
                 .collect();
-            what = format!("{what} {}.", list.join("; "));
+            what = format!("{what}{}", list.concat());
         }
         let default = match (&property["default"], required) {
             (_, true) => "required".to_string(),

@@ -1,0 +1,325 @@
+//! What the book says is so: its problem files are sound, its commands do what is said, its links lead somewhere.
+//!
+//! Rules for pages that are written by hand:
+//!
+//! - a block that begins with `# file: NAME` (or `**`, for decks) is saved under that name for the commands of the page;
+//! - a `toml` block with `format = 1` is a whole problem file and must be sound; `toml,fragment` is part of one, with keys that exist;
+//! - commands in `sh` blocks that begin with `stickslip`, or make a file by `sed`, are run in the order of the page; others are for people. The line says the exit code if it is not 0:
+//!   `# exit code 2`.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use stickslip::problem::Document;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn source() -> PathBuf {
+    root().join("book/src")
+}
+
+/// All pages, as paths within the source of the book.
+fn pages() -> Vec<PathBuf> {
+    fn collect(folder: &Path, out: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).expect("a folder of the book") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                collect(&path, out);
+            } else if path.extension().is_some_and(|e| e == "md") {
+                out.push(path);
+            }
+        }
+    }
+    let mut out = Vec::new();
+    collect(&source(), &mut out);
+    out.sort();
+    out
+}
+
+/// Pages that a program writes have no snippets to follow.
+fn generated(page: &Path) -> bool {
+    let name = page.strip_prefix(source()).expect("a page");
+    name.starts_with("reference")
+        || ["verification.md", "decks.md"]
+            .iter()
+            .any(|n| name == Path::new(n))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// `(language and marks, text)` of the fenced blocks of a page; blocks inside of lists too.
+fn blocks(text: &str) -> Vec<(String, String)> {
+    let mut out = Vec::new();
+    let mut open: Option<(String, usize, String)> = None;
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        match (&mut open, line.trim_start().strip_prefix("```")) {
+            (None, Some(marks)) => open = Some((marks.trim().to_string(), indent, String::new())),
+            (Some(_), Some(_)) => out.extend(open.take().map(|(marks, _, text)| (marks, text))),
+            (Some((_, indent, text)), None) => {
+                text.push_str(line.get(*indent..).unwrap_or("").trim_end());
+                text.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    out
+}
+
+/// The name under which a block is to be saved.
+fn file_name(block: &str) -> Option<&str> {
+    let first = block.lines().next()?;
+    ["# file:", "** file:", "// file:"]
+        .iter()
+        .find_map(|mark| first.strip_prefix(mark))
+        .map(str::trim)
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a folder");
+    for entry in std::fs::read_dir(from).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_file() {
+            std::fs::copy(&path, to.join(path.file_name().expect("a name"))).expect("a copy");
+        }
+    }
+}
+
+/// An empty folder for a page, with the examples that it names.
+fn folder(page: &Path, text: &str) -> PathBuf {
+    let name = page.strip_prefix(source()).expect("a page");
+    let name = name.with_extension("").to_string_lossy().replace('/', "-");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("book")
+        .join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    for part in text.split("examples/").skip(1) {
+        let end = part
+            .find(|c: char| !c.is_alphanumeric() && c != '-')
+            .unwrap_or(part.len());
+        let from = root().join("examples").join(&part[..end]);
+        if end > 0 && from.is_dir() {
+            copy(&from, &folder.join("examples").join(&part[..end]));
+        }
+    }
+    folder
+}
+
+/// Runs a line as a person would type it.
+fn follow(line: &str, folder: &Path) -> Option<i32> {
+    let binary = Path::new(env!("CARGO_BIN_EXE_stickslip"));
+    let mut path = binary.parent().expect("a folder").as_os_str().to_owned();
+    path.push(":");
+    path.push(std::env::var_os("PATH").unwrap_or_default());
+    let output = Command::new("sh")
+        .args(["-c", line])
+        .current_dir(folder)
+        .env("PATH", path)
+        .output()
+        .expect("a shell");
+    output.status.code()
+}
+
+#[test]
+#[cfg(unix)]
+fn commands_do_what_the_book_says() {
+    let mut followed = 0;
+    for page in pages().into_iter().filter(|p| !generated(p)) {
+        let text = read(&page);
+        let blocks = blocks(&text);
+        let mine = |line: &str| line.starts_with("stickslip ") || line.starts_with("sed ");
+        let commands = |marks: &str| marks == "sh" || marks == "console";
+        if !blocks
+            .iter()
+            .any(|(marks, text)| commands(marks) && text.lines().any(mine))
+        {
+            continue;
+        }
+        let folder = folder(&page, &text);
+        for (marks, block) in &blocks {
+            if let Some(name) = file_name(block) {
+                std::fs::write(folder.join(name), block).expect("the folder can be written to");
+            }
+            if !commands(marks) {
+                continue;
+            }
+            for line in block.lines().filter(|l| mine(l)) {
+                let (command, wanted) = match line.split_once("# exit code ") {
+                    Some((command, code)) => (command, code.trim().parse().ok()),
+                    None => (line, Some(0)),
+                };
+                assert!(wanted.is_some(), "{}: {line}", page.display());
+                let code = follow(command, &folder);
+                assert_eq!(code, wanted, "{}: {line}", page.display());
+                followed += 1;
+            }
+        }
+    }
+    assert!(followed > 40, "only {followed} commands were found");
+}
+
+#[test]
+fn problem_files_in_the_book_are_sound() {
+    let mut seen = 0;
+    for page in pages().into_iter().filter(|p| !generated(p)) {
+        for (marks, block) in blocks(&read(&page)) {
+            let whole = block.lines().any(|l| l.trim() == "format = 1");
+            let fragment = marks == "toml,fragment";
+            if !marks.starts_with("toml") || !(whole || fragment) {
+                continue;
+            }
+            seen += 1;
+            let text = match whole {
+                true => block,
+                false => format!("format = 1\n{block}"),
+            };
+            let Err(error) = Document::new(text, None).problem() else {
+                continue;
+            };
+            let left_out =
+                ["model", "body", "step"].map(|key| format!("the key `{key}` is missing"));
+            let real: Vec<&str> = error
+                .findings
+                .iter()
+                .map(|f| f.message.as_str())
+                .filter(|m| !fragment || !left_out.iter().any(|l| l == m))
+                .collect();
+            assert!(real.is_empty(), "{}: {real:?}", page.display());
+        }
+    }
+    assert!(seen > 12, "only {seen} problem files were found");
+}
+
+/// The anchor that mdBook gives a heading.
+fn anchor(heading: &str) -> String {
+    heading
+        .trim()
+        .to_lowercase()
+        .chars()
+        .filter_map(|c| match c {
+            ' ' => Some('-'),
+            c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
+            _ => None,
+        })
+        .collect()
+}
+
+fn anchors(text: &str) -> BTreeSet<String> {
+    let mut out = BTreeSet::new();
+    for line in text.lines() {
+        if let Some((_, rest)) = line.split_once("<a id=\"") {
+            out.extend(rest.split('"').next().map(str::to_string));
+        }
+        if line.starts_with('#') {
+            out.insert(anchor(line.trim_start_matches('#')));
+        }
+    }
+    out
+}
+
+/// Targets of the links of a page, outside of code.
+fn links(text: &str) -> Vec<String> {
+    let mut prose = String::new();
+    let mut code = false;
+    for line in text.lines() {
+        match line.trim_start().starts_with("```") {
+            true => code = !code,
+            false if !code => {
+                // Code within a line.
+                for (i, part) in line.split('`').enumerate() {
+                    prose.push_str(if i % 2 == 0 { part } else { "code" });
+                }
+                prose.push('\n');
+            }
+            false => {}
+        }
+    }
+    prose
+        .split("](")
+        .skip(1)
+        .filter_map(|rest| rest.split(')').next().map(str::to_string))
+        .collect()
+}
+
+#[test]
+fn links_lead_to_pages_and_headings_that_exist() {
+    for page in pages() {
+        let here = page.parent().expect("a folder");
+        for link in links(&read(&page)) {
+            if link.starts_with("http") {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').unwrap_or((&link, ""));
+            let target = match file.is_empty() {
+                true => page.clone(),
+                false => here.join(file),
+            };
+            assert!(target.is_file(), "{}: {link}", page.display());
+            let inside = target
+                .canonicalize()
+                .is_ok_and(|t| t.starts_with(source().canonicalize().expect("the book")));
+            assert!(inside, "{}: {link} is not in the book", page.display());
+            if !heading.is_empty() {
+                let there = anchors(&read(&target));
+                assert!(there.contains(heading), "{}: {link}", page.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn every_page_is_in_the_summary() {
+    let summary = read(&source().join("SUMMARY.md"));
+    for page in pages() {
+        let name = page.strip_prefix(source()).expect("a page");
+        let name = name.to_string_lossy();
+        assert!(
+            name == "SUMMARY.md" || summary.contains(&format!("({name})")),
+            "{name} is not in SUMMARY.md"
+        );
+    }
+}
+
+#[test]
+fn the_page_of_commands_is_current() {
+    let page = read(&source().join("reference/command-line.md"));
+    let output = Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .arg("--help")
+        .output()
+        .expect("the binary runs");
+    let help = String::from_utf8_lossy(&output.stdout).into_owned();
+    let names = help
+        .lines()
+        .skip_while(|l| !l.starts_with("Commands:"))
+        .skip(1)
+        .take_while(|l| !l.trim().is_empty());
+    for name in names.filter_map(|l| l.split_whitespace().next()) {
+        if name == "help" {
+            continue;
+        }
+        let output = Command::new(env!("CARGO_BIN_EXE_stickslip"))
+            .args([name, "--help"])
+            .output()
+            .expect("the binary runs");
+        let help = String::from_utf8_lossy(&output.stdout).into_owned();
+        let lines: Vec<&str> = help.lines().map(str::trim_end).collect();
+        let stale = "is stale: run `cargo xtask book --pages`";
+        assert!(
+            page.contains(lines.join("\n").trim()),
+            "the help of {name} {stale}"
+        );
+    }
+}
+
+#[test]
+fn the_deck_of_the_tutorial_is_there_as_a_file() {
+    let page = read(&source().join("tutorial/own-deck.md"));
+    let deck = read(&source().join("tutorial/job.inp"));
+    assert!(page.contains(&deck));
+}
