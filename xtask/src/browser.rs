@@ -99,7 +99,9 @@ fn chromium() -> Result<PathBuf, String> {
     }
     match there(usual) {
         true => Ok(usual.to_path_buf()),
-        false => Err("There is no Chromium, and it could not be installed; CHROMIUM may name one.".into()),
+        false => Err(
+            "There is no Chromium, and it could not be installed; CHROMIUM may name one.".into(),
+        ),
     }
 }
 
