@@ -22,6 +22,7 @@ const TARGETS: &[(&str, &str, &[&str])] = &[
     ),
     ("vtu", "vtu", &["crates/stickslip/tests/malformed/vtu"]),
     ("checkpoint", "", &[]),
+    ("inp", "inp", &["crates/stickslip-deck/tests/malformed"]),
 ];
 
 /// Larger seeds make executions slow and reach nothing that small ones do not.

@@ -3,6 +3,7 @@
 mod book;
 mod browser;
 mod chatter;
+mod decks;
 mod dist;
 mod fuzz;
 mod peers;
@@ -24,7 +25,9 @@ tasks:
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
-  fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu or checkpoint (needs cargo-fuzz)
+  decks [FOLDER]            run decks with the numbers that CalculiX prints (NAME.inp, NAME.dat.ref; default: ../shared/decks/calculix)
+                            and write book/src/decks.md
+  fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu, checkpoint or inp (needs cargo-fuzz)
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Some((task, [])) if task == "schema" => schema::write(),
         Some((task, [])) if task == "dist" => dist::pack(),
         Some((task, what)) if task == "book" => book::build(what),
+        Some((task, what)) if task == "decks" => decks::run(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),

@@ -59,6 +59,8 @@ pub struct Deck {
     pub steps: Vec<Step>,
     /// Warnings and notes, in the order of the lines.
     pub notes: Vec<Finding>,
+    /// Names that nothing uses.
+    pub(crate) unused: Vec<(Place, String)>,
 }
 
 /// An element.

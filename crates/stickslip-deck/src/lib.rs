@@ -16,6 +16,7 @@
 mod deck;
 mod finding;
 mod keywords;
+mod lint;
 mod parse;
 mod print;
 pub mod source;

@@ -291,7 +291,12 @@ impl Printer {
                         }));
                     }
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
-                        let v = if energy { cell.energy } else { cell.volume };
+                        // CalculiX counts no energy of hourglass control.
+                        let v = if energy {
+                            cell.energy - cell.hourglass
+                        } else {
+                            cell.volume
+                        };
                         sum += v;
                         if totals != Totals::Only {
                             row(out, &format!("{id:>10}"), &[v]);

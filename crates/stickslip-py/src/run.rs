@@ -59,6 +59,9 @@ impl Observer for Rows {
     }
 }
 
+/// First and one past the last of a range.
+type Bounds = (usize, usize);
+
 /// A model being run.
 #[pyclass]
 pub struct Simulation {
@@ -224,7 +227,7 @@ impl Simulation {
 
     /// Ranges of points and of cells by body.
     #[getter]
-    fn bodies(&self) -> Vec<(String, (usize, usize), (usize, usize))> {
+    fn bodies(&self) -> Vec<(String, Bounds, Bounds)> {
         let model = &self.simulation.model;
         let cells = |blocks: std::ops::Range<usize>| -> usize {
             model.mesh.blocks[blocks]

@@ -23,7 +23,9 @@ pub struct Arguments {
 /// Checks the file.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = Input::open(&arguments.file, &arguments.set)?;
-    let notes = input.notes(true);
+    let mut notes = input.notes(true);
+    let lint = input.deck.iter().flat_map(|d| &d.lint);
+    notes.extend(lint.map(ToString::to_string));
     if !arguments.json {
         print::out(&summary(&input.problem))?;
         if !notes.is_empty() {

@@ -21,7 +21,7 @@ pub struct Arguments {
     /// The file to write: .msh (4.1), .vtu or .inp; .toml for a deck.
     output: PathBuf,
     /// Element types of a plane mesh in an .inp file.
-    #[arg(long, value_enum, default_value_t = Plane::PlaneStrain)]
+    #[arg(long, value_enum, default_value_t = Plane::Strain)]
     plane: Plane,
 }
 
@@ -29,9 +29,11 @@ pub struct Arguments {
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 enum Plane {
     /// CPE
-    PlaneStrain,
+    #[value(name = "plane-strain")]
+    Strain,
     /// CPS
-    PlaneStress,
+    #[value(name = "plane-stress")]
+    Stress,
     /// CAX
     Axisymmetric,
 }
@@ -39,8 +41,8 @@ enum Plane {
 impl Plane {
     fn space(self) -> abaqus::Space {
         match self {
-            Plane::PlaneStrain => abaqus::Space::PlaneStrain,
-            Plane::PlaneStress => abaqus::Space::PlaneStress,
+            Plane::Strain => abaqus::Space::PlaneStrain,
+            Plane::Stress => abaqus::Space::PlaneStress,
             Plane::Axisymmetric => abaqus::Space::Axisymmetric,
         }
     }

@@ -108,14 +108,11 @@ impl Reader<'_> {
                 let v = numbers(self, card, 21);
                 self.first_temperature(card, 3);
                 let mut c = [[0.0; 6]; 6];
-                let mut next = v.into_iter();
                 // The upper triangle, column by column.
-                for j in 0..6 {
-                    for i in 0..=j {
-                        let value = next.next().unwrap_or(0.0);
-                        c[i][j] = value;
-                        c[j][i] = value;
-                    }
+                let upper = (0..6).flat_map(|j| (0..=j).map(move |i| (i, j)));
+                for ((i, j), value) in upper.zip(v) {
+                    c[i][j] = value;
+                    c[j][i] = value;
                 }
                 Elastic::Full(Box::new(c))
             }

@@ -148,6 +148,7 @@ impl<'a> Reader<'a> {
             self.warn(place, "the last step has no *END STEP", "");
         }
         self.check_names();
+        self.deck.unused = crate::lint::unused(self.source);
         if self.errors.is_empty() {
             Ok(self.deck)
         } else {

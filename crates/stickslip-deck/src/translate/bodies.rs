@@ -24,23 +24,28 @@ pub(super) struct Body {
 
 /// All bodies.
 #[derive(Debug)]
-pub(super) struct Bodies {
-    pub all: Vec<Body>,
-    pub mesh: Mesh,
-    pub space: Space,
+pub(crate) struct Bodies {
+    pub(super) all: Vec<Body>,
+    pub(super) mesh: Mesh,
+    pub(super) space: Space,
     /// Body of a node.
-    pub of_node: BTreeMap<u64, usize>,
+    pub(super) of_node: BTreeMap<u64, usize>,
     /// Cell, and body, of an element.
-    pub of_element: BTreeMap<u64, (CellRef, usize)>,
+    pub(super) of_element: BTreeMap<u64, (CellRef, usize)>,
     /// Face of a cell, and body, of an element that bounds one.
-    pub of_face: BTreeMap<u64, (FacetRef, usize)>,
+    pub(super) of_face: BTreeMap<u64, (FacetRef, usize)>,
     /// Nodes of a `*RIGID BODY` that are part of a body that is elastic: they move as its reference node is prescribed to.
-    pub rigid_nodes: BTreeMap<usize, Vec<u64>>,
+    pub(super) rigid_nodes: BTreeMap<usize, Vec<u64>>,
     /// Section of an element: index into the deck's.
-    pub section: BTreeMap<u64, usize>,
+    pub(super) section: BTreeMap<u64, usize>,
 }
 
 impl Bodies {
+    /// The mesh of all.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
     pub fn dim(&self) -> usize {
         self.mesh.dim
     }
@@ -449,6 +454,11 @@ fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
             }
             Some(_) => {}
         }
+    }
+    // C3D6 has two integration points; ours has six unless it is reduced.
+    let wedges = |id: &u64| deck.elements[id].kind.starts_with("C3D6");
+    if found.is_none() && body.elements.iter().any(wedges) {
+        return Some("reduced");
     }
     match found.map(|f| f.0) {
         Some(Integration::Reduced) => Some("reduced"),

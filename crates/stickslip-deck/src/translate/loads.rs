@@ -41,9 +41,12 @@ struct When {
     ends: Vec<bool>,
 }
 
+/// A value with its amplitude, and where and for what it was given.
+type Given<T> = (T, Option<String>, Place, String);
+
 /// Values by step to values with their steps, equal ones together.
 fn collect<K: Ord + Clone, T: Clone + PartialEq>(
-    by_step: &[BTreeMap<K, (T, Option<String>, Place, String)>],
+    by_step: &[BTreeMap<K, Given<T>>],
 ) -> Vec<(K, Acting<T>)> {
     let mut out: Vec<(K, Acting<T>)> = Vec::new();
     let mut at: BTreeMap<K, Vec<usize>> = BTreeMap::new();
@@ -386,7 +389,8 @@ fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             entry.0[i.component] = i.value;
         }
     }
-    let mut groups: BTreeMap<(bool, [u64; 3]), (Vec<u64>, Place, String)> = BTreeMap::new();
+    type Nodes = (Vec<u64>, Place, String);
+    let mut groups: BTreeMap<(bool, [u64; 3]), Nodes> = BTreeMap::new();
     for ((velocity, node), (v, place, label)) in nodes {
         if bodies.of_node.contains_key(&node) {
             let key = (velocity, v.map(|c| (c + 0.0).to_bits()));

@@ -10,6 +10,8 @@ mod steps;
 mod supports;
 mod toml;
 
+pub(crate) use bodies::Bodies;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,6 +37,8 @@ pub struct Translation {
     pub mesh: Arc<Mesh>,
     /// Warnings and notes, of reading and translation.
     pub notes: Vec<Finding>,
+    /// What is most likely not meant, or would be refused by CalculiX; `stickslip check` shows it.
+    pub lint: Vec<Finding>,
     /// What is printed, by step.
     pub prints: Vec<Vec<Print>>,
     /// Nodes of the printed sets, in the order of the deck.
@@ -186,6 +190,7 @@ impl Deck {
             }
         }
         Ok(Translation {
+            lint: crate::lint::findings(self, &bodies),
             times,
             node_axes: node_axes.collect(),
             element_axes: element_axes.collect(),

@@ -99,7 +99,7 @@ pub(super) fn ending(
     name
 }
 
-/// Adds a row; one at the time of the last comes an instant later, as times increase.
+/// Adds a row; one at the time of the last comes an instant later, as times increase; increments land once on the two.
 fn push(rows: &mut Vec<[f64; 2]>, mut row: [f64; 2]) {
     if let Some(last) = rows.last() {
         if *last == row {
@@ -109,7 +109,7 @@ fn push(rows: &mut Vec<[f64; 2]>, mut row: [f64; 2]) {
             if row[1] == last[1] {
                 return;
             }
-            row[0] = last[0] + 1e-9 * last[0].abs().max(1e-30);
+            row[0] = last[0].next_up();
         }
     }
     rows.push(row);

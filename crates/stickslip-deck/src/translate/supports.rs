@@ -82,7 +82,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let count = states.len();
     let dofs: BTreeSet<(u64, usize)> = states.iter().flat_map(|s| s.keys().copied()).collect();
     // Every value of every displacement, with the steps in which it holds.
-    let mut lines: BTreeMap<(u64, Vec<bool>, Option<String>), [Option<Value>; 3]> = BTreeMap::new();
+    type When = (u64, Vec<bool>, Option<String>);
+    let mut lines: BTreeMap<When, [Option<Value>; 3]> = BTreeMap::new();
     let mut wrong = BTreeSet::new();
     for (node, component) in dofs {
         let mut values: Vec<(Value, Vec<bool>)> = Vec::new();

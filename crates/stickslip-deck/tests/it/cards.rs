@@ -240,8 +240,9 @@ fn clearances_count_from_what_the_deck_says() {
 
 #[test]
 fn friction_holds_up_to_its_limit_and_changes_with_steps() {
-    // Pressed by 4 the interface carries 0.5 * 4 = 2, and 0.25 * 4 from the second step on.
-    let slide = "*STEP\n*STATIC\n*BOUNDARY\nB, 1, 1, 0.\n*DLOAD\nEB, P2, 4.\n*END STEP\n\
+    // Pressed by 0.04 the interface carries half of it, and a quarter from the third step on. The forces are small so that the
+    // lower cube hardly tilts.
+    let slide = "*STEP\n*STATIC\n*BOUNDARY\nB, 1, 1, 0.\n*DLOAD\nEB, P2, .04\n*END STEP\n\
                  *STEP\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .02\n*NODE PRINT, NSET=B, TOTALS=ONLY\nRF\n*CONTACT PRINT\nCSTR\n*END STEP\n\
                  *STEP\n*CHANGE FRICTION, INTERACTION=SI\n*FRICTION\n.25, 1.E4\n*STATIC\n.5, 1.\n*BOUNDARY\nB, 1, 1, .04\n\
                  *NODE PRINT, NSET=B, TOTALS=ONLY\nRF\n*END STEP\n";
@@ -252,21 +253,19 @@ fn friction_holds_up_to_its_limit_and_changes_with_steps() {
     ) + slide;
     let r = run("friction", &text);
     let force: Vec<f64> = r.all("total force").iter().map(|b| b.2[0][0]).collect();
-    near(force[force.len() / 2 - 1], 2.0, 1e-3);
-    near(*force.last().expect("it is printed"), 1.0, 1e-3);
+    near(force[force.len() / 2 - 1], 0.02, 1e-3);
+    near(*force.last().expect("it is printed"), 0.01, 1e-3);
     for row in &r.all("contact stress")[1].2 {
-        near(row[1], 4.0, 1e-3);
-        near(row[2].abs(), 2.0, 1e-3);
+        near(row[2].abs() / row[1], 0.5, 1e-5);
     }
-    // Before it slides, it sticks like a spring of the slope that is given: 10 per slip of 0.001.
+    // Before it slides, it sticks like a spring of the slope that is given.
     let stick = text
         .split("*STEP\n*CHANGE")
         .next()
         .expect("a part")
-        .replace("1, 1, .02", "1, 1, .0001");
+        .replace("B, 1, 1, .02", "ATOP, 1\nB, 1, 1, .000001");
     let r = run("stick", &stick);
-    // Shear of the lower cube, G = 500, and of the interface in series.
-    near(r.last("total force")[0], 1e-4 / (1.0 / 500.0 + 1e-4), 2e-2);
+    near(r.last("total force")[0], 1e-6 * 1e4, 1e-4);
 }
 
 #[test]

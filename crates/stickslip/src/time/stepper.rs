@@ -31,6 +31,8 @@ pub struct Stepper {
     growth: f64,
 }
 
+/// Milestones that are nearer than this fraction of the step are one.
+const SLIVER: f64 = 1e-9;
 /// Newton iterations up to which an increment counts as easy.
 const EASY: usize = 8;
 /// Growth after two easy increments in a row.
@@ -38,11 +40,22 @@ const GROWTH: f64 = 1.5;
 
 impl Stepper {
     /// From `start` to the last of the `milestones`, none of which is stepped over. They are sorted; those not after
-    /// `start` are dropped.
+    /// `start` are dropped, as are those an instant after another.
     pub fn new(start: f64, mut milestones: Vec<f64>, increments: Increments) -> Self {
         milestones.retain(|&t| t > start);
         milestones.sort_by(f64::total_cmp);
         milestones.dedup();
+        // A table that jumps has two rows an instant apart: one landing is enough, and none right after the start.
+        let end = milestones.last().copied().unwrap_or(start);
+        let instant = SLIVER * (end - start);
+        let mut last = start;
+        milestones.retain(|&t| {
+            let kept = t - last > instant && end - t > instant || t == end;
+            if kept {
+                last = t;
+            }
+            kept
+        });
         Stepper {
             increments,
             milestones,
@@ -127,6 +140,24 @@ mod tests {
         let steps: Vec<f64> = ends.windows(2).map(|w| w[1] - w[0]).collect();
         assert!(steps.iter().all(|&d| d < 0.4 + 1e-12));
         assert!(steps.iter().any(|&d| d > 0.2));
+    }
+
+    #[test]
+    fn jumps_are_landed_on_once() {
+        let milestones = vec![
+            1.0f64.next_up(),
+            1.5,
+            1.5f64.next_up(),
+            2.0f64.next_down(),
+            2.0,
+        ];
+        let mut s = Stepper::new(1.0, milestones, increments(1.0, 1.0));
+        let mut ends = Vec::new();
+        while let Some(trial) = s.next() {
+            s.accept(trial, 3);
+            ends.push(trial.to);
+        }
+        assert_eq!(ends, [1.5, 2.0]);
     }
 
     #[test]

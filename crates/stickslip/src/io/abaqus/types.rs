@@ -357,10 +357,8 @@ mod tests {
             assert!(node_order(kind).is_empty());
             let nodes = kind.reference().nodes();
             for &(middle, [a, b]) in middles {
-                for axis in 0..3 {
-                    let mean = 0.5 * (nodes[a - 1][axis] + nodes[b - 1][axis]);
-                    assert_eq!(nodes[middle - 1][axis], mean, "{kind} node {middle}");
-                }
+                let mean = [0, 1, 2].map(|i| 0.5 * (nodes[a - 1][i] + nodes[b - 1][i]));
+                assert_eq!(nodes[middle - 1], mean, "{kind} node {middle}");
             }
         }
     }

@@ -1,0 +1,81 @@
+//! The page of the book.
+
+use std::fmt::Write as _;
+
+use super::{Outcome, Variant};
+
+/// Why a deck differs by more than a hundredth, or what else is to be said about it.
+const REASONS: &[(&str, &str)] = &[];
+
+/// A line for the terminal.
+pub fn line(outcome: &Outcome) -> String {
+    let mut out = outcome.name.clone();
+    if let Some(refusal) = &outcome.refusal {
+        let _ = write!(out, ": refused: {refusal}");
+    }
+    for (variant, found) in &outcome.found {
+        let _ = write!(
+            out,
+            ": {variant:?} {} numbers, {} rows missing, worst {:.1e}",
+            found.count(),
+            found.missing,
+            found.worst()
+        );
+        for (name, (_, worst)) in &found.quantities {
+            let _ = write!(out, "; {name} {worst:.1e}");
+        }
+    }
+    out
+}
+
+/// The page.
+pub fn text(outcomes: &[Outcome]) -> String {
+    let mut out = String::from(
+        "<!-- Written by `cargo xtask decks`. -->\n\n# Input decks of CalculiX\n\n\
+         Decks from CalculiX's own test suite, run as they are by `stickslip run`. Every number that CalculiX prints to its `.dat` file is\n\
+         compared with ours at the same node or integration point and time; what was printed at other times is interpolated linearly. A\n\
+         difference is relative to the largest number of the same kind (displacements, forces, moments, stresses) in the same block of the\n\
+         file. Where contact is hard CalculiX takes a stiffness of fifty times Young's modulus; contact is exact here. The column *with their\n\
+         stiffness* has the difference with that stiffness as the law of the interface.\n\n\
+         | deck | compared | numbers | worst difference | with their stiffness | remarks |\n|---|---|---:|---:|---:|---|\n",
+    );
+    for o in outcomes {
+        let reason = REASONS.iter().find(|r| r.0 == o.name).map_or("", |r| r.1);
+        let of = |v: Variant| o.found.iter().find(|f| f.0 == v).map(|f| &f.1);
+        let (compared, numbers, worst) = match (&o.refusal, of(Variant::Plain)) {
+            (Some(refusal), _) => (
+                format!("refused: `{refusal}`"),
+                String::new(),
+                String::new(),
+            ),
+            (None, Some(f)) if f.count() > 0 => {
+                let names: Vec<&str> = f.quantities.keys().map(String::as_str).collect();
+                (names.join(", "), f.count().to_string(), percent(f.worst()))
+            }
+            _ => (
+                "runs; the reference is empty".into(),
+                String::new(),
+                String::new(),
+            ),
+        };
+        let stiff = of(Variant::Stiffness).map_or(String::new(), |f| percent(f.worst()));
+        let missing = of(Variant::Plain).map_or(0, |f| f.missing);
+        let missing = match missing {
+            0 => String::new(),
+            n => format!("{n} rows have no counterpart. "),
+        };
+        let _ = writeln!(
+            out,
+            "| {} | {compared} | {numbers} | {worst} | {stiff} | {missing}{reason} |",
+            o.name
+        );
+    }
+    out
+}
+
+fn percent(x: f64) -> String {
+    match x {
+        x if x < 1e-6 => "< 0.0001 %".into(),
+        x => format!("{:.2} %", 100.0 * x).replace("0.00 %", "< 0.01 %"),
+    }
+}
