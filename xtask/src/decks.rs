@@ -81,8 +81,8 @@ fn one(binary: &Path, deck: &Path, out: &Path) -> Result<Outcome, String> {
             .output()
             .map_err(|e| format!("{}: {e}", binary.display()))?;
         let errors = String::from_utf8_lossy(&output.stderr);
-        let finding = errors.lines().find(|l| l.contains("error: "));
         // A failed check of quality leaves results.
+        let finding = errors.lines().find(|l| l.contains(": error: "));
         if let (Some(finding), true) = (finding, output.status.code() != Some(0)) {
             let short = finding.rsplit('/').next().unwrap_or(finding);
             return Ok(Outcome {

@@ -10,6 +10,22 @@
 //!   Abaqus's columns.
 //!
 //! Where the two programs differ the meaning is CalculiX's; the differences are named at the items.
+//!
+//! # What differs from CalculiX
+//!
+//! - `HARD` contact is exact: CalculiX puts springs of fifty times Young's modulus there. Sticking without a stick slope is exact as well,
+//!   and so is sticking with one under hard contact.
+//! - `NLGEOM` concerns contact only. Strains and rotations of the bodies are taken as small.
+//! - Interactions without `*SURFACE BEHAVIOR` are hard, as in Abaqus; CalculiX refuses them.
+//! - Contact pairs without `TYPE` are `SURFACE TO SURFACE`.
+//! - Linear springs on quadratic faces act at fewer points of a face than in CalculiX, which cuts faces along each other first.
+//! - `*CONTACT PRINT` prints nodes, whose pressure is a mean around them, for pairs of faces too. The energy of the springs is printed as a sum only.
+//! - Plane and axisymmetric elements are computed as such; CalculiX makes solid ones of them and prints the points of those.
+//!   The strain across a plane-stress element is not printed.
+//! - `*RIGID BODY` of part of an elastic body has to have its reference node prescribed.
+//! - Lines and faces without section beside cells, which Gmsh writes, only carry sets; CalculiX would compute them.
+//! - A step whose loads have no amplitude ramps them where it is static and applies them at once where it is dynamic; `AMPLITUDE` of `*STEP`
+//!   is not followed, with a warning.
 
 #![forbid(unsafe_code)]
 

@@ -40,7 +40,9 @@ fn read(text: &str) -> Series {
                 None => (line, time),
             };
             time = tail;
-            let name = head.split('(').next().unwrap_or_default().trim();
+            let name = head.split('(').next().unwrap_or_default();
+            let name = name.split(" for ").next().unwrap_or_default().trim();
+            let name = name.trim_end_matches(" for");
             let set = head.split_once(" for set ").map_or("", |s| s.1);
             let set = set.split_whitespace().next().unwrap_or_default();
             title = format!("{name} {set}").trim().to_string();

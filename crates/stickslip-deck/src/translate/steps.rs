@@ -191,9 +191,11 @@ pub(super) fn write(job: &mut Job) {
                 ));
             }
             if largest > 0.0 {
+                // An explicit step finds its first increment itself.
+                let least = if explicit { 0.0 } else { initial };
                 sizes.push(format!(
                     "largest = {}",
-                    toml::number(fraction(largest).max(fraction(smallest)).max(initial))
+                    toml::number(fraction(largest).max(fraction(smallest)).max(least))
                 ));
             }
         }

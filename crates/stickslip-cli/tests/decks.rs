@@ -1,0 +1,119 @@
+//! Input decks through the command: run as they are, and converted to a problem file first.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn stickslip(arguments: &[&Path]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .args(arguments)
+        .output()
+        .expect("the binary runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn deck(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/decks")
+        .join(name)
+}
+
+/// An empty folder.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn run(file: &Path, results: &Path) {
+    let output = stickslip(&[Path::new("run"), file, Path::new("--output"), results]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_deck_and_the_problem_file_made_of_it_give_the_same_bits() {
+    let folder = folder("deck-round-trip");
+    let deck = deck("slide.inp");
+    run(&deck, &folder.join("deck"));
+    let problem = folder.join("slide.toml");
+    let output = stickslip(&[Path::new("convert"), &deck, &problem]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(folder.join("slide.msh").exists());
+    run(&problem, &folder.join("problem"));
+    let read = |results: &str, name: &str| {
+        std::fs::read(folder.join(results).join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    };
+    let (mut fields, mut interfaces) = (0, 0);
+    for (inner, ending, count) in [
+        ("", "vtu", &mut fields),
+        ("interfaces", "csv", &mut interfaces),
+    ] {
+        for entry in std::fs::read_dir(folder.join("deck").join(inner)).expect("results") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|e| e == ending) {
+                let name = path
+                    .strip_prefix(folder.join("deck"))
+                    .expect("it is in there");
+                let name = name.to_string_lossy();
+                assert!(
+                    read("deck", &name) == read("problem", &name),
+                    "{name} differs"
+                );
+                *count += 1;
+            }
+        }
+    }
+    assert!(fields > 3 && interfaces > 0, "{fields} {interfaces}");
+    assert!(read("deck", "history.csv") == read("problem", "history.csv"));
+    // What the deck prints is beside its results.
+    let dat = text(&read("deck", "slide.dat"));
+    let forces = dat.lines().filter(|l| l.contains("total force")).count();
+    assert!(forces >= 6, "{dat}");
+    assert!(text(&read("deck", "slide.sta")).contains("COMPLETED SUCCESSFULLY"));
+}
+
+#[test]
+fn check_reads_a_deck_for_those_who_solve_it_elsewhere() {
+    let output = stickslip(&[Path::new("check"), &deck("slide.inp")]);
+    let out = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(
+        out.contains("INTERNAL_SURFACE-2-INTERNAL_SURFACE-1"),
+        "{out}"
+    );
+    assert!(!out.contains("warning"), "{out}");
+
+    let folder = folder("deck-lint");
+    let odd = folder.join("odd.inp");
+    let mesh = deck("mesh.inp");
+    let plain = std::fs::read_to_string(deck("slide.inp")).expect("the deck");
+    let plain = plain
+        .replace("Input=mesh.inp", &format!("Input=\"{}\"", mesh.display()))
+        // The far side of the upper block, and no friction slope.
+        .replace("Internal_Surface-2, Internal_Surface-1", "Wrong_side, Internal_Surface-1")
+        .replace("0.3, 2.1E+05", "0.3")
+        .replace(
+            "** Materials",
+            "*Surface, Name=Wrong_side\n55, S2\n*Nset, Nset=Forgotten\n1\n*Amplitude, Name=Idle\n0, 0, 1, 1\n*Node\n9999, 0, 0, 9\n** Materials",
+        );
+    std::fs::write(&odd, plain).expect("a file");
+    let output = stickslip(&[Path::new("check"), &odd]);
+    let out = text(&output.stdout);
+    for wanted in [
+        "sets of nodes that nothing uses: FORGOTTEN",
+        "amplitudes that nothing uses: IDLE",
+        "surfaces that nothing uses: INTERNAL_SURFACE-2",
+        "1 nodes are in no element, the first is 9999",
+        "look the same way",
+        "no stick slope",
+    ] {
+        assert!(
+            out.contains(wanted),
+            "{wanted}:\n{out}\n{}",
+            text(&output.stderr)
+        );
+    }
+}
