@@ -125,6 +125,8 @@ pub fn compare(ours: &str, reference: &str) -> Comparison {
                 .fold(0.0_f64, |m, (_, v)| m.max(v.abs()))
         };
         let overall = [0, 1].map(|k| blocks.iter().fold(0.0_f64, |m, b| m.max(largest(&b.1, k))));
+        // The history of a single point is one block.
+        let history = blocks.len() > 10 && blocks.iter().all(|b| b.1.len() == 1);
         let own = ours.get(title).map(Vec::as_slice).unwrap_or_default();
         let quantity = title
             .split_whitespace()
@@ -149,7 +151,10 @@ pub fn compare(ours: &str, reference: &str) -> Comparison {
                 };
                 for (c, (a, b)) in row.iter().zip(same).enumerate().skip(keys) {
                     let k = kind(title, c - keys);
-                    let scale = largest(rows, k).max(1e-6 * overall[k]);
+                    let scale = match history {
+                        true => overall[k],
+                        false => largest(rows, k).max(1e-6 * overall[k]),
+                    };
                     entry.0 += 1;
                     if scale > 1e-12 {
                         entry.1 = entry.1.max((a - b).abs() / scale);

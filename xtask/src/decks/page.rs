@@ -15,8 +15,9 @@ const REASONS: &[(&str, &str)] = &[
     ("contact4", "Hard contact: see the column before."),
     (
         "contact15lin",
-        "An impact in explicit steps. Nodes that touch have no mass in either program, but their mass is given to the cells around them here and \
-         taken away there, so that waves arrive at other times.",
+        "One cell on another under a load that acts at once, in explicit steps. CalculiX takes the mass of the nodes that may touch away; in \
+         explicit steps they keep it here, and touch by springs. The first increment is three times as long there, and the two swing apart \
+         from then on.",
     ),
     ("contact16", "As contact15lin."),
     (
@@ -53,7 +54,7 @@ pub fn text(outcomes: &[Outcome]) -> String {
          Decks from CalculiX's own test suite, run as they are by `stickslip run`. Every number that CalculiX prints to its `.dat` file is\n\
          compared with ours at the same node or integration point and time; what was printed at other times is interpolated linearly. A\n\
          difference is relative to the largest number of the same kind (displacements, forces, moments, stresses) in the same block of the\n\
-         file. Where contact is hard CalculiX takes a stiffness of fifty times Young's modulus; contact is exact here. The column *with their\n\
+         file, or in the history of a single point. Where contact is hard CalculiX takes a stiffness of fifty times Young's modulus; contact is exact here. The column *with their\n\
          stiffness* has the difference with that stiffness as the law of the interface.\n\n\
          | deck | compared | numbers | worst difference | with their stiffness | remarks |\n|---|---|---:|---:|---:|---|\n",
     );

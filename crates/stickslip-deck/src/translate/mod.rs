@@ -52,6 +52,8 @@ pub struct Translation {
     /// Local axes (rows) of nodes with a `*TRANSFORM`, and of elements with an `*ORIENTATION`.
     pub(crate) node_axes: BTreeMap<u64, [[f64; 3]; 3]>,
     pub(crate) element_axes: BTreeMap<u64, [[f64; 3]; 3]>,
+    /// Where elements are, for messages.
+    elements: BTreeMap<u64, Place>,
     /// The deck, for messages.
     path: PathBuf,
     /// Where tables of the problem come from.
@@ -76,15 +78,25 @@ impl Translation {
             Error::Problem(ProblemError { findings, .. }) => Ok(DeckError {
                 findings: findings.iter().map(|d| self.locate(d)).collect(),
             }),
-            Error::Mesh(e) => Ok(DeckError {
-                findings: vec![Finding {
-                    severity: Severity::Error,
-                    file: self.path.clone(),
-                    line: 0,
-                    message: e.message,
-                    help: e.help,
-                }],
-            }),
+            Error::Mesh(e) => {
+                // Messages about meshes name cells by their numbers.
+                let number = |text: &str| -> Option<u64> {
+                    let after = text.split("cell ").nth(1)?;
+                    after.split(' ').next()?.parse().ok()
+                };
+                let place = number(&e.message).and_then(|n| self.elements.get(&n));
+                let place = place.copied().unwrap_or_default();
+                let file = self.files.get(place.file).filter(|_| place.line > 0);
+                Ok(DeckError {
+                    findings: vec![Finding {
+                        severity: Severity::Error,
+                        file: file.unwrap_or(&self.path).clone(),
+                        line: place.line,
+                        message: e.message,
+                        help: e.help,
+                    }],
+                })
+            }
             other => Err(other),
         }
     }
@@ -150,6 +162,21 @@ impl Deck {
             job.out.line("false-slip = 1e300");
         }
         steps::write(&mut job);
+        for step in &self.steps {
+            for print in &step.prints {
+                let Print::Node { set, .. } = print else {
+                    continue;
+                };
+                let all = self.node_sets.get(set).into_iter().flatten();
+                let none = all.filter(|n| !bodies.of_node.contains_key(n)).count();
+                if none > 0 {
+                    let message = format!(
+                        "*NODE PRINT of {set}: {none} nodes that are in no body, such as reference nodes, are not printed"
+                    );
+                    job.note(step.place, message);
+                }
+            }
+        }
         job.out.tables(sets.tables());
         if !job.errors.is_empty() {
             return Err(job.failed());
@@ -190,6 +217,7 @@ impl Deck {
             }
         }
         Ok(Translation {
+            elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
             lint: crate::lint::findings(self, &bodies),
             times,
             node_axes: node_axes.collect(),

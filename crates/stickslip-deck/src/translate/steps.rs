@@ -177,11 +177,12 @@ pub(super) fn write(job: &mut Job) {
         if direct && first > 0.0 {
             sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
         } else {
-            // Explicit increments are found from the bodies; only the largest is given.
-            let initial = match (explicit, first > 0.0) {
-                (true, _) if largest > 0.0 => fraction(largest),
-                (false, true) => fraction(first),
-                _ => 1.0,
+            // An explicit step finds its increments itself, up to the largest.
+            let initial = match (first > 0.0, explicit && largest > 0.0) {
+                (true, false) => fraction(first),
+                (true, true) => fraction(first.min(largest)),
+                (false, true) => fraction(largest),
+                (false, false) => 1.0,
             };
             sizes.push(format!("initial = {}", toml::number(initial)));
             if smallest > 0.0 {
@@ -191,11 +192,9 @@ pub(super) fn write(job: &mut Job) {
                 ));
             }
             if largest > 0.0 {
-                // An explicit step finds its first increment itself.
-                let least = if explicit { 0.0 } else { initial };
                 sizes.push(format!(
                     "largest = {}",
-                    toml::number(fraction(largest).max(fraction(smallest)).max(least))
+                    toml::number(fraction(largest).max(fraction(smallest)).max(initial))
                 ));
             }
         }
