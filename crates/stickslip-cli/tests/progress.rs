@@ -86,6 +86,17 @@ fn a_pipe_gets_no_line_an_increment() {
     );
 }
 
+/// A run that does not outlive its test.
+#[cfg(unix)]
+struct Guard(std::process::Child);
+
+#[cfg(unix)]
+impl Drop for Guard {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+    }
+}
+
 /// Ctrl-C is a signal where there are signals.
 #[cfg(unix)]
 #[test]
@@ -102,7 +113,8 @@ fn a_run_that_is_interrupted_leaves_valid_results() {
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn();
-    let mut run = run.expect("the binary runs");
+    let mut run = Guard(run.expect("the binary runs"));
+    let run = &mut run.0;
     // It is under way when it tells of an increment; notes come before.
     let mut lines =
         std::io::BufRead::lines(std::io::BufReader::new(run.stdout.take().expect("a pipe")));

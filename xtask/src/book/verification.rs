@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use crate::workspace;
 
-/// A run is given up after this time [s].
+/// A run is given up after this time `[s]`.
 const PATIENCE: u64 = 1800;
 
 /// What a run of `expected*.toml` has given.

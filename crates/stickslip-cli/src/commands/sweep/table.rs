@@ -87,14 +87,16 @@ impl Table {
     /// [`Error::Io`] if it cannot.
     pub fn try_file(&self) -> Result<(), Error> {
         let path = &self.path;
-        let wrong = |e| Error::io(path, e);
-        let file = File::options().append(true).create(true).open(path);
-        let length = file.and_then(|f| f.metadata()).map_err(wrong)?.len();
-        // It was not there before, or held nothing.
-        if length == 0 {
-            std::fs::remove_file(path).map_err(wrong)?;
+        if path.exists() {
+            let file = File::options().append(true).open(path);
+            return file.map(drop).map_err(|e| Error::io(path, e));
         }
-        Ok(())
+        // A file aside: an empty table, were it for a moment, would be half of one to who looks then.
+        let mut aside = path.as_os_str().to_owned();
+        aside.push(format!(".{}.tmp", std::process::id()));
+        File::create(&aside)
+            .and_then(|_| std::fs::remove_file(&aside))
+            .map_err(|e| Error::io(path, e))
     }
 
     /// Adds a row and writes the table again, aside and renamed, so that the file is complete after every run and a
