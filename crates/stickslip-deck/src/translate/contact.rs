@@ -183,7 +183,7 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
 }
 
 /// Whether the law is a spring.
-fn compliant(interaction: &Interaction) -> bool {
+pub(super) fn compliant(interaction: &Interaction) -> bool {
     matches!(
         interaction.behavior,
         Some(Behavior::Linear { .. } | Behavior::Exponential { .. } | Behavior::Tabular(_))

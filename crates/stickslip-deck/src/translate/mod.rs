@@ -276,8 +276,8 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
 
 /// Whether sticking is a spring of the deck's own.
 fn deck_has_stick(deck: &Deck) -> bool {
-    let mut all = deck.interactions.values().filter_map(|i| i.friction);
-    all.any(|f| f.stick.is_some())
+    let mut all = deck.interactions.values();
+    all.any(|i| contact::compliant(i) && i.friction.is_some_and(|f| f.stick.is_some()))
 }
 
 /// A translation under way.
