@@ -120,6 +120,69 @@ fn surfaces_that_slide_far_with_small_sliding_lack_a_moment() {
     assert!(moments.all(|f| f.figure != "moment" || f.value < 1e-6));
 }
 
+/// Three blocks in a pile, the middle one apart from the lower: before the gap closes next to nothing acts on it.
+const PILE: &str = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.06, 0.045], cells = [9, 7] }, material = "soft" }
+body.middle = { generate.rectangle = { from = [-0.001, 0.0452], to = [0.06, 0.096], cells = [2, 2] }, material = "soft" }
+body.upper = { generate.rectangle = { from = [0, 0.096], to = [0.059, 0.125], cells = [4, 3] }, material = "soft" }
+material.soft.isotropic = { young = 2e9, poisson = 0.15 }
+interface.low = { secondary = "middle.bottom", primary = "lower.top", normal.power-law = { c = 2e22, m = 2.6 }, friction.coulomb.mu = 0.9 }
+interface.high = { secondary = "middle.top", primary = "upper.bottom", normal.LAW, friction.coulomb.mu = 0.9, enforcement.augmented-lagrangian = {} }
+support.base = { set = "lower.bottom", x = 0.0, y = 0.0 }
+support.top = { set = "upper.top", x = 0.0, y = -4e-4, amplitude = "press" }
+amplitude.press = { table = [[0, 0], [1, 1]] }
+step = [{ name = "press", increments = { initial = 0.1, largest = 0.2 } }]
+"#;
+
+#[test]
+fn forces_that_are_as_good_as_none_are_no_alarm() {
+    for law in [
+        "linear.c = 6e11",
+        "power-law = { c = 2e22, m = 2.6 }",
+        "power-law = { c = 1e16, m = 2.0 }",
+    ] {
+        let simulation = run(&PILE.replace("LAW", law));
+        let gate = &simulation.summary.quality;
+        assert!(gate.met, "{law}: {:#?}", violated(&simulation));
+    }
+}
+
+#[test]
+fn what_is_wrong_at_a_hundredth_of_the_load_is_found_whatever_comes_before() {
+    // Pressed hard where surfaces lie opposite, then slid far with a hundredth of that.
+    let text = BLOCKS.replace("mu = 0.3", "mu = 0.01").replace(
+        "y = -1e-2 }",
+        "y = -1e-2, amplitude = \"press\" }\nsupport.aside = { set = \"upper.top\", x = 0.09, amplitude = \"slide\" }",
+    );
+    let text = text.replace("x = 1e-4, ", "").replace(
+        "step = [{ name = \"press\", increments = { fixed = 2 } }]",
+        "step = [{ name = \"press\", increments.fixed = 2 }, { name = \"ease\", increments.fixed = 2 }, { name = \"slide\", increments.fixed = 2 }]",
+    );
+    let tables = "amplitude.press.table = [[0, 0], [1, 1], [2, 0.01], [3, 0.01]]\namplitude.slide.table = [[0, 0], [2, 0], [3, 1]]\n";
+    let small = "interface.joint.kinematics.small-sliding = {}\n";
+    let simulation = run(&format!("{text}{tables}{small}"));
+    trips(&simulation, "moment");
+    let worst = violated(&simulation)[0];
+    assert!(worst.time > 2.0, "{worst:?}");
+    let right = run(&format!("{text}{tables}"));
+    assert!(right.summary.quality.met, "{:#?}", violated(&right));
+}
+
+#[test]
+fn surfaces_that_are_tied_are_judged_in_tension_too() {
+    let text = BLOCKS
+        .replace(
+            "interface.joint.friction.coulomb.mu = 0.3",
+            "interface.joint.tied = true",
+        )
+        .replace("y = -1e-2", "y = 1e-2");
+    let simulation = run(&text);
+    let mut figures = simulation.summary.quality.figures.iter();
+    let figure = figures.find(|f| f.figure == "action-reaction");
+    assert!(figure.is_some_and(|f| f.met && f.place == "interface joint"));
+}
+
 #[test]
 fn an_energy_balance_that_is_open_is_found_where_it_is_asked_for() {
     let simulation = with("quality.energy = 1e-9");

@@ -1,5 +1,6 @@
 //! The balance of each body: what acts on it from outside has no resultant.
 
+use super::figures::EQUILIBRIUM;
 use super::limits::Limits;
 use super::model::Body;
 use super::quality::Gate;
@@ -13,9 +14,6 @@ struct Torsor {
     force: Vec3,
     moment: Vec3,
 }
-
-/// Forces smaller than this part of the largest of the model are as good as none.
-const LEAST: f64 = 1e-3;
 
 /// Roundings of stiffness times displacement that sums of forces may be off.
 const ROUNDINGS: f64 = 1e3;
@@ -49,17 +47,11 @@ impl Simulation {
         let bodies = self.model.bodies.iter();
         let acting = bodies.map(|b| self.acting(b, &fixed, &springs, &inside));
         let acting: Vec<Acting> = acting.collect();
-        let most = acting.iter().map(|a| a.scale).fold(gate.forces, f64::max);
-        gate.forces = most;
-        if most == 0.0 {
-            return;
-        }
         // Before anything touches there may be nothing but what rounding of the displacements leaves.
         let stiff = self.diagonal.iter().zip(&self.state.u);
         let rounding = stiff.map(|(k, u)| (k * u).powi(2)).sum::<f64>().sqrt();
         let rounding = ROUNDINGS * f64::EPSILON * rounding;
         for (body, a) in self.model.bodies.iter().zip(&acting) {
-            let scale = a.scale.max(LEAST * most);
             let moment = if a.arm > 0.0 {
                 norm(a.left.moment) / a.arm
             } else {
@@ -67,10 +59,10 @@ impl Simulation {
             };
             let left = (norm(a.left.force).max(moment) - rounding).max(0.0);
             let place = format!("body {}", body.name);
-            let (figure, limit, t) = ("equilibrium", limits.equilibrium, self.state.t);
+            let (pair, limit, t) = ([left, a.scale], limits.equilibrium, self.state.t);
             match self.motion.is_some() {
-                true => gate.note_in_motion(figure, &place, [left, scale], limit, t),
-                false => gate.note(figure, &place, left / scale, limit, t),
+                true => gate.note_in_motion(&EQUILIBRIUM, &place, pair, limit, t),
+                false => gate.note(&EQUILIBRIUM, &place, pair, limit, t),
             }
         }
     }

@@ -11,6 +11,7 @@ pub mod doctor;
 mod dynamic;
 mod equilibrium;
 mod explicit;
+mod figures;
 mod files;
 mod history;
 mod inertia;

@@ -1,13 +1,15 @@
 //! The quality gate: figures by which accepted increments are judged, and their limits.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
+use super::figures::{
+    ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP, Kind, MOMENT,
+    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
+};
 use super::limits::{GateMode, Limits};
 use super::run::Simulation;
 use super::summary::{InterfaceSummary, NumericalStiffness};
-use crate::contact::interface::{Interface, Quality, Resultant};
+use crate::contact::interface::Interface;
 use crate::math::norm;
 
 /// The outcome of the quality gate.
@@ -20,12 +22,9 @@ pub struct Gate {
     pub met: bool,
     /// The worst of each figure at each place.
     pub figures: Vec<Figure>,
-    /// The largest forces of any body so far `[N]`.
+    /// What the figures are made of, in their order.
     #[serde(skip)]
-    pub(super) forces: f64,
-    /// Of figures in motion: the largest violation so far, and the largest of what it is relative to.
-    #[serde(skip)]
-    so_far: BTreeMap<(&'static str, String), [f64; 2]>,
+    tracks: Vec<Track>,
 }
 
 /// A figure at its worst.
@@ -44,6 +43,8 @@ pub struct Figure {
     pub met: bool,
     /// Time of the increment that it comes from `[s]`.
     pub time: f64,
+    #[serde(skip)]
+    kind: &'static Kind,
 }
 
 impl Figure {
@@ -60,48 +61,7 @@ impl Figure {
 
     /// What is wrong and what may help, for a figure above its limit.
     pub fn sentence(&self) -> String {
-        let (what, help) = match self.figure {
-            "penetration-to-size" => (
-                "surfaces penetrate by this part of the cell beneath",
-                "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
-            ),
-            "penetration-to-approach" => (
-                "surfaces penetrate by this part of the elastic approach, and forces are wrong by about as much",
-                "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
-            ),
-            "false-slip" => (
-                "points that stick have slipped by this part of the elastic approach",
-                "raise the `factor` or `tangential-factor` of the enforcement, or use enforcement.augmented-lagrangian",
-            ),
-            "complementarity" => (
-                "pressure bridges an open gap of this part of the cells",
-                "lower `solver.tolerance` or the `error` of the enforcement",
-            ),
-            "oscillation" => (
-                "this part of the pressure goes up and down from point to point",
-                "choose the finer or softer surface as secondary, or match the meshes; forces may be right where pressures are not",
-            ),
-            "excess-shear" => (
-                "the shear traction exceeds the limit of friction by this part",
-                "lower `solver.tolerance`",
-            ),
-            "action-reaction" => (
-                "the forces on the two sides differ by this part",
-                "this should not happen: please report it",
-            ),
-            "moment" => (
-                "the moments of the forces on the two sides differ by this part",
-                "surfaces that slide far need kinematics other than small-sliding, and curved ones cells that are small beside the area in contact",
-            ),
-            "equilibrium" => (
-                "forces and moments on the body are out of balance by this part",
-                "lower `solver.tolerance`",
-            ),
-            _ => (
-                "the balance of energies is open by this part",
-                "take smaller increments, or add damping where bodies bounce",
-            ),
-        };
+        let (what, help) = (self.kind.what, self.kind.help);
         format!(
             "{} (at time {:.4e}): {what}; {help}",
             self.brief(),
@@ -121,68 +81,83 @@ impl Gate {
         self.gate == GateMode::Error && !self.met
     }
 
+    /// Notes a figure after an increment: how much is wrong, and what there is to compare it with. What it comes to is found by
+    /// [`settle`](Self::settle), when the largest of the run is known.
     pub(super) fn note(
         &mut self,
-        figure: &'static str,
+        kind: &'static Kind,
         place: &str,
-        value: f64,
+        [amount, scale]: [f64; 2],
         limit: f64,
         time: f64,
     ) {
-        // An infinite limit is none, and JSON has no infinity.
-        let limit = limit.is_finite().then_some(limit);
-        // What is not a number is above every limit.
-        let met = limit.is_none_or(|limit| value <= limit);
-        let known = self.figures.iter_mut();
-        let mut same = known.filter(|f| f.figure == figure && f.place == place);
-        match same.next() {
-            Some(f) if value > f.value || !met && f.met => {
-                f.value = value;
-                f.time = time;
-                f.met = met;
-            }
-            Some(_) => {}
-            None => self.figures.push(Figure {
-                figure,
+        self.track(kind, place, limit).add(amount, scale, time);
+    }
+
+    /// The same for a figure in motion, where what it is relative to comes and goes: the largest amount of the run is compared with the largest
+    /// scale of the run.
+    pub(super) fn note_in_motion(
+        &mut self,
+        kind: &'static Kind,
+        place: &str,
+        [amount, scale]: [f64; 2],
+        limit: f64,
+        time: f64,
+    ) {
+        (self.track(kind, place, limit)).add_in_motion(amount, scale, time);
+    }
+
+    fn track(&mut self, kind: &'static Kind, place: &str, limit: f64) -> &mut Track {
+        let mut known = self.figures.iter();
+        let known = known.position(|f| f.figure == kind.name && f.place == place);
+        let i = known.unwrap_or_else(|| {
+            self.tracks.push(Track::default());
+            self.figures.push(Figure {
+                figure: kind.name,
                 place: place.to_string(),
-                value,
-                limit,
-                met,
-                time,
-            }),
+                value: 0.0,
+                // An infinite limit is none, and JSON has no infinity.
+                limit: limit.is_finite().then_some(limit),
+                met: true,
+                time: 0.0,
+                kind,
+            });
+            self.figures.len() - 1
+        });
+        &mut self.tracks[i]
+    }
+
+    /// The largest scale of a figure so far, anywhere or at one place.
+    pub(super) fn largest(&self, kind: &Kind, place: Option<&str>) -> f64 {
+        let both = self.figures.iter().zip(&self.tracks);
+        let same = both.filter(|(f, _)| f.figure == kind.name);
+        let there = same.filter(|(f, _)| place.is_none_or(|place| f.place == place));
+        there.map(|(_, t)| t.largest).fold(0.0, f64::max)
+    }
+
+    /// What `scale` is at least, at a place.
+    pub(super) fn floor(&self, kind: &Kind, place: &str) -> f64 {
+        let own = kind.own * self.largest(kind, Some(place));
+        own.max(kind.model * self.largest(kind, None))
+    }
+
+    /// Works out all figures with the largest scales of the run so far: what looked bad beside small forces may be nothing beside those that came
+    /// later.
+    pub(super) fn settle(&mut self) {
+        for i in 0..self.figures.len() {
+            let figure = &self.figures[i];
+            let floor = self.floor(figure.kind, &figure.place);
+            let (value, time) = self.tracks[i].worst(floor);
+            let figure = &mut self.figures[i];
+            figure.value = value;
+            if value > 0.0 {
+                figure.time = time;
+            }
+            // What is not a number is above every limit.
+            figure.met = figure.limit.is_none_or(|limit| value <= limit);
         }
         self.met = self.figures.iter().all(|f| f.met);
     }
-
-    /// The same for a figure in motion, where what it is relative to comes and goes: the largest violation so far is compared with the largest
-    /// of that so far.
-    pub(super) fn note_in_motion(
-        &mut self,
-        figure: &'static str,
-        place: &str,
-        [left, scale]: [f64; 2],
-        limit: f64,
-        time: f64,
-    ) {
-        let so_far = self.so_far.entry((figure, place.to_string()));
-        let so_far = so_far.or_default();
-        *so_far = [so_far[0].max(left), so_far[1].max(scale)];
-        let value = ratio(so_far[0], so_far[1]);
-        let known = self.figures.iter_mut();
-        let mut same = known.filter(|f| f.figure == figure && f.place == place);
-        if let Some(f) = same.next() {
-            // What looked bad beside small forces may be nothing beside those that came later.
-            f.value = 0.0;
-            f.met = true;
-        }
-        self.note(figure, place, value, limit, time);
-    }
-}
-
-/// How far the bodies have come nearer elastically `[m]`: `2 U / F`, at least the compression of one layer of cells.
-fn approach(energy: f64, resultant: &Resultant, quality: &Quality) -> f64 {
-    let whole = 2.0 * energy / resultant.total.max(f64::MIN_POSITIVE);
-    whole.max(quality.layer)
 }
 
 /// Forces that move by less than this part of the size of the model do no work worth a balance.
@@ -214,7 +189,7 @@ impl Simulation {
                 self.judge_bodies(limits, &mut gate);
             }
         }
-        gate.met = gate.figures.iter().all(|f| f.met);
+        gate.settle();
         self.summary.quality = gate;
     }
 
@@ -224,44 +199,39 @@ impl Simulation {
         for interface in &self.model.interfaces {
             let q = interface.quality();
             let r = interface.resultant(&self.state.u);
-            if r.total <= 0.0 {
+            if r.carried <= 0.0 {
                 continue;
             }
             let place = format!("interface {}", interface.name);
-            let mut note = |figure, value, limit| gate.note(figure, &place, value, limit, t);
-            let approach = approach(energy, &r, &q);
+            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
             if !interface.on_springs() {
-                note(
-                    "penetration-to-size",
-                    q.relative_to_size,
-                    limits.penetration_to_size,
-                );
-                note("complementarity", q.complementarity, limits.complementarity);
-                let (figure, limit) = ("penetration-to-approach", limits.penetration_to_approach);
+                let size = [q.relative_to_size, 1.0];
+                let bridged = [q.complementarity * q.pressed, q.pressed];
+                note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
+                note(&COMPLEMENTARITY, bridged, limits.complementarity);
+                // Of the elastic approach, 2 U / F or the compression of one layer of cells: both sides times the force.
+                let elastic = (2.0 * energy).max(r.carried * q.layer);
+                let pair = [q.penetration * r.carried, elastic];
+                let limit = limits.penetration_to_approach;
                 if self.motion.is_some() {
-                    let pair = [q.penetration, approach];
-                    gate.note_in_motion(figure, &place, pair, limit, t);
+                    gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
                 } else {
-                    note(figure, ratio(q.penetration, approach), limit);
-                    let false_slip = ratio(q.false_slip, approach);
-                    note("false-slip", false_slip, limits.false_slip);
+                    note(&PENETRATION_TO_APPROACH, pair, limit);
+                    let false_slip = [q.false_slip * r.carried, elastic];
+                    note(&FALSE_SLIP, false_slip, limits.false_slip);
                 }
             }
-            let mut note = |figure, value, limit| gate.note(figure, &place, value, limit, t);
-            note("oscillation", q.oscillation, limits.oscillation);
-            note("excess-shear", q.excess_shear, limits.excess_shear);
+            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
+            let uneven = [q.oscillation * r.total, r.total];
+            note(&OSCILLATION, uneven, limits.oscillation);
+            let excess = [q.excess_shear * q.limit, q.limit];
+            note(&EXCESS_SHEAR, excess, limits.excess_shear);
             let b = interface.balance(&self.state.u);
             if b.scale > 0.0 {
-                note(
-                    "action-reaction",
-                    norm(b.force) / b.scale,
-                    limits.action_reaction,
-                );
-                note(
-                    "moment",
-                    ratio(norm(b.moment), b.scale * b.size),
-                    limits.moment,
-                );
+                let force = [norm(b.force), b.scale];
+                let moment = [norm(b.moment), b.scale * b.size];
+                note(&ACTION_REACTION, force, limits.action_reaction);
+                note(&MOMENT, moment, limits.moment);
             }
         }
     }
@@ -275,12 +245,12 @@ impl Simulation {
         let limit = limits.energy.or(in_motion).unwrap_or(f64::INFINITY);
         let quality = &self.summary.energy_quality;
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
-        let least = STILL * self.model.mesh.diameter() * self.summary.quality.forces;
-        let value = ratio(quality.largest, quality.scale.max(least));
+        let forces = self.summary.quality.largest(&EQUILIBRIUM, None);
+        let least = STILL * self.model.mesh.diameter() * forces;
+        let pair = [quality.largest, quality.scale.max(least)];
         let t = self.state.t;
-        self.summary
-            .quality
-            .note("energy", "model", value, limit, t);
+        self.summary.quality.note(&ENERGY, "model", pair, limit, t);
+        self.summary.quality.settle();
     }
 }
 
@@ -292,15 +262,17 @@ pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
         let quality = interface.quality();
         let r = interface.resultant(&simulation.state.u);
         let b = interface.balance(&simulation.state.u);
+        let place = format!("interface {}", interface.name);
+        let floor = |kind| simulation.summary.quality.floor(kind, &place);
         let strain = simulation.summary.energy.strain;
-        let whole = 2.0 * strain / r.total.max(f64::MIN_POSITIVE);
+        let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
         let factor = interface.numerical_factor();
         InterfaceSummary {
             name: interface.name.clone(),
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
-            action_reaction: ratio(norm(b.force), b.scale),
-            moment: ratio(norm(b.moment), b.scale * b.size),
+            action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),
+            moment: ratio(norm(b.moment), (b.scale * b.size).max(floor(&MOMENT))),
             numerical_stiffness: factor
                 .filter(|_| energy > 0.0)
                 .map(|factor| NumericalStiffness {

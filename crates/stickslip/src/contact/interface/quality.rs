@@ -29,6 +29,12 @@ pub struct Quality {
     pub excess_shear: f64,
     /// Compression of one layer of cells under the largest pressure `[m]`: the least that the bodies have come nearer.
     pub layer: f64,
+    /// What `complementarity` is relative to, `Σ A p height` `[N m]`.
+    #[serde(skip)]
+    pub pressed: f64,
+    /// What `excess_shear` is relative to: the largest limit of friction `[Pa]`.
+    #[serde(skip)]
+    pub limit: f64,
     /// Work of the tractions along what is left of the violations of gap and stick, `Σ A (p |v_n| + |t| |v_t|)` `[J]`.
     pub violation_work: f64,
 }
@@ -107,6 +113,8 @@ impl Interface {
                 over_limit = over_limit.max(shear - e.response.limit);
             }
         }
+        q.pressed = pressed;
+        q.limit = most;
         if pressed > 0.0 {
             q.complementarity = bridged / pressed;
         }

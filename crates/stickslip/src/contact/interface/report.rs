@@ -3,7 +3,7 @@
 use super::evaluate::Evaluation;
 use super::{Interface, Primary, Wants};
 use crate::contact::response::Status;
-use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, scale};
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale};
 use crate::system::{Fields, Force, Location, Stage};
 
 /// Forces of an interface on its secondary.
@@ -23,6 +23,8 @@ pub struct Resultant {
     pub peak: f64,
     /// Sum of the magnitudes of pressure forces, whatever their directions `[N]`.
     pub total: f64,
+    /// The same of all forces, shear included `[N]`.
+    pub carried: f64,
 }
 
 /// Two output directions in a surface: the x axis (or y, z where the normal is along it) laid into it, and the one across.
@@ -37,6 +39,9 @@ fn output_frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
     let t = normalize(add_scaled(along, -dot(along, normal), normal)).unwrap_or(along);
     [t, cross(normal, t)]
 }
+
+/// What pressure and pull leave of their sum, relative to the sum of their magnitudes, where they have no centre.
+const CANCELLED: f64 = 1e-9;
 
 impl Interface {
     /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield.
@@ -84,6 +89,8 @@ impl Interface {
     pub fn resultant(&self, u: &[f64]) -> Resultant {
         let x = self.coordinates(u);
         let mut r = Resultant::default();
+        // Tied surfaces pull as well as they press.
+        let mut signed = 0.0;
         for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
             if h.status == Status::Open {
                 continue;
@@ -96,13 +103,16 @@ impl Interface {
             r.shear = add(r.shear, shear);
             r.moment = add(r.moment, cross(place, add(normal, shear)));
             r.centre = add_scaled(r.centre, h.pressure * area, place);
-            r.total += h.pressure * area;
+            signed += h.pressure * area;
+            r.total += h.pressure.abs() * area;
+            r.carried += h.pressure.hypot(norm(h.shear)) * area;
             r.area += area;
             r.peak = r.peak.max(h.pressure);
         }
-        if r.total > 0.0 {
-            r.centre = scale(1.0 / r.total, r.centre);
-        }
+        r.centre = match signed.abs() > CANCELLED * r.total {
+            true => scale(1.0 / signed, r.centre),
+            false => [0.0; 3],
+        };
         r
     }
 
