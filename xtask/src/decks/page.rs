@@ -15,9 +15,12 @@ const REASONS: &[(&str, &str)] = &[
     ("contact4", "Hard contact: see the column before."),
     (
         "contact15lin",
-        "One cell on another under a load that acts at once, in explicit steps. CalculiX takes the mass of the nodes that may touch away; in \
-         explicit steps they keep it here, and touch by springs. The first increment is three times as long there, and the two swing apart \
-         from then on.",
+        "CalculiX takes the mass of the nodes that may touch away and gives it to nobody: of the upper body, one cell, a third \
+         of its mass m is left. Its first increment, 4.808e-5, is F dt² / (m/3): with that third, and with velocity zero half \
+         an increment before the start. Here the loaded nodes have their half of m, and velocity zero at the start: F dt² / 2 / \
+         (m/2), a third of that. Columns with all of their mass (`TYPE=SURFACE TO SURFACE`) differ by 104 % from CalculiX's \
+         massless ones with one cell over the height of the upper body, by 56 % with 8 and by 26 % with 16: the two approach \
+         each other as the layer of cells that touch gets thin.",
     ),
     ("contact16", "As contact15lin."),
     (

@@ -322,7 +322,18 @@ impl Reader<'_> {
         };
         let by_nodes = match card.get("TYPE").unwrap_or("SURFACETOSURFACE") {
             "NODETOSURFACE" => true,
-            "SURFACETOSURFACE" | "MORTAR" | "LINMORTAR" | "PGLINMORTAR" | "MASSLESS" => false,
+            "SURFACETOSURFACE" | "MORTAR" | "LINMORTAR" | "PGLINMORTAR" => false,
+            // Nodes that may touch lose their mass there without their neighbours getting it: of a body of one cell a third is left, and
+            // the answer of a coarse mesh is another one than with all of it.
+            "MASSLESS" => {
+                self.error(
+                    card.place,
+                    "*CONTACT PAIR of type MASSLESS is not supported: it leaves out the mass of the nodes that may touch, which bodies keep here",
+                    "write TYPE=SURFACE TO SURFACE if the mass of the bodies is to count; the motion is another one unless the layer of cells at \
+                     the surface is a small part of the body",
+                );
+                return;
+            }
             other => {
                 let message = format!("*CONTACT PAIR of type {} is not supported", clip(other));
                 self.error(
