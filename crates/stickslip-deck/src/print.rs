@@ -207,7 +207,8 @@ impl Printer {
                 "U" => ("displacements (vx,vy,vz)", simulation.state.u.clone()),
                 "V" => ("velocities (vx,vy,vz)", or_zero(&simulation.state.v)),
                 "A" => ("accelerations (vx,vy,vz)", or_zero(&simulation.state.a)),
-                "RF" => ("forces (fx,fy,fz)", simulation.external_forces()),
+                // In motion too CalculiX prints what the elements resist with: no inertia, no damping, and no loads.
+                "RF" => ("forces (fx,fy,fz)", simulation.internal_forces()),
                 _ => continue,
             };
             let mut sum = [0.0; 3];

@@ -187,3 +187,39 @@ fn what_a_step_says_of_its_increments_is_kept() {
         assert!(toml.contains(wanted), "{toml}");
     }
 }
+
+#[test]
+fn forces_in_motion_are_those_of_the_elements() {
+    // Free in space under gravity nothing is strained, and CalculiX 2.20 prints zeros at all nodes.
+    for procedure in [", DIRECT\n.01, .05", ", EXPLICIT\n.01, .05"] {
+        let text = format!(
+            "{}{}*STEP\n*DYNAMIC{procedure}\n*DLOAD\nEN, GRAV, 8., 0., 0., -1.\n*NODE PRINT, NSET=N, TOTALS=YES\nRF\n*END STEP\n",
+            cube("N", 1, 0.0),
+            sections(&["EN"])
+        );
+        let run = run("free-forces", &text);
+        for title in ["forces", "total force"] {
+            for (_, time, rows) in run.all(title) {
+                for v in rows.iter().flat_map(|r| &r[r.len() - 3..]) {
+                    assert!(v.abs() < 1e-9, "{procedure}, {title} at {time}: {v}");
+                }
+            }
+        }
+    }
+    // A rod held at one end: the stretch times its stiffness at both, at every time.
+    let steps = "*STEP\n*DYNAMIC, DIRECT\n.01, .05\n*CLOAD\nNTOP, 3, 2.\n*NODE PRINT, NSET=N\nU, RF\n*END STEP\n";
+    let run = run("rod-forces", &format!("{}{steps}", column()));
+    for (u, f) in run.all("displacements").iter().zip(run.all("forces")) {
+        let stretch = u.2[7][3];
+        assert!(stretch > 0.0, "{stretch}");
+        for (node, row) in f.2.iter().enumerate() {
+            let side = if node < 4 { -1.0 } else { 1.0 };
+            let wanted = side * 250.0 * stretch;
+            assert!(
+                (row[3] / wanted - 1.0).abs() < 1e-5,
+                "node {node}: {} is not {wanted}",
+                row[3]
+            );
+        }
+    }
+}

@@ -384,6 +384,25 @@ impl Simulation {
         out
     }
 
+    /// What bodies, springs and interfaces resist with at the last accepted state, by dof `[N]`, without inertia and damping. At rest that is
+    /// what acts from outside; in motion it is what CalculiX prints as `RF`.
+    pub fn internal_forces(&self) -> Vec<f64> {
+        let moves = self
+            .model
+            .steps
+            .get(self.step)
+            .is_some_and(|s| s.dynamic.is_some());
+        let (mut out, contact): (Vec<f64>, &[f64]) = match (&self.explicit, &self.motion) {
+            (Some(explicit), _) if moves => (explicit.force.clone(), &explicit.out.residual),
+            (None, Some(motion)) if moves => (motion.internal.clone(), &self.contact),
+            _ => return self.external_forces(),
+        };
+        out.iter_mut().zip(contact).for_each(|(out, c)| *out += c);
+        // Equations act like contact and do not count as what resists.
+        self.model.couplings.add_equation_forces(&mut out);
+        out
+    }
+
     /// The number of the point whose forces are farthest from balance, if any are.
     pub fn worst_point(&self) -> Option<u64> {
         let fixed = self.held_dofs();
