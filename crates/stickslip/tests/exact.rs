@@ -1,10 +1,13 @@
 //! Exact contact and stick: no numerical stiffness shows in the answer, and points that open, close, stick and slip in turn are no reason to fail.
 
+#[path = "support/resistance.rs"]
+mod resistance;
 mod support;
 
+use resistance::{Medium, Space, resist};
 use stickslip::newton::Course;
 use stickslip::problem::Problem;
-use stickslip::simulation::Simulation;
+use stickslip::simulation::{Event, Observer, Simulation};
 use support::Record;
 
 /// Two cubes with edges of 10 mm, meshes that do not match; numbers for a unit of length that is `1/length` metres.
@@ -212,4 +215,137 @@ fn a_soft_slab_under_an_iron() {
     assert_eq!(settles(&text.replace("friction.coulomb", points)).len(), 32);
     // The tangent of whole surfaces does not know that normals jump where facets meet, and at the edges of the iron they do.
     assert_eq!(settles_within(text, 16.0).len(), 32);
+}
+
+/// A curved body, pressed into another one and slid over it; numbers of the finest cells are small.
+const ROLLER: &str = r#"
+model.space = "plane-strain"
+body.upper = { generate.half-disc = { radius = 6.0, centre = [6.0, 14.5], size = 1.0, refine = { finest = 0.15, width = 0.4, growth = 1.7 } }, material = "m", formulation = "standard" }
+body.lower = { generate.rectangle = { to = [12.0, 8.5], cells = [5, 4] }, material = "m", formulation = "standard" }
+interface.joint = { secondary = "upper.arc", primary = "lower.top", friction.coulomb.mu = 0.7, KIND }
+support.base = { set = "lower.bottom", x = 0.0, y = 0.0 }
+support.top = { set = "upper.flat", y = -0.02, amplitude = "press" }
+support.top-x = { set = "upper.flat", x = 0.4, amplitude = "slide" }
+"#;
+
+const PLATES: &str = r#"
+body.upper = { generate.rectangle = { from = [2.1, 1], to = [2.9, 2], cells = [3, 3], ELEMENT }, material = "m", formulation = "standard" }
+body.lower = { generate.rectangle = { from = [2, 0], to = [3, 1], cells = [4, 4], ELEMENT }, material = "m", formulation = "standard" }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", KIND }
+support.base = { set = "lower.bottom", x = 0.0, y = 0.0 }
+support.top = { set = "upper.top", x = 0.03, y = -0.03, amplitude = "press" }
+load.side = { set = "upper.right", traction.value = [-2.0, 1.0] }
+"#;
+
+const FLOOR: &str = r#"
+model.space = "plane-strain"
+body.upper = { generate.half-disc = { radius = 6.0, centre = [0.0, 6.0], size = 1.0, refine = { finest = 0.15, width = 0.4, growth = 1.7 } }, material = "m", formulation = "standard" }
+obstacle.drum.cylinder = { centre = [0.0, -20.0], radius = 20.0 }
+interface.joint = { secondary = "upper.arc", primary = "drum", friction.coulomb.mu = 0.3 }
+support.top = { set = "upper.flat", x = 0.3, y = -0.02, amplitude = "press" }
+"#;
+
+const BRICKS: &str = r#"
+model.space = "solid"
+body.upper = { generate.box = { from = [0.1, 0.1, 1], to = [0.9, 0.8, 1.8], cells = [3, 2, 2], ELEMENT }, material = "m", formulation = "standard" }
+body.lower = { generate.box = { to = [1, 1, 1], cells = [2, 3, 2], ELEMENT }, material = "m", formulation = "standard" }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", KIND }
+support.base = { set = "lower.bottom", x = 0.0, y = 0.0, z = 0.0 }
+support.top = { set = "upper.top", x = 0.01, y = 0.02, z = -0.03, amplitude = "press" }
+"#;
+
+/// Largest difference, at any node, between what contact, loads and supports do and what the bodies resist with, relative to the largest contact
+/// force, at the end of every increment.
+fn out_of_balance(text: &str, space: Space, thickness: f64) -> f64 {
+    let medium = Medium {
+        young: 1e3,
+        poisson: 0.3,
+        space,
+        thickness,
+    };
+    let all = format!(
+        "format = 1\nmaterial.m.isotropic = {{ young = 1e3, poisson = 0.3 }}\n{text}\n[amplitude]\n         press.table = [[0, 0], [1, 1]]\nslide.table = [[1, 0], [2, 1]]\n         [[step]]\nincrements.fixed = 2\n[[step]]\nincrements.fixed = 3\n"
+    );
+    let mut simulation = support::build(&support::problem(&all)).unwrap_or_else(|e| panic!("{e}"));
+    let mut audit = Audit { medium, worst: 0.0 };
+    let outcome = simulation.run(&mut [&mut audit]);
+    outcome.unwrap_or_else(|e| panic!("{text}: {e}"));
+    audit.worst
+}
+
+/// Looks at every increment.
+struct Audit {
+    medium: Medium,
+    worst: f64,
+}
+
+impl Observer for Audit {
+    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), stickslip::Error> {
+        if !matches!(event, Event::Increment(_)) {
+            return Ok(());
+        }
+        let fields = stickslip::simulation::fields(simulation);
+        let field = |name: &str| {
+            let mut all = fields.all.iter();
+            &all.find(|f| f.name == name).expect(name).values
+        };
+        let (u, contact) = (field("U"), field("CFORCE"));
+        let resisted = resist(&simulation.model.mesh, &|_| self.medium, u);
+        let external = simulation.external_forces();
+        let largest = contact.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        let dim = simulation.model.dofs.dim;
+        for (p, k) in resisted.iter().enumerate() {
+            for c in 0..dim {
+                let acting = external[dim * p + c] + contact[3 * p + c];
+                if largest > 0.0 {
+                    self.worst = self.worst.max((k[c] - acting).abs() / largest);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn contact_forces_at_nodes_are_those_that_bodies_resist() {
+    let friction = "friction.coulomb.mu = 0.3";
+    let nodes = "discretisation.node-to-facet = {}";
+    let mut cases = Vec::new();
+    for kind in [
+        "kinematics.pop-1995 = {}, discretisation.node-to-facet = {}",
+        "kinematics.convective = {}, discretisation.node-to-facet = {}",
+        "kinematics.small-sliding = {}, discretisation.node-to-facet = {}",
+        "enforcement.penalty = {}",
+        "enforcement.augmented-lagrangian = {}",
+    ] {
+        cases.push((ROLLER.replace("KIND", kind), Space::Strain, 1.0));
+    }
+    for element in ["quad4", "quad8", "tri3"] {
+        for kind in [friction, nodes, "tied = true"] {
+            let text = PLATES.replace("KIND", kind);
+            let text = text.replace("ELEMENT", &format!("element = \"{element}\""));
+            let around = format!("model.space = \"axisymmetric\"\n{text}");
+            let thick = format!("model.space = \"plane-stress\"\nmodel.thickness = 0.2\n{text}");
+            cases.push((thick, Space::Stress, 0.2));
+            // The rule by which triangles around the axis are integrated is a matter of choice.
+            if element != "tri3" {
+                cases.push((around, Space::Axisymmetric, 1.0));
+            }
+        }
+    }
+    cases.push((FLOOR.to_string(), Space::Strain, 1.0));
+    for element in ["hex8", "tet4", "tet10"] {
+        for kind in [friction, nodes, "tied = true"] {
+            let text = BRICKS.replace("KIND", kind);
+            let text = text.replace("ELEMENT", &format!("element = \"{element}\""));
+            cases.push((text, Space::Solid, 1.0));
+        }
+    }
+    for (text, space, thickness) in cases {
+        for method in ["sparse", "condensed"] {
+            let text = format!("solver.method = \"{method}\"\n{text}");
+            let worst = out_of_balance(&text, space, thickness);
+            assert!(worst < 1e-6, "{text}: {worst:.1e} of the largest force");
+        }
+    }
 }

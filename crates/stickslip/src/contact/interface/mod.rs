@@ -123,6 +123,8 @@ pub struct Memory {
     dissipated: f64,
     /// Sum of area times `rubbed` over all points and increments `[N m]`.
     rubbed: f64,
+    /// Forces on the nodes at the last accepted state `[N]`; empty before there was one.
+    nodal: Vec<Vec3>,
     /// Dissipated energy and `rubbed` per area at the nodes of the primary, by node; empty before anything slid.
     traces: Vec<[f64; 2]>,
     belt_work: f64,
@@ -747,8 +749,10 @@ impl Force for Interface {
     fn commit(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
+        let nodal = self.nodal_forces(active);
         let (initial, times) = (&self.initial, [stage.from.t, stage.at.t]);
         let memory = &mut self.memory;
+        memory.nodal = nodal;
         if !active || memory.last.points.is_empty() {
             for h in &mut memory.committed {
                 *h = History {

@@ -134,14 +134,33 @@ impl Interface {
         (centre, normalize(normal).unwrap_or_default())
     }
 
-    /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, the nodal contact force CFORCE, and
+    /// Forces on the nodes in the last evaluation: those that the bodies resist, gradients of gap and slip and all. Pressure and shear times the
+    /// weights of the nodes have the same sum, but where the gradient of a gap or slip turns from node to node they are other forces.
+    pub(super) fn nodal_forces(&self, active: bool) -> Vec<Vec3> {
+        let mut forces = vec![[0.0; 3]; self.nodes.len()];
+        let last = &self.memory.last;
+        for (i, e) in last.points.iter().enumerate().filter(|_| active) {
+            let batch = last.batch(i);
+            let Some(force) = batch.force(e) else {
+                continue;
+            };
+            // Residuals are internal less external forces.
+            for (&(node, _), part) in batch.sides(e).iter().zip(force.chunks(self.dofs.dim)) {
+                for (total, f) in forces[node].iter_mut().zip(part) {
+                    *total -= f;
+                }
+            }
+        }
+        forces
+    }
+
+    /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
     /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
     /// their areas there. Where no interface is the values are NaN, except for forces, which are zero.
     pub(super) fn add_fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let mut sums = vec![[0.0; 7]; self.nodes.len()];
         let mut statuses = vec![(0.0, 0.0); self.nodes.len()];
-        let mut forces = vec![[0.0; 3]; self.nodes.len()];
         for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
             let frame = output_frame(
                 if h.normal == [0.0; 3] {
@@ -165,7 +184,6 @@ impl Interface {
                 dot(h.slip, frame[1]),
             ];
             let area = self.area_of(i);
-            let force = scale(area, add_scaled(h.shear, h.pressure, h.normal));
             let mut give = |node: usize, weight: f64| {
                 let share = area * weight;
                 if values[3].is_finite() && share > 0.0 {
@@ -180,9 +198,6 @@ impl Interface {
             };
             for (node, w) in self.own_weights(i).chain(self.facet_weights(i)) {
                 give(node, w.max(0.0));
-            }
-            for (node, w) in self.weights_of(i) {
-                forces[node] = add_scaled(forces[node], w, force);
             }
         }
         let names = ["CPRESS", "CSHEAR1", "CSHEAR2", "COPEN", "CSLIP1", "CSLIP2"];
@@ -204,8 +219,8 @@ impl Interface {
             }
         }
         let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);
-        for (local, &node) in self.nodes.iter().enumerate() {
-            for (total, f) in field.values[3 * node..].iter_mut().zip(forces[local]) {
+        for (&force, &node) in self.memory.nodal.iter().zip(&self.nodes) {
+            for (total, f) in field.values[3 * node..].iter_mut().zip(force) {
                 *total += f;
             }
         }
