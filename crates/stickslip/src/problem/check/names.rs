@@ -8,6 +8,7 @@ use super::Findings;
 use crate::registry::Family;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
+    spelled(problem, findings);
     declared(problem, findings);
     bodies(problem, findings);
     sets(problem, findings);
@@ -57,6 +58,76 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         set(problem, findings, &["initial", name, "set"], &initial.set);
     }
     probes(problem, findings);
+}
+
+/// Most characters of a name: with what is put before and behind it, it stays a name of a file everywhere.
+const LONGEST: usize = 100;
+
+/// Why a text cannot be a name, and what could: names become names of files, of columns and of sets, on all systems.
+fn misspelled(name: &str) -> Option<&'static str> {
+    let wrong = |c: char| c.is_control() || r#"/\<>:"|?*"#.contains(c);
+    if name.trim().is_empty() {
+        Some("it is empty")
+    } else if name.chars().count() > LONGEST {
+        Some("it has more than 100 characters")
+    } else if name.starts_with('.') || name.ends_with('.') {
+        Some("it begins or ends with a dot")
+    } else if name.trim() != name {
+        Some("it begins or ends with a blank")
+    } else if name.contains(wrong) {
+        Some(r#"it has one of / \ < > : " | ? * or a control character"#)
+    } else {
+        None
+    }
+}
+
+/// All names of tables; those that differ by nothing but capitals are one name on some file systems, and in decks.
+fn spelled(problem: &Problem, findings: &mut Findings) {
+    let tables: [(&str, Vec<&String>); 12] = [
+        ("body", problem.body.keys().collect()),
+        ("material", problem.material.keys().collect()),
+        ("obstacle", problem.obstacle.keys().collect()),
+        ("set", problem.set.keys().collect()),
+        ("interface", problem.interface.keys().collect()),
+        ("support", problem.support.keys().collect()),
+        ("load", problem.load.keys().collect()),
+        ("mass", problem.mass.keys().collect()),
+        ("coupling", problem.coupling.keys().collect()),
+        ("amplitude", problem.amplitude.keys().collect()),
+        ("initial", problem.initial.keys().collect()),
+        ("probe", problem.probe.keys().collect()),
+    ];
+    for (table, names) in tables {
+        let mut seen: BTreeMap<String, &str> = BTreeMap::new();
+        for name in names {
+            if let Some(why) = misspelled(name) {
+                findings.add(
+                    &[table, name],
+                    format!(
+                        "`{}` cannot be the name of a {table}: {why}",
+                        name.escape_debug()
+                    ),
+                    "letters, digits, - and _ make good names",
+                );
+            }
+            if let Some(other) = seen.insert(name.to_lowercase(), name) {
+                findings.add(
+                    &[table, name],
+                    format!("`{other}` and `{name}` differ by nothing but capitals"),
+                    "give them different names",
+                );
+            }
+        }
+    }
+    // Steps are only talked about.
+    for (i, step) in problem.step.iter().enumerate() {
+        let name = step.name.as_deref().unwrap_or("step");
+        if name.is_empty() || name.chars().count() > LONGEST || name.contains(char::is_control) {
+            let key = ["step", &i.to_string(), "name"];
+            let message = format!("`{}` cannot be the name of a step", name.escape_debug());
+            findings.add(&key, message, "give it 1 to 100 printable characters");
+        }
+    }
 }
 
 /// Bodies, obstacles and sets share their names: `set = "block"` and `primary = "floor"` look into all of them.
