@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use stickslip::io::input;
+
 use crate::finding::{DeckError, Finding, Severity};
 
 /// Where a line is: number of the file in [`Source::files`], and line from 1.
@@ -85,7 +87,7 @@ impl Source {
     /// # Errors
     /// Files that cannot be read, that include each other in a circle, and lines that belong to no keyword.
     pub fn read(path: &Path) -> Result<Source, DeckError> {
-        let bytes = std::fs::read(path).map_err(|e| DeckError::io(path, &e, None))?;
+        let bytes = input::read(path, input::TEXT).map_err(|e| DeckError::io(path, &e, None))?;
         Source::parse(&bytes, path)
     }
 
@@ -211,7 +213,7 @@ impl Source {
                 "*INCLUDE names an ordinary file",
             ));
         }
-        let bytes = std::fs::read(&inner)
+        let bytes = input::read(&inner, input::TEXT)
             .map_err(|e| DeckError::io(&inner, &e, Some((&here, line.place.line))))?;
         open.push(inner.clone());
         self.join(&bytes, &inner, open, lines)?;

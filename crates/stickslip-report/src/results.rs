@@ -158,5 +158,5 @@ impl Results {
 }
 
 fn read(path: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|e| Error::io(path, e))
+    stickslip::io::input::read_text(path).map_err(|e| Error::io(path, e))
 }

@@ -12,6 +12,7 @@
 //! `tests/layers.rs` holds the code to it.
 
 pub mod error;
+pub mod machine;
 pub mod math;
 pub mod references;
 pub mod registry;

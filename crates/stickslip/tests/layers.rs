@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first. Modules of one layer do not know each other.
 const LAYERS: &[&[&str]] = &[
-    &["error", "math", "references", "registry"],
+    &["error", "machine", "math", "references", "registry"],
     &["material", "shape"],
     &["linear", "mesh"],
     &["system"],

@@ -94,7 +94,7 @@ pub fn write(path: &Path, table: &Table) -> Result<(), Error> {
 /// # Errors
 /// [`Error::Io`] if it cannot be read, is empty, or a row has another number of entries than the header.
 pub fn read(path: &Path) -> Result<Table, Error> {
-    let text = std::fs::read_to_string(path).map_err(|e| Error::io(path, e))?;
+    let text = super::input::read_text(path).map_err(|e| Error::io(path, e))?;
     let mut lines = (1..)
         .zip(text.lines())
         .filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));

@@ -7,6 +7,7 @@ pub mod abaqus;
 mod atomic;
 pub mod csv;
 pub mod gmsh;
+pub mod input;
 mod numbers;
 pub mod pvd;
 mod sets;

@@ -49,7 +49,7 @@ impl Collection {
 /// # Errors
 /// [`Error::Io`] if the file cannot be read, is malformed, or an entry has no time or no file.
 pub fn read(path: &Path) -> Result<Vec<(f64, String)>, Error> {
-    let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
+    let bytes = super::input::read(path, super::input::TEXT).map_err(|e| Error::io(path, e))?;
     parse(&bytes).map_err(|message| {
         Error::Io(IoError {
             file: path.to_path_buf(),

@@ -1,5 +1,7 @@
 use std::fmt;
 
+use crate::machine::{self, available_memory};
+
 /// Why a linear system could not be analysed, factored or solved.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinearError {
@@ -34,6 +36,18 @@ pub enum LinearError {
 }
 
 impl LinearError {
+    /// Refuses to take `bytes` of memory where less is free: on most systems memory is promised without being there, and who takes it is
+    /// killed without a word.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn unless_free(bytes: u64) -> Result<(), LinearError> {
+        match available_memory() {
+            Some(free) if bytes > free => Err(LinearError::OutOfMemory { bytes }),
+            _ => Ok(()),
+        }
+    }
+
     /// The dof to look at, if there is one.
     pub fn dof(&self) -> Option<usize> {
         match *self {
@@ -69,8 +83,8 @@ impl fmt::Display for LinearError {
             }
             LinearError::OutOfMemory { bytes } => write!(
                 f,
-                "the factor of {:.1} GB does not fit into memory",
-                *bytes as f64 * 1e-9
+                "the factorisation takes {}, more memory than is free",
+                machine::bytes(*bytes)
             ),
         }
     }

@@ -52,6 +52,9 @@ impl Factor {
     ) -> Result<Factor, LinearError> {
         let shape = (matrix.points(), matrix.block_size());
         assert_eq!(shape, symbolic.shape, "not the matrix analysed");
+        // The factor, and the lower triangle from which it is made.
+        let all = symbolic.factor_nonzeros() + 2 * matrix.nnz();
+        LinearError::unless_free(8 * all as u64)?;
         let lower = assemble_lower(symbolic, matrix, extra)?;
 
         let n = symbolic.free();

@@ -224,6 +224,7 @@ pub(super) fn describe(error: LinearError) -> StepFailure {
     let cause = match error {
         LinearError::Singular { .. } | LinearError::NotPositive { .. } => Cause::Singular,
         LinearError::NotFinite { .. } => Cause::NotFinite,
+        LinearError::OutOfMemory { .. } => Cause::Memory,
         _ => Cause::LinearSolver,
     };
     StepFailure {

@@ -10,7 +10,12 @@ use crate::system::{
 };
 
 /// Failures after which no other way is tried.
-const HOPELESS: [Cause; 3] = [Cause::NotFinite, Cause::Reach, Cause::Interrupted];
+const HOPELESS: [Cause; 4] = [
+    Cause::NotFinite,
+    Cause::Reach,
+    Cause::Memory,
+    Cause::Interrupted,
+];
 
 /// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
 pub struct System<'a> {

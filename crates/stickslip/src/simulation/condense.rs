@@ -157,6 +157,9 @@ impl Simulation {
             self.decided = Some(held.to_vec());
         }
         let cost = plan.cost();
+        if !cost_fits(cost.bytes) {
+            return self.not_condensed("it would take more memory than is free");
+        }
         let started = Instant::now();
         let made = Condensation::new(plan, matrix, held, springs, library);
         let (condensation, effort) = match made {

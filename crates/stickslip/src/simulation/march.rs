@@ -191,6 +191,12 @@ impl Simulation {
                 self.march.step = Some(running);
                 return Err(self.stop(observers));
             }
+            // With half the increment it takes the same memory.
+            Err(failure) if failure.cause == Cause::Memory => {
+                self.flush(observers)?;
+                self.examine(&trial, (running.attempt, chart), &failure);
+                return Err(self.give_up(failure).into());
+            }
             Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
             Err(failure) if self.firmer(trial, &failure, observers)? => {}
             Err(failure) if self.may_follow(step, &failure) => self.follow(trial, observers)?,

@@ -58,7 +58,7 @@ pub(super) struct Recovered {
 }
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
-const TOGETHER: usize = 16;
+pub(super) const TOGETHER: usize = 16;
 
 impl Simulation {
     /// Goes on from an accepted increment: at once, or with others in one sweep.

@@ -334,6 +334,10 @@ impl Simulation {
             let modes = diagnosis::free_modes(self, self.model.steps[self.step].end);
             return diagnosis::explain_singular(self, &failure, &modes);
         }
+        if failure.cause == Cause::Memory {
+            let help = Some(doctor::MORE_MEMORY.to_string());
+            return StepFailure { help, ..failure }.at(self.state.t);
+        }
         let message = format!(
             "step {}: {}; the increment cannot be made smaller",
             self.model.steps[self.step].name, failure.message

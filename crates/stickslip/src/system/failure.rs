@@ -19,6 +19,8 @@ pub enum Cause {
     Reach,
     /// Points change status, and the time at which they do is wanted more precisely.
     Event,
+    /// There is not enough memory.
+    Memory,
     /// The analysis was asked to stop.
     Interrupted,
 }

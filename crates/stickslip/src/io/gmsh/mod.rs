@@ -53,7 +53,7 @@ use raw::Raw;
 /// # Errors
 /// A file that cannot be opened, and everything [`parse`] refuses.
 pub fn read(path: &Path) -> Result<Mesh, MeshError> {
-    let bytes = std::fs::read(path).map_err(|e| MeshError {
+    let bytes = crate::io::input::read(path, u64::MAX).map_err(|e| MeshError {
         file: Some(path.to_path_buf()),
         line: None,
         message: format!("the mesh cannot be read: {e}"),

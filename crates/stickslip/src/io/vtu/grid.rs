@@ -37,7 +37,7 @@ const MOST_SETS: usize = 256;
 /// # Errors
 /// A file that cannot be read or is damaged, cells outside the family, connectivity that does not fit.
 pub fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
-    let bytes = std::fs::read(path).map_err(|e| MeshError {
+    let bytes = crate::io::input::read(path, u64::MAX).map_err(|e| MeshError {
         file: Some(path.to_path_buf()),
         line: None,
         message: format!("the mesh cannot be read: {e}"),

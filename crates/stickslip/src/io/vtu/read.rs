@@ -33,7 +33,7 @@ pub struct PointArray {
 /// [`Error::Io`] if the file cannot be opened, is truncated or malformed, does not hold what its headers say, or is written
 /// in a way that is not read.
 pub fn read(path: &Path) -> Result<PointFields, Error> {
-    let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
+    let bytes = crate::io::input::read(path, u64::MAX).map_err(|e| Error::io(path, e))?;
     parse(&bytes, path)
 }
 

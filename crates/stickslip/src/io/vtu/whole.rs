@@ -36,7 +36,7 @@ impl Grid {
 /// # Errors
 /// As [`read()`](super::read()); also if a cell refers to a point that is not there.
 pub fn read_grid(path: &Path) -> Result<Grid, Error> {
-    let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
+    let bytes = crate::io::input::read(path, u64::MAX).map_err(|e| Error::io(path, e))?;
     parse_grid(&bytes).map_err(|message| {
         Error::Io(IoError {
             file: path.to_path_buf(),

@@ -6,6 +6,7 @@ use super::identity::{Identity, Part};
 use super::substructure::Substructure;
 use crate::error::Error;
 use crate::linear::Fronts;
+use crate::machine::total_memory;
 
 /// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
 ///
@@ -68,7 +69,7 @@ impl Library {
 
     /// A quarter of the machine's memory `[bytes]`, 4 GiB if the system does not tell how much there is.
     pub fn usual_limit() -> u64 {
-        memory().map_or(4 * GIB, |all| all / 4)
+        total_memory().map_or(4 * GIB, |all| all / 4)
     }
 
     /// A limit for one run alone `[bytes]`: what it does not use itself is rarely asked for again.
@@ -170,14 +171,6 @@ impl<T> Shelf<T> {
             all -= self.entries.remove(0).2;
         }
     }
-}
-
-/// Memory of the machine `[bytes]`.
-fn memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|l| l.strip_prefix("MemTotal:"))?;
-    let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
-    Some(kib * 1024)
 }
 
 #[cfg(test)]

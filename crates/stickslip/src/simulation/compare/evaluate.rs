@@ -123,7 +123,7 @@ impl<'a> Results<'a> {
     fn summary(&mut self) -> Result<&Value, String> {
         let path = self.dir.join("summary.json");
         let summary = self.summary.get_or_insert_with(|| {
-            let text = std::fs::read_to_string(&path)
+            let text = crate::io::input::read_text(&path)
                 .map_err(|_| format!("there is no summary.json{}", siblings(&path)))?;
             serde_json::from_str(&text).map_err(|e| format!("summary.json: {e}"))
         });

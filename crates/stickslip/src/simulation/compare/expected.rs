@@ -101,7 +101,7 @@ impl Expected {
     /// [`Error::Io`] if it cannot be read, [`Error::Problem`] for syntax, unknown keys and checks that are not complete or
     /// contradict themselves.
     pub fn read(path: &Path) -> Result<Expected, Error> {
-        let text = std::fs::read_to_string(path).map_err(|e| Error::io(path, e))?;
+        let text = crate::io::input::read_text(path).map_err(|e| Error::io(path, e))?;
         let problem = |findings| {
             Error::Problem(ProblemError {
                 file: Some(path.to_path_buf()),

@@ -18,6 +18,9 @@ use crate::time::Trial;
 /// Guilty points whose stiffness is looked at.
 const LOOKED_AT: usize = 5;
 
+/// What to try where memory is short.
+pub(in crate::simulation) const MORE_MEMORY: &str = "a coarser mesh away from the contact, `solver.method = \"multigrid\"` in 3D, or a machine with more memory";
+
 /// A finding about an attempt that failed, the `attempt`-th of its increment.
 pub(in crate::simulation) fn diagnose(
     simulation: &Simulation,
@@ -39,6 +42,9 @@ pub(in crate::simulation) fn diagnose(
             .advise("repair the mesh there, or take smaller increments"),
         Cause::TooFar => Finding::new(DoctorCause::TooFar, Severity::Note, ""),
         Cause::Reach => Finding::new(DoctorCause::BeyondReach, Severity::Note, ""),
+        Cause::Memory => {
+            Finding::new(DoctorCause::Stopped, Severity::Error, "").advise(MORE_MEMORY)
+        }
         Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
     };
     if finding.message.is_empty() {

@@ -21,7 +21,7 @@ pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
 
 pub(super) use check::examine;
 pub(super) use culprits::write as write_culprits;
-pub(super) use diagnose::{diagnose, stopped};
+pub(super) use diagnose::{MORE_MEMORY, diagnose, stopped};
 
 use crate::newton::Statistics;
 
