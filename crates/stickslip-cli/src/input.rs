@@ -1,6 +1,6 @@
 //! What a command is given: a problem file, or a deck of Abaqus or CalculiX.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::problem::{Document, Meshes, Problem};
@@ -57,6 +57,14 @@ impl Input {
             meshes: deck.meshes(),
             deck: Some(deck),
         })
+    }
+
+    /// All files that are read for it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match &self.deck {
+            Some(deck) => deck.files().to_vec(),
+            None => self.document.inputs(&self.problem),
+        }
     }
 
     /// The model.

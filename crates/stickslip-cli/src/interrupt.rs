@@ -1,11 +1,11 @@
-//! Ctrl-C: the analysis stops after what it is doing, and its results are complete up to there.
+//! Ctrl-C, and what schedulers (SIGTERM) and terminals that close (SIGHUP) send: the analysis stops after what it is doing, and its results are complete up to there.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use stickslip::simulation::Interrupt;
 
-/// Something to ask whether the user wants to stop. A second Ctrl-C ends the program at once.
+/// Something to ask whether the user wants to stop. A second signal ends the program at once.
 pub fn watch() -> Interrupt {
     let asked = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&asked);

@@ -101,7 +101,13 @@ impl Drop for Guard {
 #[cfg(unix)]
 #[test]
 fn a_run_that_is_interrupted_leaves_valid_results() {
-    let folder = place("interrupted");
+    for signal in ["INT", "TERM", "HUP"] {
+        interrupted(signal);
+    }
+}
+
+fn interrupted(signal: &str) {
+    let folder = place(&format!("interrupted-{signal}"));
     let run = stickslip(&folder)
         .args([
             "run",
@@ -124,7 +130,7 @@ fn a_run_that_is_interrupted_leaves_valid_results() {
     };
     assert!(lines.any(|line| told(&line)), "no increment");
     let sent = Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
+        .args([format!("-{signal}"), run.id().to_string()])
         .status();
     assert!(sent.expect("kill").success());
     let rest: Vec<String> = lines.map_while(Result::ok).collect();

@@ -190,7 +190,15 @@ impl Problem {
             None => Arc::new(Library::new(Library::small_limit())),
         };
         let made = py.detach(|| stickslip::simulation::Simulation::with_library(model, library));
-        Ok(Simulation::new(made.map_err(|e| raise(py, e))?, raised))
+        let inputs = match &self.deck {
+            Some(deck) => deck.files().to_vec(),
+            None => self.document.inputs(&self.problem),
+        };
+        Ok(Simulation::new(
+            made.map_err(|e| raise(py, e))?,
+            inputs,
+            raised,
+        ))
     }
 
     /// The folder relative to which files are looked for.

@@ -9,7 +9,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::Error;
-use stickslip::simulation::{Event, Observer, ResultFiles, fields};
+use stickslip::simulation::{Claim, Event, Observer, ResultFiles, fields};
 use stickslip::system::Location;
 
 use super::array::{Array, Kept, Owner};
@@ -68,14 +68,20 @@ pub struct Simulation {
     simulation: stickslip::simulation::Simulation,
     rows: Rows,
     files: Option<ResultFiles>,
+    /// The files that the problem was read from.
+    inputs: Vec<PathBuf>,
     raised: Raised,
     /// Arrays that look at the state of the simulation.
     looked: Vec<(Quantity, Weak<Kept>)>,
 }
 
 impl Simulation {
-    /// From a simulation and the place for exceptions of its laws.
-    pub fn new(mut simulation: stickslip::simulation::Simulation, raised: Raised) -> Self {
+    /// From a simulation, the files it was read from, and the place for exceptions of its laws.
+    pub fn new(
+        mut simulation: stickslip::simulation::Simulation,
+        inputs: Vec<PathBuf>,
+        raised: Raised,
+    ) -> Self {
         let slot = Arc::clone(&raised);
         let asked = Mutex::new(Instant::now());
         simulation.set_interrupt(Arc::new(move || {
@@ -101,6 +107,7 @@ impl Simulation {
             simulation,
             rows: Rows::default(),
             files: None,
+            inputs,
             raised,
             looked: Vec::new(),
         }
@@ -200,7 +207,13 @@ impl Simulation {
 
     /// Has results written into a directory from now on.
     fn write_to(&mut self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
-        self.files = Some(ResultFiles::new(&directory).map_err(|e| raise(py, e))?);
+        let claim = Claim {
+            inputs: self.inputs.clone(),
+            also: Vec::new(),
+        };
+        // What this simulation has itself is given back first.
+        self.files = None;
+        self.files = Some(ResultFiles::new(&directory, &claim).map_err(|e| raise(py, e))?);
         Ok(())
     }
 

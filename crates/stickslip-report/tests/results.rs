@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::io::write_atomically;
 use stickslip::problem::Problem;
-use stickslip::simulation::{Observer, ResultFiles, Simulation};
+use stickslip::simulation::{Claim, Observer, ResultFiles, Simulation};
 use stickslip_report::plot::{self, Picture, View, When};
 use stickslip_report::{Limits, Results, page, report};
 
@@ -37,7 +37,7 @@ fn run(text: &str, directory: &Path) {
     let problem = Problem::from_toml(text, None).unwrap();
     let model = problem.build(Path::new("")).unwrap();
     let mut simulation = Simulation::new(model).unwrap();
-    let mut files = ResultFiles::new(directory).unwrap();
+    let mut files = ResultFiles::new(directory, &Claim::default()).unwrap();
     let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
     simulation.run(&mut observers).unwrap();
     let text = problem.to_toml().unwrap();

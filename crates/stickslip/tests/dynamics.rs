@@ -216,7 +216,8 @@ fn a_result_is_an_initial_condition() {
         let mut simulation = stickslip::simulation::Simulation::new(model).expect("sound");
         let mut record = support::Record::default();
         let mut files =
-            stickslip::simulation::ResultFiles::new(&folder.join(out)).expect("a folder");
+            stickslip::simulation::ResultFiles::new(&folder.join(out), &Default::default())
+                .expect("a folder");
         simulation
             .run(&mut [&mut record, &mut files])
             .unwrap_or_else(|e| panic!("{e}"));

@@ -53,7 +53,8 @@ fn check(name: &str) {
             .build(&document.folder())
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let mut files = ResultFiles::new(&out).unwrap_or_else(|e| panic!("{e}"));
+        let mut files =
+            ResultFiles::new(&out, &Default::default()).unwrap_or_else(|e| panic!("{e}"));
         let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
         simulation
             .run(&mut observers)

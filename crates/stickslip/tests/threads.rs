@@ -77,7 +77,8 @@ fn run(case: &str, threads: usize, folder: &Path) {
     pool.install(|| {
         let problem = support::problem(case);
         let mut simulation: Simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
-        let mut files = ResultFiles::new(folder).unwrap_or_else(|e| panic!("{e}"));
+        let mut files =
+            ResultFiles::new(folder, &Default::default()).unwrap_or_else(|e| panic!("{e}"));
         simulation
             .run(&mut [&mut files])
             .unwrap_or_else(|e| panic!("{e}"));

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use stickslip::io::{abaqus, gmsh, vtu};
 use stickslip::mesh::Mesh;
 
-use super::{Failure, Outcome};
+use super::{Failure, Outcome, spare};
 use crate::print;
 
 /// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) and its
@@ -51,6 +51,7 @@ impl Plane {
 /// Converts the file.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
+    spare(output, std::slice::from_ref(input))?;
     if ending(output) == "toml" {
         return problem(input, output);
     }
@@ -95,6 +96,8 @@ fn problem(input: &Path, output: &Path) -> Outcome {
         crate::progress::say(&note.to_string());
     }
     let mesh = output.with_file_name(&deck.mesh_name);
+    spare(&mesh, deck.files())?;
+    spare(output, deck.files())?;
     for note in gmsh::write(&mesh, &deck.mesh)? {
         crate::progress::say(&format!("note: {note}"));
     }

@@ -39,7 +39,7 @@ fn read(directory: &Path) -> Result<Value, Failure> {
         true => directory.join("summary.json"),
         false => directory.to_path_buf(),
     };
-    let text = std::fs::read_to_string(&path).map_err(|e| {
+    let text = stickslip::io::input::read_text(&path).map_err(|e| {
         Failure::Arguments(
             format!("{} cannot be read: {e}", path.display()),
             "give the directory that `stickslip run` wrote; a run that was killed leaves no summary".into(),

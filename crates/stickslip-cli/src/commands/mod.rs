@@ -29,13 +29,21 @@ pub fn located(document: &stickslip::problem::Document, error: Error) -> Error {
     }
 }
 
-/// Sets the number of threads, if one was chosen. To be called before anything else uses threads.
-pub fn use_threads(threads: Option<usize>) {
-    if let Some(threads) = threads {
-        // Fails only if a pool exists already, which cannot be: this is the first use.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global();
+/// Sets the number of threads, if one was chosen: at most one a processor, as more only wait for each other. To be called before anything else
+/// uses threads.
+pub fn use_threads(threads: Option<usize>, quiet: bool) {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    // Zero: what rayon finds right.
+    let count = threads.map_or(0, |wanted| wanted.min(processors));
+    if let Some(wanted) = threads.filter(|wanted| *wanted > processors && !quiet) {
+        crate::progress::say(&format!(
+            "{wanted} threads are asked for, and this machine has {processors} processors: {count} are used"
+        ));
+    }
+    let pool = || rayon::ThreadPoolBuilder::new();
+    // A second run in one process (tests, Python) has the pool of the first. A system that gives no more threads still has this one.
+    if pool().num_threads(count).build_global().is_err() {
+        let _ = pool().num_threads(1).use_current_thread().build_global();
     }
 }
 
@@ -46,6 +54,25 @@ pub fn library(limit: u64, cache: Option<&Path>) -> Result<Arc<Library>, Error> 
         None => Library::new(limit),
     };
     Ok(Arc::new(library))
+}
+
+/// Refuses to write over a file that is read.
+///
+/// # Errors
+/// [`Failure::Arguments`], if they are the same, by whatever names.
+pub fn spare(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    // What does not exist is nobody's.
+    let Ok(written) = output.canonicalize() else {
+        return Ok(());
+    };
+    let same = |input: &&PathBuf| input.canonicalize().is_ok_and(|read| read == written);
+    match inputs.iter().find(same) {
+        Some(input) => Err(Failure::Arguments(
+            format!("{}: an input is never written to", input.display()),
+            "give the output another name".into(),
+        )),
+        None => Ok(()),
+    }
 }
 
 /// What a command ends with.

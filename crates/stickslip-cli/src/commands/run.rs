@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use stickslip::newton::condensed::Library;
-use stickslip::simulation::{Observer, ResultFiles, Simulation};
+use stickslip::simulation::{Claim, Observer, ResultFiles, Simulation};
 use stickslip_deck::{Printer, Status};
 
 use super::{Outcome, library, use_threads};
@@ -42,7 +42,7 @@ pub struct Arguments {
 
 /// Runs the analysis.
 pub fn run(arguments: &Arguments) -> Outcome {
-    use_threads(arguments.threads);
+    use_threads(arguments.threads, arguments.quiet);
     let started = Instant::now();
     let input = Input::open(&arguments.file, &arguments.set)?;
     let model = input.build()?;
@@ -59,12 +59,23 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut simulation = Simulation::with_library(model, library)?;
     simulation.summary.phases.read = read;
     simulation.set_interrupt(crate::interrupt::watch());
-    let mut files = ResultFiles::new(&directory)?;
+    let stem = arguments.file.file_stem().unwrap_or_default();
+    let printed = |extension: &str| format!("{}.{extension}", stem.to_string_lossy());
+    let claim = Claim {
+        inputs: input.files(),
+        also: match input.deck {
+            Some(_) => vec![printed("dat"), printed("sta")],
+            None => Vec::new(),
+        },
+    };
+    let mut files = ResultFiles::new(&directory, &claim)?;
+    for note in files.notes() {
+        crate::progress::say(note);
+    }
     super::report::keep_problem(&directory, &input.problem)?;
     let mut progress = Progress::new(arguments.verbose);
     let mut lines = Lines::default();
-    let stem = arguments.file.file_stem().unwrap_or_default();
-    let beside = |extension: &str| directory.join(stem).with_extension(extension);
+    let beside = |extension: &str| directory.join(printed(extension));
     let mut printer = input
         .deck
         .as_ref()

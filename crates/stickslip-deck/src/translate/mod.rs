@@ -67,6 +67,11 @@ impl Translation {
         Document::new(self.toml.clone(), Some(&self.path)).with_overrides(overrides)
     }
 
+    /// The files that the deck was read from.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
     /// The mesh under its name.
     pub fn meshes(&self) -> Meshes {
         Meshes::from([(self.mesh_name.clone(), self.mesh.clone())])

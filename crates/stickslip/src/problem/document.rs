@@ -3,8 +3,9 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use super::tree::{self, Table};
-use super::{FORMAT, Problem, check, key, overrides, schema, structure};
+use super::{FORMAT, MeshSource, Problem, check, key, overrides, schema, structure};
 use crate::error::{Diagnostic, Error, ProblemError, line_column};
+use crate::io::input;
 
 /// The text of a problem file with its overrides: it becomes a [`Problem`], and shows where in the text a finding is.
 #[derive(Debug, Clone)]
@@ -32,7 +33,7 @@ impl Document {
     /// # Errors
     /// [`Error::Io`] if it cannot be read, [`Error::Problem`] if it is not UTF-8.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let bytes = std::fs::read(file).map_err(|e| Error::io(file, e))?;
+        let bytes = input::read(file, input::TEXT).map_err(|e| Error::io(file, e))?;
         let source = String::from_utf8(bytes).map_err(|e| not_text(file, &e))?;
         Ok(Document::new(source, Some(file)))
     }
@@ -47,6 +48,18 @@ impl Document {
     pub fn folder(&self) -> PathBuf {
         let parent = self.file.as_deref().and_then(Path::parent);
         parent.map(Path::to_path_buf).unwrap_or_default()
+    }
+
+    /// The files that the problem is read from: this one, meshes, and results that it starts from.
+    pub fn inputs(&self, problem: &Problem) -> Vec<PathBuf> {
+        let folder = self.folder();
+        let meshes = problem.body.values().filter_map(|body| match &body.mesh {
+            MeshSource::Gmsh(mesh) => Some(&mesh.file),
+            MeshSource::Generate(_) => None,
+        });
+        let results = problem.initial.values().filter_map(|i| i.result.as_ref());
+        let named = meshes.chain(results).map(|file| folder.join(file));
+        self.file.iter().cloned().chain(named).collect()
     }
 
     /// Reads and checks the text.

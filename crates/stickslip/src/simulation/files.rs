@@ -1,9 +1,10 @@
 //! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`, and
 //! `culprits.vtu` where the doctor found something.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::doctor;
+use super::folder::{Claim, Folder, INTERFACES};
 use super::run::{Event, Observer, Simulation};
 use crate::error::Error;
 use crate::io::{csv, pvd, vtu, write_atomically};
@@ -11,32 +12,37 @@ use crate::system::{Field, Fields, Force, Location};
 
 /// Writes results into a directory as the run goes on; what is there at any time is complete.
 pub struct ResultFiles {
-    directory: PathBuf,
+    folder: Folder,
     pvd: pvd::Collection,
     history: Option<csv::History>,
     count: usize,
 }
 
 impl ResultFiles {
-    /// Makes the directory. Results of an earlier run in it are replaced as new ones come.
+    /// Makes the directory and takes it for one run: until this is dropped no other gets it. Results of an earlier run are removed, files of others
+    /// are not touched, and `summary.json` says `running` until the end.
     ///
     /// # Errors
-    /// [`Error::Io`].
-    pub fn new(directory: &Path) -> Result<Self, Error> {
-        std::fs::create_dir_all(directory).map_err(|e| Error::io(directory, e))?;
+    /// [`Error::Io`]: what the system says; another run is in the directory; a result would replace an input, or a file that no run has written.
+    pub fn new(directory: &Path, claim: &Claim) -> Result<Self, Error> {
         Ok(ResultFiles {
-            directory: directory.to_path_buf(),
+            folder: Folder::take(directory, claim)?,
             pvd: pvd::Collection::new(&directory.join("fields.pvd")),
             history: None,
             count: 0,
         })
     }
 
+    /// What a user should know of what was in the directory.
+    pub fn notes(&self) -> &[String] {
+        &self.folder.notes
+    }
+
     fn output(&mut self, simulation: &Simulation) -> Result<(), Error> {
         let fields = fields(simulation);
         let name = format!("fields_{:05}.vtu", self.count);
         self.count += 1;
-        let path = self.directory.join(&name);
+        let path = self.folder.directory.join(&name);
         vtu::write(
             &path,
             &simulation.model.mesh,
@@ -44,7 +50,7 @@ impl ResultFiles {
             Some(&owners(simulation)),
         )?;
         self.pvd.push(simulation.state.t, &name)?;
-        let folder = self.directory.join("interfaces");
+        let folder = self.folder.directory.join(INTERFACES);
         if !simulation.model.interfaces.is_empty() {
             std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
         }
@@ -58,9 +64,10 @@ impl ResultFiles {
 
     fn end(&mut self, simulation: &Simulation) -> Result<(), Error> {
         let text = serde_json::to_string_pretty(&simulation.summary)
-            .map_err(|e| Error::io(&self.directory, std::io::Error::other(e)))?;
-        write_atomically(&self.directory.join("summary.json"), text.as_bytes())?;
-        let places = self.directory.join("culprits.vtu");
+            .map_err(|e| Error::io(&self.folder.directory, std::io::Error::other(e)))?;
+        let path = self.folder.directory.join("summary.json");
+        write_atomically(&path, text.as_bytes())?;
+        let places = self.folder.directory.join("culprits.vtu");
         let findings = &simulation.summary.findings;
         if findings.iter().all(|f| f.guilty.is_empty()) {
             // Those of an earlier run would mislead.
@@ -139,10 +146,12 @@ fn owners(simulation: &Simulation) -> Vec<usize> {
 
 impl Observer for ResultFiles {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+        // A run that was stopped may go on.
+        self.folder.resume()?;
         match event {
             Event::Increment(row) => {
                 if self.history.is_none() {
-                    let path = self.directory.join("history.csv");
+                    let path = self.folder.directory.join("history.csv");
                     self.history = Some(csv::History::create(&path, &row.names)?);
                 }
                 if let Some(history) = &mut self.history {
@@ -150,7 +159,11 @@ impl Observer for ResultFiles {
                 }
             }
             Event::Output => self.output(simulation)?,
-            Event::End => self.end(simulation)?,
+            Event::End => {
+                let ended = self.end(simulation);
+                self.folder.release();
+                ended?;
+            }
             Event::Iteration(_) | Event::Accepted(_) | Event::Cutback(..) | Event::Note(_) => {}
         }
         Ok(())

@@ -13,11 +13,13 @@ mod equilibrium;
 mod explicit;
 mod figures;
 mod files;
+mod folder;
 mod history;
 mod inertia;
 mod leap;
 mod ledger;
 mod limits;
+mod lock;
 mod loose;
 mod march;
 mod model;
@@ -30,6 +32,7 @@ mod summary;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};
+pub use folder::{Claim, running};
 pub use history::Row;
 pub use ledger::EnergyLedger;
 pub use limits::{GateMode, Limits};
@@ -39,4 +42,4 @@ pub use model::{
 };
 pub use quality::{Figure, Gate};
 pub use run::{Advance, Event, Observer, Simulation};
-pub use summary::{NumericalStiffness, Phases, Summary};
+pub use summary::{NumericalStiffness, Phases, Status, Summary};

@@ -6,6 +6,7 @@ use super::model::Model;
 use super::quality::Gate;
 use crate::contact::interface::Quality;
 use crate::error::Error;
+use crate::machine::peak_memory;
 use crate::newton::{Fallback, Statistics};
 
 /// What `summary.json` holds.
@@ -16,6 +17,8 @@ pub struct Summary {
     pub title: String,
     /// Version of stickslip.
     pub version: &'static str,
+    /// How far the run has come. In the file it says `running` from the first moment on, so that a run that was killed is found out.
+    pub status: Status,
     /// `done`, or why not.
     pub outcome: String,
     /// Whether the run reached its end.
@@ -76,6 +79,21 @@ pub struct Summary {
     pub interfaces: Vec<InterfaceSummary>,
     /// Last row of the history.
     pub last: std::collections::BTreeMap<String, f64>,
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It goes on, or was killed.
+    #[default]
+    Running,
+    /// It reached its end. Whether the result is good enough is another question: see `quality`.
+    Done,
+    /// It ended with an error.
+    Failed,
+    /// It was asked to stop.
+    Interrupted,
 }
 
 /// A way other than plain iteration by which an increment was tried.
@@ -196,17 +214,12 @@ impl Summary {
                 (total + self.phases.assemble - self.phases.write) / self.linear_solve;
         }
         self.completed = error.is_none();
+        self.status = match error {
+            None => Status::Done,
+            Some(Error::Interrupted(_)) => Status::Interrupted,
+            Some(_) => Status::Failed,
+        };
         self.outcome = error.map_or("done".into(), Error::to_string);
         self.peak_memory = peak_memory();
     }
-}
-
-/// Peak resident memory of this process, from `/proc` where there is one.
-fn peak_memory() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    status
-        .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))
-        .and_then(|rest| rest.split_whitespace().next()?.parse::<u64>().ok())
-        .map_or(0, |kib| kib * 1024)
 }

@@ -13,9 +13,9 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
-use stickslip::simulation::{Model, Observer, ResultFiles, Simulation, Summary};
+use stickslip::simulation::{Claim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary};
 
-use super::{Failure, Outcome, library, located, use_threads};
+use super::{Failure, Outcome, library, located, spare, use_threads};
 use crate::progress::say;
 use columns::Columns;
 use plan::Plan;
@@ -71,13 +71,14 @@ pub struct Arguments {
 /// Runs all.
 pub fn run(arguments: &Arguments) -> Outcome {
     let started = Instant::now();
-    use_threads(arguments.threads);
+    use_threads(arguments.threads, arguments.quiet);
     let plan = Plan::new(&arguments.set, &arguments.fix, arguments.zip)?;
     let case = Document::read(&arguments.file)?;
     plan.check(&case)?;
 
     let output = arguments.output.clone();
     let output = output.unwrap_or_else(|| arguments.file.with_extension("sweep.csv"));
+    spare(&output, &case.file.iter().cloned().collect::<Vec<_>>())?;
     let axes = plan.axes.iter().map(|axis| axis.path.clone()).collect();
     let mut table = Table::new(output, axes, &arguments.column);
     // That the file cannot be written should not be found after the first run.
@@ -91,6 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
     let shared = Shared {
         library: library(Library::usual_limit(), arguments.cache.as_deref())?,
+        interrupt: crate::interrupt::watch(),
     };
     let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
@@ -114,6 +116,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let seconds = begun.elapsed().as_secs_f64();
         if run == 0 {
             first = seconds;
+        }
+        if let Some(stopped @ Error::Interrupted(_)) = ended.error {
+            tell(&format!(
+                "the table in {} has the runs before",
+                table.path.display()
+            ));
+            return Err(stopped.into());
         }
         failed += usize::from(ended.error.is_some());
         let values = plan.values(run);
@@ -155,10 +164,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// What runs share.
-#[derive(Debug)]
 struct Shared {
     /// Factors of bodies that stay the same.
     library: Arc<Library>,
+    /// Whether the user wants to stop.
+    interrupt: Interrupt,
 }
 
 /// How a run ended: its error if it failed, and what is known of it if there was a simulation.
@@ -189,7 +199,12 @@ fn analyse(
     };
     let read = started.elapsed().as_secs_f64();
     let mut observers: Vec<&mut dyn Observer> = vec![columns];
-    let mut files = match directory.map(ResultFiles::new).transpose() {
+    let claim = Claim {
+        inputs: document.inputs(&problem),
+        also: Vec::new(),
+    };
+    let files = directory.map(|directory| ResultFiles::new(directory, &claim));
+    let mut files = match files.transpose() {
         Ok(files) => files,
         Err(e) => return failed(e),
     };
@@ -209,6 +224,7 @@ fn simulate(
     match Simulation::with_library(model, Arc::clone(&shared.library)) {
         Ok(mut simulation) => {
             simulation.summary.phases.read = read;
+            simulation.set_interrupt(Arc::clone(&shared.interrupt));
             let error = simulation.run(observers).err();
             Ended {
                 error,

@@ -1,0 +1,513 @@
+//! What goes wrong around a run: full and read-only disks, folders that are taken, names that leave the folder, inputs that would be
+//! overwritten, memory that runs out, runs that are killed. Nothing is lost, and each message is what it was when somebody read it last.
+#![cfg(unix)]
+
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+const CASE: &str = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
+support.top = { set = "block.top", x = 0.0, y = -1e-5 }
+step = [{ name = "press", increments = { fixed = 2 } }]
+"#;
+
+/// A folder of its own for each test, with the case in it.
+fn place(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("faults")
+        .join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
+    folder
+}
+
+fn stickslip(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
+    command.current_dir(folder).stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    said(
+        stickslip(folder)
+            .args(arguments)
+            .output()
+            .expect("the binary runs"),
+    )
+}
+
+/// The exit code, and what was said on standard error, with process numbers and the name of this machine left out.
+fn said(output: Output) -> (Option<i32>, String) {
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    let mut out = Vec::new();
+    let mut words = text.split(' ').peekable();
+    while let Some(word) = words.next() {
+        out.push(word.to_string());
+        if word.ends_with("process") && words.peek().is_some() {
+            words.next();
+            out.push("N".into());
+            if words.peek() == Some(&"on") {
+                words.next();
+                let end = words
+                    .next()
+                    .unwrap_or_default()
+                    .trim_start_matches(|c| c != ')' && c != ';');
+                out.push(format!("on HOST{end}"));
+            }
+        }
+    }
+    (output.status.code(), out.join(" "))
+}
+
+/// The lines of standard error that begin with one of these.
+fn lines(text: &str, begin: &[&str]) -> String {
+    let wanted = text
+        .lines()
+        .filter(|line| begin.iter().any(|b| line.trim_start().starts_with(b)));
+    wanted.map(|line| format!("{line}\n")).collect()
+}
+
+fn summary(folder: &Path) -> Value {
+    let path = folder.join("case.out/summary.json");
+    let text = std::fs::read_to_string(path).expect("a summary");
+    serde_json::from_str(&text).expect("a summary is JSON at any time")
+}
+
+/// All files below a folder with their contents.
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut out = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            out.extend(contents(&path));
+        } else {
+            let bytes = std::fs::read(&path).expect("a file");
+            out.push((path, bytes));
+        }
+    }
+    out.sort();
+    out
+}
+
+struct Guard(Child);
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A run that goes on until it is killed, under way.
+fn endless(folder: &Path) -> Guard {
+    let child = stickslip(folder)
+        .args([
+            "run",
+            "case.toml",
+            "-q",
+            "--set",
+            "step.0.increments.fixed=100000000",
+        ])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    let guard = Guard(child.expect("the binary runs"));
+    let history = folder.join("case.out/history.csv");
+    for _ in 0..2000 {
+        if history.exists() {
+            return guard;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("no increment in 20 s");
+}
+
+#[test]
+fn names_do_not_leave_the_folder() {
+    let folder = place("names");
+    let before = contents(&folder);
+    for (name, why) in [
+        ("../../precious", "it begins or ends with a dot"),
+        (
+            "/tmp/absolute",
+            r#"it has one of / \ < > : " | ? * or a control character"#,
+        ),
+        (
+            "a/b",
+            r#"it has one of / \ < > : " | ? * or a control character"#,
+        ),
+        (
+            "a\\\\b",
+            r#"it has one of / \ < > : " | ? * or a control character"#,
+        ),
+        (
+            "nul\\u0000",
+            r#"it has one of / \ < > : " | ? * or a control character"#,
+        ),
+        ("", "it is empty"),
+        (" ", "it is empty"),
+        (" x", "it begins or ends with a blank"),
+        (&"x".repeat(300), "it has more than 100 characters"),
+    ] {
+        let text = CASE.replace("interface.base", &format!("interface.\"{name}\""));
+        std::fs::write(folder.join("case.toml"), text).expect("a file");
+        let (code, text) = run(&folder, &["run", "case.toml"]);
+        assert_eq!(code, Some(1), "{name}: {text}");
+        let wanted = format!("cannot be the name of a interface: {why}");
+        assert!(text.contains(&wanted), "{name}: {text}");
+        assert!(text.contains("case.toml:6:"), "{name}: {text}");
+    }
+    std::fs::write(folder.join("case.toml"), CASE).expect("a file");
+    assert_eq!(contents(&folder), before);
+    let twice = format!("{CASE}support.Top = {{ set = \"block.top\", x = 0.0 }}\n")
+        .replace("step = [", "steps = [");
+    let twice = twice.replace(
+        "steps = [{ name = \"press\", increments = { fixed = 2 } }]\n",
+        "",
+    ) + "step = [{ name = \"press\" }]\n";
+    std::fs::write(folder.join("case.toml"), twice).expect("a file");
+    let (code, text) = run(&folder, &["check", "case.toml"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        text.contains("`Top` and `top` differ by nothing but capitals"),
+        "{text}"
+    );
+}
+
+#[test]
+fn inputs_are_never_written_to() {
+    let folder = place("inputs");
+    std::fs::create_dir(folder.join("d")).expect("a folder");
+    std::fs::copy(folder.join("case.toml"), folder.join("d/problem.toml")).expect("a file");
+    std::fs::copy(folder.join("case.toml"), folder.join("x.toml")).expect("a file");
+    let mesh = "*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT,TYPE=CPE3\n1,1,2,3\n";
+    std::fs::write(folder.join("a.inp"), mesh).expect("a file");
+    let before = contents(&folder);
+    let replaced = "error: d/problem.toml: the results would replace this file, from which the problem is read: choose another folder than d\n";
+    for (arguments, message) in [
+        (&["run", "d/problem.toml", "-o", "d"][..], replaced),
+        (
+            &[
+                "sweep",
+                "x.toml",
+                "--set",
+                "interface.base.friction.coulomb.mu=0.1,0.2",
+                "-o",
+                "./x.toml",
+            ],
+            "error: x.toml: an input is never written to\n",
+        ),
+        (
+            &["convert", "a.inp", "../inputs/a.inp"],
+            "error: a.inp: an input is never written to\n",
+        ),
+    ] {
+        let (code, text) = run(&folder, arguments);
+        assert_eq!(code, Some(1), "{arguments:?}: {text}");
+        assert_eq!(lines(&text, &["error"]), message, "{arguments:?}");
+        assert_eq!(contents(&folder), before, "{arguments:?}");
+    }
+}
+
+#[test]
+fn files_of_others_are_not_touched() {
+    let folder = place("others");
+    let out = folder.join("case.out");
+    std::fs::create_dir_all(out.join("interfaces")).expect("a folder");
+    std::fs::write(out.join("history.csv"), "mine\n").expect("a file");
+    let (code, text) = run(&folder, &["run", "case.toml", "-q"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        text.lines().next(),
+        Some(
+            "error: case.out/history.csv: it would be replaced, but there is no summary.json of a run beside it: choose another folder, or remove it"
+        )
+    );
+    assert_eq!(
+        std::fs::read_to_string(out.join("history.csv")).expect("a file"),
+        "mine\n"
+    );
+    assert!(!out.join("run.lock").exists());
+}
+
+#[test]
+fn what_an_older_run_left_is_gone() {
+    let folder = place("older");
+    let (code, text) = run(
+        &folder,
+        &[
+            "run",
+            "case.toml",
+            "-q",
+            "--set",
+            "step.0.increments.fixed=5",
+        ],
+    );
+    assert_eq!(code, Some(0), "{text}");
+    let out = folder.join("case.out");
+    for (name, text) in [
+        ("fields_00099.vtu", "old"),
+        ("interfaces/gone.csv", "old"),
+        ("report.html", "old"),
+        ("notes.txt", "mine"),
+    ] {
+        std::fs::write(out.join(name), text).expect("a file");
+    }
+    let (code, text) = run(
+        &folder,
+        &["run", "case.toml", "-q", "--set", "output.every=1"],
+    );
+    assert_eq!(code, Some(0), "{text}");
+    let names: Vec<String> = contents(&out)
+        .iter()
+        .map(|(path, _)| {
+            path.strip_prefix(&out)
+                .expect("below")
+                .display()
+                .to_string()
+        })
+        .collect();
+    let wanted = [
+        "fields.pvd",
+        "fields_00000.vtu",
+        "fields_00001.vtu",
+        "fields_00002.vtu",
+        "history.csv",
+        "interfaces/base.csv",
+        "notes.txt",
+        "problem.toml",
+        "summary.json",
+    ];
+    let wanted: Vec<&str> = match names.iter().any(|n| n == "fields_00002.vtu") {
+        true => wanted.to_vec(),
+        false => wanted
+            .into_iter()
+            .filter(|n| *n != "fields_00002.vtu")
+            .collect(),
+    };
+    assert_eq!(names, wanted);
+    assert_eq!(summary(&folder)["status"], "done");
+}
+
+#[test]
+fn a_folder_belongs_to_one_run_at_a_time() {
+    let folder = place("taken");
+    let first = endless(&folder);
+    assert_eq!(summary(&folder)["status"], "running");
+    let before = std::fs::read(folder.join("case.out/run.lock")).expect("a lock");
+    let (code, text) = run(&folder, &["run", "case.toml", "-q"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        text.lines().next(),
+        Some(
+            "error: case.out: another run writes into this folder (process N on HOST): wait for it, or choose another folder; if that run is over, remove run.lock"
+        )
+    );
+    assert_eq!(
+        std::fs::read(folder.join("case.out/run.lock")).expect("a lock"),
+        before
+    );
+    drop(first);
+    // It was killed: its lock is no obstacle, and what it left is gone.
+    let (code, text) = run(&folder, &["run", "case.toml"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert_eq!(
+        lines(&text, &["case.out"]),
+        "case.out: the run before (process N on HOST) was killed; what it left is removed\n"
+    );
+    assert!(!folder.join("case.out/run.lock").exists());
+}
+
+#[test]
+fn a_run_killed_at_any_moment_is_known_for_that() {
+    let folder = place("killed");
+    for pause in [0, 1, 3, 10, 30] {
+        let mut guard = endless(&folder);
+        std::thread::sleep(Duration::from_millis(pause));
+        guard.0.kill().expect("a process");
+        guard.0.wait().expect("it ends");
+        let out = folder.join("case.out");
+        assert_eq!(summary(&folder)["status"], "running");
+        // Whole rows, whole files, and nothing half-written under the name of a result. The second run is killed while it takes the folder.
+        let history = std::fs::read_to_string(out.join("history.csv")).unwrap_or_default();
+        assert!(history.is_empty() || history.ends_with('\n'), "{history}");
+        for (path, bytes) in contents(&out) {
+            if path.extension().is_some_and(|e| e == "vtu") {
+                assert!(bytes.ends_with(b"</VTKFile>\n"), "{}", path.display());
+            }
+        }
+        let (code, _) = run(&folder, &["explain", "case.out"]);
+        assert_eq!(code, Some(0));
+    }
+}
+
+#[test]
+fn a_full_disk_is_told_wherever_it_happens() {
+    // Standard output.
+    let folder = place("full");
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full");
+    let full = full.expect("a device that is always full");
+    let output = stickslip(&folder).arg("schema").stdout(full).output();
+    let (code, text) = said(output.expect("the binary runs"));
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        text,
+        "error: standard output: No space left on device (os error 28)\n"
+    );
+    // Files: none may grow beyond two blocks. The first that does is the fields.
+    let mut limited = stickslip(&folder);
+    limited.args(["run", "case.toml", "-q"]);
+    let (code, text) = with_limit(&mut limited, libc::RLIMIT_FSIZE, 2048);
+    assert_eq!(code, Some(1), "{text}");
+    let first = text.lines().next().unwrap_or_default();
+    assert!(first.starts_with("error: case.out/"), "{text}");
+    assert!(first.ends_with("File too large (os error 27)"), "{text}");
+    // No temporary file is left, and what is there is whole.
+    for (path, _) in contents(&folder.join("case.out")) {
+        assert!(
+            path.extension().is_none_or(|e| e != "tmp"),
+            "{}",
+            path.display()
+        );
+    }
+    // The cache: the run goes on and says so.
+    let folder = place("full-cache");
+    let more = CASE.replace("cells = [4, 2]", "cells = [40, 20]");
+    std::fs::write(folder.join("case.toml"), more).expect("a file");
+    let mut limited = stickslip(&folder);
+    limited.args([
+        "run",
+        "case.toml",
+        "--cache",
+        "cache",
+        "--set",
+        "output.every=1000",
+    ]);
+    let (_, text) = with_limit(&mut limited, libc::RLIMIT_FSIZE, 60_000);
+    assert!(
+        text.contains(".sub: not written: File too large (os error 27)"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_cannot_be_written_to_is_told_before_the_run() {
+    let folder = place("read-only");
+    std::fs::write(folder.join("file"), "").expect("a file");
+    let (code, text) = run(&folder, &["run", "case.toml", "-o", "file/out"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        lines(&text, &["error"]),
+        "error: file/out: Not a directory (os error 20)\n"
+    );
+    // A file system of which even root cannot write.
+    let (code, text) = run(&folder, &["run", "case.toml", "-o", "/proc/stickslip.out"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        lines(&text, &["error"]),
+        "error: /proc/stickslip.out: No such file or directory (os error 2)\n"
+    );
+}
+
+#[test]
+fn devices_and_folders_are_no_input() {
+    let folder = place("devices");
+    std::fs::create_dir(folder.join("f.toml")).expect("a folder");
+    std::os::unix::fs::symlink("/dev/zero", folder.join("z.msh")).expect("a link");
+    let mesh = CASE.replace(
+        "generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }",
+        "gmsh.file = \"z.msh\"",
+    );
+    std::fs::write(folder.join("mesh.toml"), mesh).expect("a file");
+    for (file, message) in [
+        (
+            "/dev/zero",
+            "error: /dev/zero: it is a device, not a file\n",
+        ),
+        ("f.toml", "error: f.toml: it is a folder, not a file\n"),
+        (
+            "mesh.toml",
+            "error: z.msh: the mesh cannot be read: it is a device, not a file\n",
+        ),
+    ] {
+        let (code, text) = run(&folder, &["check", file]);
+        assert_eq!(code, Some(1), "{file}");
+        assert_eq!(lines(&text, &["error"]), message);
+    }
+}
+
+#[test]
+fn memory_that_runs_out_is_an_error_and_no_abort() {
+    let folder = place("memory");
+    // Foreseen, by the size of the mesh ...
+    let large = |cells: &str| {
+        let text = CASE.replace("cells = [4, 2]", &format!("cells = {cells}"));
+        std::fs::write(folder.join("case.toml"), text).expect("a file");
+        let mut command = stickslip(&folder);
+        command.args(["run", "case.toml", "-q", "--threads", "1"]);
+        command
+    };
+    let (code, text) = with_limit(&mut large("[4000, 3000]"), libc::RLIMIT_AS, 400 << 20);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(
+        text.contains("the body would have 12000000 cells, which take about 7.2 GB;"),
+        "{text}"
+    );
+    // ... by the size of the factors ...
+    let mut sparse = large("[500, 300]");
+    sparse.args(["--set", "solver.method=sparse"]);
+    let (code, text) = with_limit(&mut sparse, libc::RLIMIT_AS, 460 << 20);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("memory"), "{text}");
+    assert!(text.contains("help:"), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+    // ... and not foreseen.
+    let (code, text) = with_limit(&mut large("[500, 300]"), libc::RLIMIT_AS, 250 << 20);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("memory"), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+}
+
+#[test]
+fn threads_are_no_more_than_processors() {
+    let folder = place("threads");
+    let (code, text) = run(&folder, &["run", "case.toml", "--threads", "100000"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(
+        text.contains("100000 threads are asked for, and this machine has "),
+        "{text}"
+    );
+}
+
+/// Runs with a limit of the system.
+fn with_limit(
+    command: &mut Command,
+    what: libc::__rlimit_resource_t,
+    limit: u64,
+) -> (Option<i32>, String) {
+    // SAFETY: both calls are allowed between fork and exec; nothing is allocated.
+    unsafe {
+        command.pre_exec(move || {
+            // A file that would grow too large is an error, not the end.
+            libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+            let limits = libc::rlimit {
+                rlim_cur: limit,
+                rlim_max: limit,
+            };
+            match libc::setrlimit(what, &limits) {
+                0 => Ok(()),
+                _ => Err(std::io::Error::last_os_error()),
+            }
+        });
+    }
+    said(command.output().expect("the binary runs"))
+}
