@@ -5,7 +5,11 @@
 //! - a block that begins with `# file: NAME` (or `**`, for decks) is saved under that name for the commands of the page;
 //! - a `toml` block with `format = 1` is a whole problem file and must be sound; `toml,fragment` is part of one, with keys that exist;
 //! - commands in `sh` blocks that begin with `stickslip`, or make a file by `sed`, are run in the order of the page; others are for people. The line says the exit code if it is not 0:
-//!   `# exit code 2`.
+//!   `# exit code 2`;
+//! - a `text` block behind commands is what they print, line by line;
+//! - what the text claims of results stands in comments behind the commands, and is held against the results: see `asserted.rs`.
+
+mod asserted;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -52,11 +56,34 @@ fn read(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// `(language and marks, text)` of the fenced blocks of a page; blocks inside of lists too.
+/// The marks of a comment among those of blocks.
+const COMMENT: &str = "<!--";
+
+/// `(language and marks, text)` of the fenced blocks of a page, and of its comments; those inside of lists too.
 fn blocks(text: &str) -> Vec<(String, String)> {
     let mut out = Vec::new();
     let mut open: Option<(String, usize, String)> = None;
+    let mut comment: Option<String> = None;
     for line in text.lines() {
+        let begun = line.trim_start().strip_prefix(COMMENT);
+        if let Some(text) = begun.filter(|_| open.is_none() && comment.is_none()) {
+            comment = Some(String::new());
+            // Its end may stand on the same line.
+            if let Some(all) = &mut comment {
+                all.push_str(text);
+            }
+        } else if let Some(all) = &mut comment {
+            all.push('\n');
+            all.push_str(line);
+        }
+        if let Some(all) = comment.as_ref().and_then(|all| all.split_once("-->")) {
+            out.push((COMMENT.to_string(), all.0.to_string()));
+            comment = None;
+            continue;
+        }
+        if comment.is_some() {
+            continue;
+        }
         let indent = line.len() - line.trim_start().len();
         match (&mut open, line.trim_start().strip_prefix("```")) {
             (None, Some(marks)) => open = Some((marks.trim().to_string(), indent, String::new())),
@@ -111,8 +138,8 @@ fn folder(page: &Path, text: &str) -> PathBuf {
     folder
 }
 
-/// Runs a line as a person would type it.
-fn follow(line: &str, folder: &Path) -> Option<i32> {
+/// Runs a line as a person would type it: the exit code, and what it prints.
+fn follow(line: &str, folder: &Path) -> (Option<i32>, String) {
     let binary = Path::new(env!("CARGO_BIN_EXE_stickslip"));
     let mut path = binary.parent().expect("a folder").as_os_str().to_owned();
     path.push(":");
@@ -123,13 +150,15 @@ fn follow(line: &str, folder: &Path) -> Option<i32> {
         .env("PATH", path)
         .output()
         .expect("a shell");
-    output.status.code()
+    let printed = [output.stdout, output.stderr];
+    let printed = printed.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    (output.status.code(), printed.concat())
 }
 
 #[test]
 #[cfg(unix)]
 fn commands_do_what_the_book_says() {
-    let mut followed = 0;
+    let (mut followed, mut held, mut wrong) = (0, 0, Vec::new());
     for page in pages().into_iter().filter(|p| !generated(p)) {
         let text = read(&page);
         let blocks = blocks(&text);
@@ -142,26 +171,47 @@ fn commands_do_what_the_book_says() {
             continue;
         }
         let folder = folder(&page, &text);
+        let mut said = String::new();
         for (marks, block) in &blocks {
+            if marks == COMMENT {
+                let Some(claim) = asserted::claim(block) else {
+                    continue;
+                };
+                let said = asserted::Said(&said);
+                if let Err(why) = asserted::hold(claim, &folder, &said) {
+                    wrong.push(format!("{}: {claim}\n{why}", page.display()));
+                }
+                held += 1;
+            }
             if let Some(name) = file_name(block) {
                 std::fs::write(folder.join(name), block).expect("the folder can be written to");
             }
-            if !commands(marks) {
+            if marks == "text" && !said.is_empty() && file_name(block).is_none() {
+                for line in block.lines() {
+                    let printed = asserted::says(line, &asserted::Said(&said));
+                    assert!(printed.is_ok(), "{}: {printed:?}", page.display());
+                }
+            }
+            if !commands(marks) || !block.lines().any(mine) {
                 continue;
             }
+            said.clear();
             for line in block.lines().filter(|l| mine(l)) {
                 let (command, wanted) = match line.split_once("# exit code ") {
                     Some((command, code)) => (command, code.trim().parse().ok()),
                     None => (line, Some(0)),
                 };
                 assert!(wanted.is_some(), "{}: {line}", page.display());
-                let code = follow(command, &folder);
+                let (code, printed) = follow(command, &folder);
+                said += &printed;
                 assert_eq!(code, wanted, "{}: {line}", page.display());
                 followed += 1;
             }
         }
     }
     assert!(followed > 40, "only {followed} commands were found");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(held > 20, "only {held} claims were found");
 }
 
 #[test]
