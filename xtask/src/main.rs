@@ -31,9 +31,11 @@ tasks:
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
-  robustness [--count N] [--first SEED] [--discretisation mortar|node-to-facet] [--keep DIR]
-                            run random problems of two bodies (default: seeds 1 to 200), and print a table and a summary in
-                            Markdown; results are kept in DIR, those of failures in any case
+  robustness [--seed S] [--from N] [--count N] [--keep DIR] [FILE ...]
+                            run random problems (default: numbers 1 to 300 of series 1) or the given files, audit what they write by
+                            means of their own, and print a table, a verdict on each and a summary in Markdown; fails if a result is
+                            wrong with exit 0 or if the quality gate fails a result for nothing. Results are kept in DIR; those that
+                            are not sound in target/robustness in any case
 
 figures:
   slide [N ...]             press-and-slide with N cells an edge (default 11 18), stick and slip

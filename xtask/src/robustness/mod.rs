@@ -1,31 +1,43 @@
-//! `cargo xtask robustness`: random problems of two bodies, run one after the other, and what becomes of them.
+//! `cargo xtask robustness`: random problems and given ones, run one after the other and audited by what they leave behind.
 
-mod body;
-mod law;
 mod outcome;
-mod path;
-mod problem;
-mod random;
+mod summary;
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use stickslip_audit::draw;
+use stickslip_audit::verdict::Verdict;
+
 use crate::workspace;
-use outcome::{End, Outcome};
+use outcome::Outcome;
 
 /// What a problem may take; one takes seconds.
-const LIMIT: Duration = Duration::from_secs(120);
+const LIMIT: Duration = Duration::from_secs(60);
 
 /// What the command line asks for.
+#[derive(Debug)]
 struct Wish {
+    seed: u64,
+    from: u64,
     count: u64,
-    first: u64,
-    discretisation: Option<String>,
     keep: Option<PathBuf>,
+    files: Vec<PathBuf>,
 }
 
-/// Runs the problems and prints a table in Markdown and a summary.
+/// A problem that was run.
+struct Entry {
+    name: String,
+    family: &'static str,
+    words: String,
+    outcome: Outcome,
+}
+
+/// Runs and audits the problems, prints a table in Markdown and a summary.
+///
+/// # Errors
+/// The command line is wrong, a file cannot be written, or a result was wrong with exit code 0 or failed by the gate without a reason.
 pub fn sweep(words: &[String]) -> Result<(), String> {
     let wish = read(words)?;
     let binary = workspace::stickslip()?;
@@ -33,63 +45,107 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
         Some(folder) => folder.clone(),
         None => workspace::target().join("robustness"),
     };
-    println!(
-        "| seed | problem | dofs | end | increments | iterations | most | cut-backs | penetration / approach | s |"
-    );
-    println!("|{}", "---|".repeat(10));
-    let mut outcomes = Vec::new();
-    for seed in wish.first..wish.first + wish.count {
-        let problem = problem::problem(seed, wish.discretisation.as_deref());
-        let place = folder.join(format!("{seed:03}"));
-        let file = place.join("case.toml");
-        fs::create_dir_all(&place)
-            .and_then(|()| fs::write(&file, &problem.text))
-            .map_err(|e| format!("{}: {e}", file.display()))?;
-        let outcome = outcome::run(&binary, &place, LIMIT)?;
-        println!(
-            "| {seed} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.2} |",
-            problem.words,
-            outcome.dofs,
-            outcome.end.word(),
-            outcome.iterations.len(),
-            outcome.total,
-            outcome.iterations.iter().max().unwrap_or(&0),
-            outcome.cutbacks,
-            outcome.penetration,
-            outcome.seconds
-        );
-        if wish.keep.is_none() && outcome.end == End::Good {
-            let _ = fs::remove_dir_all(&place);
+    println!("| problem | what | dofs | verdict | increments | iterations | cut-backs | s |");
+    println!("|{}", "---|".repeat(8));
+    let mut entries = Vec::new();
+    if wish.files.is_empty() {
+        for number in wish.from..wish.from + wish.count {
+            let draft = draw::problem(wish.seed, number);
+            let name = match wish.seed {
+                1 => format!("{number:03}"),
+                seed => format!("{seed}-{number:03}"),
+            };
+            let place = folder.join(&name);
+            let file = place.join("case.toml");
+            fs::create_dir_all(&place)
+                .and_then(|()| fs::write(&file, &draft.text))
+                .map_err(|e| format!("{}: {e}", file.display()))?;
+            let entry = Entry {
+                name,
+                family: draft.family,
+                words: draft.words,
+                outcome: outcome::run(&binary, &file, &place, LIMIT)?,
+            };
+            finish(entry, &place, wish.keep.is_some(), &mut entries);
         }
-        outcomes.push((seed, problem.words, outcome));
     }
-    summarise(&outcomes);
+    for file in &wish.files {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        let place = folder.join(stem.as_ref());
+        fs::create_dir_all(&place).map_err(|e| format!("{}: {e}", place.display()))?;
+        let entry = Entry {
+            name: stem.into_owned(),
+            family: "given",
+            words: file.display().to_string(),
+            outcome: outcome::run(&binary, file, &place, LIMIT)?,
+        };
+        finish(entry, &place, true, &mut entries);
+    }
+    summary::print(&entries);
     println!("\ncases and results that are kept: {}", folder.display());
-    Ok(())
+    let broken: Vec<&str> = entries
+        .iter()
+        .filter(|e| e.outcome.verdict.broken())
+        .map(|e| e.name.as_str())
+        .collect();
+    match broken.is_empty() {
+        true => Ok(()),
+        false => Err(format!(
+            "wrong with exit 0, or a false alarm: {}",
+            broken.join(", ")
+        )),
+    }
+}
+
+/// Prints the row of a problem, and keeps what it left if there is a reason to look at it.
+fn finish(entry: Entry, place: &Path, keep: bool, entries: &mut Vec<Entry>) {
+    let outcome = &entry.outcome;
+    println!(
+        "| {} | {}: {} | {} | {} | {} | {} | {} | {:.2} |",
+        entry.name,
+        entry.family,
+        entry.words,
+        outcome.dofs,
+        outcome.verdict.words(),
+        outcome.iterations.len(),
+        outcome.total,
+        outcome.cutbacks,
+        outcome.seconds
+    );
+    if !keep && outcome.verdict == Verdict::Sound {
+        let _ = fs::remove_dir_all(place);
+    }
+    entries.push(entry);
 }
 
 /// Reads the command line.
 fn read(words: &[String]) -> Result<Wish, String> {
     let mut wish = Wish {
-        count: 200,
-        first: 1,
-        discretisation: None,
+        seed: 1,
+        from: 1,
+        count: 300,
         keep: None,
+        files: Vec::new(),
     };
     let mut words = words.iter();
     while let Some(word) = words.next() {
+        if !word.starts_with("--") {
+            let path = Path::new(word);
+            if !path.is_file() {
+                return Err(format!("there is no file {word}"));
+            }
+            wish.files.push(path.to_path_buf());
+            continue;
+        }
         let value = words.next().ok_or(format!("{word} needs a value"))?;
         let number = || {
             let n = value.parse::<u64>().ok().filter(|n| *n <= 1_000_000);
             n.ok_or(format!("{word}: a whole number up to a million"))
         };
         match word.as_str() {
+            "--seed" => wish.seed = number()?,
+            "--from" => wish.from = number()?,
             "--count" => wish.count = number()?,
-            "--first" => wish.first = number()?,
-            "--discretisation" if ["mortar", "node-to-facet"].contains(&value.as_str()) => {
-                wish.discretisation = Some(value.clone());
-            }
-            "--discretisation" => return Err(format!("{word}: mortar or node-to-facet")),
             "--keep" => {
                 let path = std::path::absolute(value).map_err(|e| format!("{value}: {e}"))?;
                 wish.keep = Some(path);
@@ -98,61 +154,6 @@ fn read(words: &[String]) -> Result<Wish, String> {
         }
     }
     Ok(wish)
-}
-
-fn summarise(outcomes: &[(u64, String, Outcome)]) {
-    let count = |end: End| outcomes.iter().filter(|o| o.2.end == end).count();
-    let finished = count(End::Good) + count(End::Gate);
-    let mut iterations: Vec<u64> = outcomes
-        .iter()
-        .flat_map(|o| o.2.iterations.iter().copied())
-        .collect();
-    iterations.sort_unstable();
-    let at = |fraction: f64| {
-        let place = (iterations.len() as f64 * fraction) as usize;
-        let place = place.min(iterations.len().saturating_sub(1));
-        iterations.get(place).copied().unwrap_or(0)
-    };
-    let cutbacks: u64 = outcomes.iter().map(|o| o.2.cutbacks).sum();
-    let cut = outcomes.iter().filter(|o| o.2.cutbacks > 0).count();
-    let seconds: f64 = outcomes.iter().map(|o| o.2.seconds).sum();
-    let total: u64 = outcomes.iter().map(|o| o.2.total).sum();
-    println!("\n| | |\n|---|---|");
-    println!("| problems | {} |", outcomes.len());
-    println!("| finished | {finished} |");
-    println!(
-        "| finished and passed the quality gate | {} |",
-        count(End::Good)
-    );
-    println!(
-        "| stopped at the gate, failed, refused, late | {}, {}, {}, {} |",
-        count(End::Gate),
-        count(End::Failed),
-        count(End::Refused),
-        count(End::Late)
-    );
-    println!("| increments | {} |", iterations.len());
-    println!(
-        "| iterations an increment: median, 95 %, most | {}, {}, {} |",
-        at(0.5),
-        at(0.95),
-        at(1.0)
-    );
-    println!("| iterations in all | {total} |");
-    println!("| cut-backs (in how many problems) | {cutbacks} ({cut}) |");
-    println!("| wall time, one thread | {seconds:.1} s |");
-    let bad: Vec<_> = outcomes.iter().filter(|o| o.2.end != End::Good).collect();
-    if bad.is_empty() {
-        return;
-    }
-    println!();
-    for (seed, words, outcome) in bad {
-        println!(
-            "- {seed}, {}: {words}: {}",
-            outcome.end.word(),
-            outcome.message
-        );
-    }
 }
 
 #[cfg(test)]
@@ -165,19 +166,18 @@ mod tests {
 
     #[test]
     fn options_are_read_in_any_order() {
-        let wish = read(&words("--discretisation mortar --first 20 --count 3")).expect("a wish");
-        assert_eq!((wish.first, wish.count), (20, 3));
-        assert_eq!(wish.discretisation.as_deref(), Some("mortar"));
+        let wish = read(&words("--seed 7 --from 20 --count 3")).expect("a wish");
+        assert_eq!((wish.seed, wish.from, wish.count), (7, 20, 3));
         let wish = read(&[]).expect("a wish");
-        assert_eq!((wish.first, wish.count), (1, 200));
-        assert!(wish.discretisation.is_none() && wish.keep.is_none());
+        assert_eq!((wish.seed, wish.from, wish.count), (1, 1, 300));
+        assert!(wish.keep.is_none() && wish.files.is_empty());
     }
 
     #[test]
     fn what_is_not_known_is_refused() {
         assert!(read(&words("--count many")).is_err());
-        assert!(read(&words("--discretisation points")).is_err());
         assert!(read(&words("--speed 3")).is_err());
         assert!(read(&words("--count")).is_err());
+        assert!(read(&words("no-such-file.toml")).is_err());
     }
 }

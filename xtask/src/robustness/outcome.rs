@@ -6,39 +6,13 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
-    /// Finished, and the results are good.
-    Good,
-    /// Finished, but the quality gate did not let the results pass.
-    Gate,
-    /// Not finished.
-    Failed,
-    /// Refused before it began.
-    Refused,
-    /// Stopped after the limit of time.
-    Late,
-}
-
-impl End {
-    /// In a word.
-    pub fn word(self) -> &'static str {
-        match self {
-            End::Good => "good",
-            End::Gate => "gate",
-            End::Failed => "failed",
-            End::Refused => "refused",
-            End::Late => "late",
-        }
-    }
-}
+use stickslip_audit::audit::audit;
+use stickslip_audit::verdict::Verdict;
 
 /// What came of a problem.
 pub struct Outcome {
-    /// How it ended.
-    pub end: End,
+    /// The judgement.
+    pub verdict: Verdict,
     /// Wall time `[s]`.
     pub seconds: f64,
     /// Newton iterations of each accepted increment.
@@ -49,14 +23,12 @@ pub struct Outcome {
     pub cutbacks: u64,
     /// Displacement dofs.
     pub dofs: u64,
-    /// Largest penetration over the elastic approach.
-    pub penetration: f64,
-    /// What the program said last, if something is wrong.
-    pub message: String,
+    /// What the audit and the program say against the result.
+    pub lines: Vec<String>,
 }
 
-/// Runs `case.toml` of a folder on one thread, for so long at most.
-pub fn run(binary: &Path, folder: &Path, limit: Duration) -> Result<Outcome, String> {
+/// Runs a problem file on one thread, for so long at most, with results in `case.out` of a folder, and audits them.
+pub fn run(binary: &Path, file: &Path, folder: &Path, limit: Duration) -> Result<Outcome, String> {
     let say = |e: std::io::Error| format!("{}: {e}", folder.display());
     let out = folder.join("case.out");
     // What an earlier run left must not pass for the result of this one.
@@ -64,8 +36,9 @@ pub fn run(binary: &Path, folder: &Path, limit: Duration) -> Result<Outcome, Str
     let log = folder.join("log.txt");
     let mut child = Command::new(binary)
         .arg("run")
-        .arg(folder.join("case.toml"))
-        .args(["--threads", "1", "--quiet", "-o"])
+        .arg(file)
+        // Laws over speed are audited between one increment and the next.
+        .args(["--threads", "1", "--quiet", "--set", "output.every=1", "-o"])
         .arg(&out)
         .stdout(Stdio::null())
         .stderr(File::create(&log).map_err(say)?)
@@ -88,29 +61,62 @@ pub fn run(binary: &Path, folder: &Path, limit: Duration) -> Result<Outcome, Str
     let summary = fs::read_to_string(out.join("summary.json")).unwrap_or_default();
     let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
     let history = fs::read_to_string(out.join("history.csv")).unwrap_or_default();
-    let end = match status.map(|s| s.code()) {
-        None => End::Late,
-        Some(Some(0)) => End::Good,
-        Some(Some(2)) => End::Gate,
-        Some(Some(1)) => End::Refused,
-        Some(_) => End::Failed,
+    // Without a code it was ended by a signal.
+    let exit = status.map(|s| s.code().unwrap_or(3));
+    let report = match exit {
+        Some(0 | 2) => audit(&out),
+        _ => Err(String::new()),
     };
+    let verdict = Verdict::new(exit, &report);
+    let mut lines = Vec::new();
+    match (&report, verdict) {
+        (_, Verdict::Sound) => {}
+        (Ok(report), _) => {
+            let chosen = if verdict == Verdict::Wrong {
+                report.wrong()
+            } else {
+                report.doubtful()
+            };
+            lines.extend(chosen.iter().map(|figure| figure.to_string()));
+            lines.extend(failed(&summary));
+        }
+        (Err(why), _) if !why.is_empty() => lines.push(why.clone()),
+        _ => lines.push(sentence(&summary, &said)),
+    }
     let count = |key: &str| summary.pointer(key).and_then(Value::as_u64).unwrap_or(0);
-    let penetration = summary.pointer("/interfaces/0/relative-to-approach");
     Ok(Outcome {
-        end,
+        verdict,
         seconds,
         iterations: column(&history, "ITRS"),
         total: count("/iterations"),
         cutbacks: count("/cutbacks"),
         dofs: count("/size/dofs"),
-        penetration: penetration.and_then(Value::as_f64).unwrap_or(0.0),
-        message: match end {
-            End::Good => String::new(),
-            End::Late => "stopped after the limit of time".to_string(),
-            _ => sentence(&summary, &said),
-        },
+        lines,
     })
+}
+
+/// The figures of the quality gate that were not met.
+fn failed(summary: &Value) -> Vec<String> {
+    let figures = summary
+        .pointer("/quality/figures")
+        .and_then(Value::as_array);
+    let not_met = figures
+        .into_iter()
+        .flatten()
+        .filter(|f| f["met"] == Value::Bool(false));
+    not_met
+        .map(|f| {
+            let word = |key: &str| f[key].as_str().unwrap_or("").to_string();
+            let number = |key: &str| f[key].as_f64().unwrap_or(f64::NAN);
+            format!(
+                "the gate: {} of {} {:.2e} above {:.0e}",
+                word("figure"),
+                word("place"),
+                number("value"),
+                number("limit")
+            )
+        })
+        .collect()
 }
 
 /// What is wrong, in one line: the first finding, or else the first line of error.

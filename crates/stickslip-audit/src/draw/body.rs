@@ -44,7 +44,9 @@ pub enum Form {
 pub struct Body {
     /// The space of the problem.
     pub space: Space,
-    /// Whether it is the upper body.
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it is above its contact.
     pub upper: bool,
     /// Its shape.
     pub form: Form,
@@ -66,14 +68,13 @@ pub struct Body {
     pub young: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Density.
+    pub density: f64,
+    /// Further keys of its table.
+    pub keys: String,
 }
 
 impl Body {
-    /// `lower` or `upper`.
-    pub fn name(&self) -> &'static str {
-        if self.upper { "upper" } else { "lower" }
-    }
-
     /// The set that may touch the other body.
     pub fn contact(&self) -> String {
         let set = match (self.form, self.upper) {
@@ -81,16 +82,16 @@ impl Body {
             (Form::Flat, false) => "top",
             _ => "arc",
         };
-        format!("{}.{set}", self.name())
+        format!("{}.{set}", self.name)
     }
 
     /// The set on the other end, by which the body is held.
     pub fn far(&self) -> String {
         match (self.form, self.upper) {
-            (Form::Flat, true) => "upper.top".to_string(),
-            (Form::Flat, false) => "lower.bottom".to_string(),
-            (Form::Half, _) => format!("{}.flat", self.name()),
-            (Form::Round, _) => format!("{}-cap", self.name()),
+            (Form::Flat, true) => format!("{}.top", self.name),
+            (Form::Flat, false) => format!("{}.bottom", self.name),
+            (Form::Half, _) => format!("{}.flat", self.name),
+            (Form::Round, _) => format!("{}-cap", self.name),
         }
     }
 
@@ -102,7 +103,7 @@ impl Body {
             _ if self.space == Space::Axisymmetric => "axis",
             _ => "symmetry-x",
         };
-        Some(format!("{}.{set}", self.name()))
+        Some(format!("{}.{set}", self.name))
     }
 
     /// The height from the contact to the far end.
@@ -129,7 +130,7 @@ impl Body {
         let flat = self.space != Space::Solid;
         format!(
             "of = \"{}\"\nbox = {{ from = {}, to = {} }}",
-            self.name(),
+            self.name,
             point(flat, [-reach, -reach, low]),
             point(flat, [reach, reach, high])
         )
@@ -137,14 +138,14 @@ impl Body {
 
     /// The tables of the body in the problem file.
     pub fn text(&self, random: &mut Random) -> String {
-        let name = self.name();
+        let name = self.name;
         let mut text = String::new();
         let _ = writeln!(text, "[body.{name}]\n{}", self.generator(random));
-        let _ = writeln!(text, "material = \"{name}\"\n");
+        let _ = writeln!(text, "material = \"{name}\"\n{}", self.keys);
         let _ = writeln!(
             text,
-            "[material.{name}.isotropic]\nyoung = {:e}\npoisson = {}\n",
-            self.young, self.poisson
+            "[material.{name}.isotropic]\nyoung = {:e}\npoisson = {}\ndensity = {:e}\n",
+            self.young, self.poisson, self.density
         );
         if self.form == Form::Round {
             let _ = writeln!(text, "[set.{name}-cap]\n{}\n", self.above(0.6));
@@ -168,7 +169,7 @@ impl Body {
             let right = 0.5 * self.width;
             let (low, high) = match self.upper {
                 true => (self.gap, self.gap + self.height),
-                false => (-self.height, 0.0),
+                false => (self.gap - self.height, self.gap),
             };
             let count = |length: f64, size: f64| (length / size).round().max(1.0);
             // Cells may be flat, so that ratios of sides are met as well.

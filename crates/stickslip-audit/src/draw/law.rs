@@ -22,6 +22,8 @@ pub struct Laws {
     pub words: String,
     /// The coefficient of friction.
     pub mu: f64,
+    /// Whether the normal law gives way.
+    pub compliant: bool,
 }
 
 /// Draws the laws.
@@ -44,7 +46,12 @@ pub fn laws(random: &mut Random, scale: &Scale) -> Laws {
     } else {
         words.push_str(", no friction");
     }
-    Laws { text, words, mu }
+    Laws {
+        text,
+        words,
+        mu,
+        compliant: normal != "unilateral",
+    }
 }
 
 /// A normal law: its name, its line and the penetration that belongs to the pressure of the scale, if the law has powers.
@@ -67,7 +74,12 @@ fn normal(random: &mut Random, scale: &Scale) -> (&'static str, String, Option<f
             let line = format!("normal.linear = {{ c = {c:e} }}\n");
             ("linear", line, Some(yields))
         }
-        14..=16 => {
+        16 => {
+            let p0 = digits(p * random.spread(0.01, 1.0));
+            let line = format!("normal.exponential = {{ p0 = {p0:e}, c0 = {yields:e} }}\n");
+            ("exponential", line, None)
+        }
+        14..=15 => {
             let m = random.between(1.2, 3.0);
             let c = digits(p / yields.powf(m));
             let line = format!("normal.power-law = {{ c = {c:e}, m = {m} }}\n");

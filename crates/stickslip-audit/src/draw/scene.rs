@@ -1,16 +1,22 @@
-//! A random problem of two bodies, as a problem file.
+//! Two bodies that meet: shapes, meshes, materials, and how far and hard they are pressed.
 
 use super::body::{Body, Form, Space};
-use super::law::{Scale, laws};
-use super::path::{Drive, path};
+use super::law::Scale;
+use super::path::Drive;
 use super::random::{Random, digits};
 
-/// A problem file and what is in it.
-pub struct Problem {
-    /// In a line.
-    pub words: String,
-    /// The file.
-    pub text: String,
+/// Two bodies and what laws and paths are scaled with.
+pub struct Scene {
+    /// The body that is held.
+    pub lower: Body,
+    /// The body that is moved.
+    pub upper: Body,
+    /// Scales of the laws.
+    pub scale: Scale,
+    /// How far and how hard.
+    pub drive: Drive,
+    /// A tenth of the size of the bodies.
+    pub unit: f64,
 }
 
 /// Meshes of a space.
@@ -26,20 +32,19 @@ struct Meshes {
 const PLANE: Meshes = Meshes {
     linear: ["quad4", "tri3"],
     quadratic: ["quad8", "tri6"],
-    cells: [20.0, 40.0],
+    cells: [10.0, 26.0],
     quadratic_cells: 1.8,
 };
 
 const SOLID: Meshes = Meshes {
     linear: ["hex8", "tet4"],
     quadratic: ["hex20", "tet10"],
-    cells: [5.0, 8.0],
+    cells: [3.5, 6.0],
     quadratic_cells: 2.0,
 };
 
-/// The problem of a seed. The bodies are elastic and their strains small; an equilibrium exists at every time.
-pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
-    let random = &mut Random::new(seed);
+/// Draws two bodies. They are elastic and their strains small; an equilibrium exists at every time.
+pub fn scene(random: &mut Random) -> Scene {
     let spaces = [
         Space::Strain,
         Space::Strain,
@@ -104,7 +109,11 @@ pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
             true => base * contrast.max(1.0),
             false => base / contrast.min(1.0),
         };
+        let metre = if metres { 1.0 } else { 1e-3 };
         Body {
+            name: if upper { "upper" } else { "lower" },
+            density: digits(7800.0 * metre * metre * metre * if metres { 1.0 } else { 1e-3 }),
+            keys: String::new(),
             space,
             upper,
             form,
@@ -158,7 +167,6 @@ pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
         approach,
         slide,
     };
-    let laws = laws(random, &scale);
     // A coarse round body may have its facets a little behind the circle.
     let chord = match flats {
         true => 0.0,
@@ -176,70 +184,13 @@ pub fn problem(seed: u64, discretisation: Option<&str>) -> Problem {
         pressure: digits(pressure * share),
         slide: digits(slide),
         touch: digits(closing + chord + 0.3 * approach),
-        mu: laws.mu,
+        mu: 0.0,
     };
-    // Small sliding is for little slip only.
-    let small = slide < 0.3 * lower.cell.min(upper.cell) && random.chance(0.3);
-    let secondary = random.pick(&[[&lower, &upper], [&upper, &lower]]);
-    let path = path(random, &lower, &upper, &drive);
-
-    let mut text = format!(
-        "format = 1\ntitle = \"Random problem {seed}\"\n\n[model]\nspace = \"{}\"\n\n[output]\nevery = 0\n\n",
-        space.name()
-    );
-    for body in [&lower, &upper] {
-        text.push_str(&body.text(random));
-    }
-    text.push_str(&format!(
-        "[interface.joint]\nsecondary = \"{}\"\nprimary = \"{}\"\n{}",
-        secondary[0].contact(),
-        secondary[1].contact(),
-        laws.text
-    ));
-    if small {
-        text.push_str("kinematics.small-sliding = {}\n");
-    }
-    if let Some(word) = discretisation {
-        text.push_str(&format!("discretisation.{word} = {{}}\n"));
-    }
-    text.push('\n');
-    text.push_str(&path.text);
-    let sides = secondary.map(|b| format!("{:?} {}", b.form, b.element).to_lowercase());
-    let words = format!(
-        "{}, {} on {}, ratio {:.1}, E {:.0e}; {}{}; {}",
-        space.name(),
-        sides[0],
-        sides[1],
-        secondary[1].cell / secondary[0].cell,
-        secondary[0].young / secondary[1].young,
-        laws.words,
-        if small { ", small sliding" } else { "" },
-        path.words
-    );
-    Problem { words, text }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::problem;
-
-    #[test]
-    fn a_seed_is_one_problem() {
-        for seed in 1..=50 {
-            let once = problem(seed, None);
-            assert_eq!(once.text, problem(seed, None).text);
-            assert!(!once.text.contains("discretisation"));
-            assert!(!once.text.contains("NaN") && !once.text.contains("inf"));
-        }
-        assert_ne!(problem(1, None).text, problem(2, None).text);
-    }
-
-    #[test]
-    fn the_discretisation_is_all_that_differs() {
-        let (with, without) = (problem(7, Some("mortar")), problem(7, None));
-        assert_eq!(
-            with.text.replace("discretisation.mortar = {}\n", ""),
-            without.text
-        );
+    Scene {
+        lower,
+        upper,
+        scale,
+        drive,
+        unit,
     }
 }

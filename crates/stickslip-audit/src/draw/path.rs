@@ -120,7 +120,7 @@ fn hold(text: &mut String, lower: &Body, upper: &Body) {
     // What the base holds already need not be held again.
     for body in [lower, upper] {
         if let Some(cut) = body.cut() {
-            let _ = writeln!(text, "{}-cut = {{ set = \"{cut}\", x = 0 }}", body.name());
+            let _ = writeln!(text, "{}-cut = {{ set = \"{cut}\", x = 0 }}", body.name);
         }
     }
 }

@@ -1,0 +1,176 @@
+//! One result folder from end to end.
+
+use std::path::Path;
+
+use crate::balance;
+use crate::bulk::Bulk;
+use crate::contact::{self, Scale, at};
+use crate::energy;
+use crate::external::External;
+use crate::figure::Report;
+use crate::law::{Rubbing, laws, limit};
+use crate::motion;
+use crate::overlap;
+use crate::results::Results;
+use crate::side::{Pair, Side};
+use crate::vec3::norm;
+
+/// Audits a result folder; an error says that it cannot be read.
+pub fn audit(folder: &Path) -> Result<Report, String> {
+    let results = Results::read(folder)?;
+    let mut report = Report::default();
+    let (case, mesh) = (&results.case, &results.mesh);
+    let bulk = Bulk::new(case, mesh);
+    let external = match &bulk {
+        Ok(bulk) => External::new(&results, bulk),
+        Err(why) => Err(why.clone()),
+    };
+    let mut pairs = Vec::new();
+    for (name, table) in case.named("interface") {
+        match Pair::new(case, mesh, name, table) {
+            Some(pair) => pairs.push(pair),
+            None => report.skip(format!(
+                "interface {name}: a set that only the mesh file knows"
+            )),
+        }
+    }
+    let strain = match (&bulk, &external) {
+        (Ok(bulk), Ok(external)) => {
+            balance::check(&results, bulk, external, &mut report);
+            energy::check(&results, bulk, external, &pairs, &mut report);
+            energy::strain(&results, bulk, external)
+        }
+        (Err(why), _) | (_, Err(why)) => {
+            report.skip(why.clone());
+            results
+                .states
+                .iter()
+                .map(|s| results.at("ALLSE", s))
+                .collect()
+        }
+    };
+    motion::check(&results, &mut report);
+    contact::reactions(&results, &pairs, &mut report);
+    for pair in &pairs {
+        let scale = scale(&results, pair, &strain);
+        contact::check(&results, pair, &scale, &mut report);
+        overlap::check(&results, pair, &scale, &mut report);
+        coarse(&results, pair, &mut report);
+    }
+    Ok(report)
+}
+
+/// What the figures of an interface are relative to.
+fn scale(results: &Results, pair: &Pair, strain: &[f64]) -> Scale {
+    let none = std::collections::BTreeSet::new();
+    let own = pair.points().unwrap_or(&none);
+    let mut scale = Scale {
+        pressure: f64::MIN_POSITIVE,
+        limit: 0.0,
+        approach: 0.0,
+        slip: 0.0,
+    };
+    for (i, (state, strain)) in results.states.iter().zip(strain).enumerate() {
+        let force: f64 = state.grid.vector("CFORCE").iter().map(|f| norm(*f)).sum();
+        let both = if matches!(pair.primary, Side::Rigid(_)) {
+            1.0
+        } else {
+            0.5
+        };
+        if force > 0.0 {
+            scale.approach = scale.approach.max(2.0 * strain / (both * force));
+        }
+        let values = at(state);
+        for p in own.iter().map(|p| values[*p]).filter(|p| p.pressure > 0.0) {
+            scale.pressure = scale.pressure.max(p.pressure);
+            scale.approach = scale
+                .approach
+                .max(if p.gap.is_finite() { -p.gap } else { 0.0 });
+            if let Some(laws) = laws(&results.case, &pair.name, results.case.step_at(state.t)) {
+                let at = Rubbing {
+                    pressure: p.pressure,
+                    depth: (-p.gap).max(0.0),
+                    speed: 0.0,
+                    slid: false,
+                };
+                scale.limit = scale.limit.max(limit(laws.friction, at).unwrap_or(0.0));
+            }
+        }
+        if let Some(crate::results::Before::Written(old)) = results.before(i) {
+            let then = at(old);
+            for p in own.iter().filter(|p| values[**p].status > 0.0) {
+                let moved = [0, 1].map(|k| values[*p].slip[k] - then[*p].slip[k]);
+                scale.slip = scale.slip.max(moved[0].hypot(moved[1]));
+            }
+        }
+    }
+    // Where all points stick slips are rounding.
+    scale.slip = if scale.slip > 0.0 {
+        scale.slip.max(0.1 * scale.approach)
+    } else {
+        0.0
+    };
+    if scale.approach == 0.0 {
+        // Nothing was ever carried: displacements say how large the motion was.
+        let moved = results.states.iter().flat_map(|s| &s.u).map(|u| norm(*u));
+        scale.approach = moved.fold(1e-9 * results.mesh.size(None), f64::max);
+    }
+    scale
+}
+
+/// How many points carry the contact where it is largest, and how rough the pressure is along the surface.
+fn coarse(results: &Results, pair: &Pair, report: &mut Report) {
+    let Some(own) = pair.points() else {
+        return;
+    };
+    let mut most = (0, 0.0);
+    for state in &results.states {
+        let values = at(state);
+        let count = own.iter().filter(|p| values[**p].pressure > 0.0).count();
+        if count > most.0 {
+            most = (count, state.t);
+        }
+        if let Side::Body { facets, .. } = &pair.secondary {
+            report.note(
+                "oscillation",
+                &pair.name,
+                roughness(facets, &values),
+                state.t,
+            );
+        }
+    }
+    let enough = if results.case.space.dim() == 3 { 9 } else { 3 };
+    if !pair.tied {
+        report.note(
+            "coarse",
+            &pair.name,
+            f64::from(u8::from(most.0 < enough)),
+            most.1,
+        );
+    }
+}
+
+/// The mean difference of a pressure from that of the neighbours on the facets around it, of the mean pressure.
+fn roughness(facets: &[crate::mesh::Facet], values: &[contact::Point]) -> f64 {
+    let mut around: std::collections::BTreeMap<usize, Vec<usize>> =
+        std::collections::BTreeMap::new();
+    for facet in facets {
+        for a in &facet.nodes {
+            around
+                .entry(*a)
+                .or_default()
+                .extend(facet.nodes.iter().filter(|b| *b != a));
+        }
+    }
+    let (mut rough, mut sum) = (0.0, f64::MIN_POSITIVE);
+    for (node, neighbours) in around {
+        let p = values[node].pressure;
+        let others: Vec<f64> = neighbours.iter().map(|n| values[*n].pressure).collect();
+        let inside = p > 0.0 && neighbours.len() > 1 && others.iter().all(|q| *q > 0.0);
+        if inside {
+            rough += (p - others.iter().sum::<f64>() / others.len() as f64).abs();
+            sum += p;
+        }
+    }
+    rough / sum
+}

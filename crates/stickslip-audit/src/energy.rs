@@ -1,0 +1,189 @@
+//! Energies: those of the bodies by own matrices, the balance of the history with them, and what friction takes.
+
+use crate::balance::ROUNDING;
+use crate::bulk::Bulk;
+use crate::contact::{at, points};
+use crate::external::External;
+use crate::figure::Report;
+use crate::results::{Before, Results};
+use crate::side::Pair;
+use crate::vec3::{Vec3, dot, norm};
+
+/// Own strain energy of each state, springs included.
+pub fn strain(results: &Results, bulk: &Bulk, external: &External) -> Vec<f64> {
+    let dim = results.case.space.dim();
+    let of = |state: &crate::results::State| {
+        let force = bulk.elastic(&results.mesh, dim, &state.u);
+        let bodies: f64 = force
+            .iter()
+            .zip(&state.u)
+            .map(|(f, u)| 0.5 * dot(*f, *u))
+            .sum();
+        bodies + external.springs(results, state.t, &state.u).1
+    };
+    results.states.iter().map(of).collect()
+}
+
+/// The energies of all states, and what is in play: the largest that was stored or dissipated.
+pub fn check(
+    results: &Results,
+    bulk: &Bulk,
+    external: &External,
+    pairs: &[Pair],
+    report: &mut Report,
+) {
+    let own = strain(results, bulk, external);
+    let moved = results
+        .states
+        .iter()
+        .flat_map(|s| &s.u)
+        .map(|u| norm(*u))
+        .fold(0.0, f64::max);
+    let rounding = bulk.stiffest() * (ROUNDING * moved).powi(2);
+    let largest = own
+        .iter()
+        .copied()
+        .fold(rounding.max(f64::MIN_POSITIVE), f64::max);
+    let rows = results.history.rows();
+    let at_row = |head: &str, row: usize| results.history.at(head, row);
+    let stored = ["ALLSE", "ALLKE", "ALLCE", "ALLFD", "ALLVD", "ALLCD"];
+    let play = (0..rows).map(|row| stored.iter().map(|h| at_row(h, row).abs()).sum::<f64>());
+    let play = play.fold(f64::MIN_POSITIVE, f64::max).max(largest);
+    let times = results.history.column("TIME").unwrap_or(&[]);
+    for (row, t) in times.iter().enumerate() {
+        for head in ["ALLFD", "ALLVD", "ALLCD"] {
+            let before = if row > 0 { at_row(head, row - 1) } else { 0.0 };
+            report.note("backwards", head, (before - at_row(head, row)) / play, *t);
+        }
+        report.note("growth", "scheme", -at_row("ALLND", row) / play, *t);
+        let supplied = at_row("ALLWK", row) + at_row("EINITIAL", row);
+        let kept = [
+            "ALLKE", "ALLCE", "ALLFD", "ALLVD", "ALLCD", "ALLND", "ALLAE",
+        ];
+        let kept: f64 = kept.iter().map(|h| at_row(h, row)).sum();
+        let strain = match results.states.iter().position(|s| s.row == Some(row)) {
+            Some(i) => own[i],
+            None => at_row("ALLSE", row),
+        };
+        report.note(
+            "energy",
+            "ledger",
+            (supplied - kept - strain).abs() / play,
+            *t,
+        );
+    }
+    for (state, own) in results
+        .states
+        .iter()
+        .zip(&own)
+        .filter(|(s, _)| s.row.is_some())
+    {
+        report.note(
+            "strain-energy",
+            "bodies",
+            (results.at("ALLSE", state) - own).abs() / largest,
+            state.t,
+        );
+    }
+    kinetic(results, bulk, report);
+    for pair in pairs.iter().filter(|p| !p.tied && !p.belt && !p.two_sided) {
+        dissipation(results, pair, play, report);
+    }
+}
+
+/// `½ vᵀ M v` where masses are where the mesh has them.
+fn kinetic(results: &Results, bulk: &Bulk, report: &mut Report) {
+    let dim = results.case.space.dim();
+    let explicit = |step: &crate::case::Step| {
+        let dynamic = step.table.get("dynamic").and_then(toml::Value::as_table);
+        let word = |key: &str| dynamic.and_then(|d| crate::case::text_of(d, key));
+        let scheme = dynamic
+            .and_then(|d| crate::case::kind(d, "scheme"))
+            .map_or("", |s| s.0);
+        (
+            scheme == "central-difference" || word("mass") == Some("lumped"),
+            word("contact-mass") == Some("as-meshed") || scheme == "central-difference",
+        )
+    };
+    let of = |state: &crate::results::State| {
+        let step = &results.case.steps[results.case.step_at(state.t)];
+        let (lumped, meshed) = explicit(step);
+        let rigid = bulk.rigid.iter().any(|r| *r);
+        if !step.dynamic() || !meshed || rigid {
+            return None;
+        }
+        let v: Vec<Vec3> = state.grid.vector("V");
+        let momentum = bulk.inertia(&results.mesh, dim, &v, lumped);
+        Some(
+            momentum
+                .iter()
+                .zip(&v)
+                .map(|(p, v)| 0.5 * dot(*p, *v))
+                .sum::<f64>(),
+        )
+    };
+    let own: Vec<Option<f64>> = results.states.iter().map(of).collect();
+    let largest = own
+        .iter()
+        .flatten()
+        .copied()
+        .fold(f64::MIN_POSITIVE, f64::max);
+    for (state, own) in results.states.iter().zip(own) {
+        if let (Some(own), Some(_)) = (own, state.row) {
+            let off = (results.at("ALLKE", state) - own).abs() / largest;
+            report.note("kinetic-energy", "bodies", off, state.t);
+        }
+    }
+}
+
+/// Friction over one increment after the other: mean shear times slip, times the area that CFORCE and CPRESS give a node.
+fn dissipation(results: &Results, pair: &Pair, play: f64, report: &mut Report) {
+    let nodes = points(results, pair);
+    if pair.points().is_none_or(|p| nodes.len() < p.len()) {
+        return;
+    }
+    let table = &results.tables[&pair.name];
+    // Areas from the last state; those of points that are open there are not known.
+    let (mut own, mut whole) = (0.0, true);
+    for (i, state) in results.states.iter().enumerate() {
+        let Some(before) = results.before(i) else {
+            whole = false;
+            break;
+        };
+        let now = at(state);
+        let force = state.grid.vector("CFORCE");
+        for node in &nodes {
+            let point = now[*node];
+            if point.status != 2.0 || point.pressure <= 0.0 {
+                continue;
+            }
+            let size = point.pressure.hypot(point.carried());
+            let area = norm(force[*node]) / size;
+            let last = match before {
+                Before::Written(old) => [
+                    old.grid.scalar("CSLIP1")[*node],
+                    old.grid.scalar("CSLIP2")[*node],
+                ],
+                Before::Start => [0.0; 2],
+            };
+            let some = |x: f64| if x.is_nan() { 0.0 } else { x };
+            own -= area
+                * (0..2)
+                    .map(|k| point.shear[k] * (point.slip[k] - some(last[k])))
+                    .sum::<f64>();
+        }
+        let said = results.at(&format!("{}.ALLFD", pair.name), state);
+        report.note(
+            "dissipation",
+            &pair.name,
+            (said - own).abs() / play,
+            state.t,
+        );
+    }
+    if !whole || table.rows() == 0 {
+        report.skip(format!(
+            "friction of {} over increments that were not written",
+            pair.name
+        ));
+    }
+}

@@ -1,0 +1,206 @@
+//! Where the surfaces really are: depth of points of either side in the other, gaps, ties and slip, by own projections.
+
+use crate::contact::{Scale, at, points};
+use crate::figure::Report;
+use crate::results::{Before, Results};
+use crate::side::{Foot, Pair, Side, foot};
+use crate::vec3::{Vec3, along, dot, norm, scale, sub, tangential};
+
+/// Checks the places of the surfaces of an interface.
+pub fn check(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+    if pair.tied {
+        return tied(results, pair, report);
+    }
+    let started = depths(results, pair, None);
+    for (i, state) in results.states.iter().enumerate() {
+        let step = &results.case.steps[results.case.step_at(state.t)];
+        if !step.lists("interfaces", &pair.name) {
+            continue;
+        }
+        let mut depth = depths(results, pair, Some(i));
+        if !pair.as_meshed {
+            depth = (depth - started).max(0.0);
+        }
+        // A law that gives way has a depth of its own.
+        let own = at(state)
+            .into_iter()
+            .filter(|p| p.pressure > 0.0)
+            .map(|p| -p.gap);
+        let allowed = own.fold(0.0, f64::max);
+        let floor = 1e-9 * results.mesh.size(None);
+        let beyond = if depth > floor { depth - allowed } else { 0.0 };
+        report.note("penetration", &pair.name, beyond / sizes.approach, state.t);
+    }
+    gaps(results, pair, sizes, report);
+    slips(results, pair, sizes, report);
+}
+
+/// Where everything is at a state, or at the start.
+fn places(results: &Results, state: Option<usize>) -> (Vec<Vec3>, f64) {
+    match state {
+        Some(i) => (results.states[i].places(), results.states[i].t),
+        None => (results.mesh.points.clone(), 0.0),
+    }
+}
+
+/// The largest depth of a point of either side in the other.
+fn depths(results: &Results, pair: &Pair, state: Option<usize>) -> f64 {
+    let (x, t) = places(results, state);
+    let (Side::Body { points, facets }, mesh) = (&pair.secondary, &results.mesh) else {
+        return 0.0;
+    };
+    let depth = |foot: Option<Foot>, reach: f64| match foot {
+        Some(foot) if foot.gap < 0.0 && -foot.gap < reach => -foot.gap,
+        _ => 0.0,
+    };
+    let over =
+        |points: &std::collections::BTreeSet<usize>, facets: &[crate::mesh::Facet], reach: f64| {
+            let each = points
+                .iter()
+                .map(|p| depth(foot(mesh, facets, &x, x[*p]), reach));
+            each.fold(0.0, f64::max)
+        };
+    let reach = |facets: &[crate::mesh::Facet]| {
+        let body = facets.first().map(|f| f.body);
+        0.3 * mesh.size(body)
+    };
+    match &pair.primary {
+        Side::Body {
+            points: others,
+            facets: other,
+        } => over(points, other, reach(other)).max(over(others, facets, reach(facets))),
+        Side::Rigid(obstacle) => {
+            let each = points
+                .iter()
+                .map(|p| depth(obstacle.foot(x[*p], t), f64::INFINITY));
+            each.fold(0.0, f64::max)
+        }
+    }
+}
+
+/// Own distances of the points of node-to-facet contact and of obstacles.
+fn gaps(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+    if pair.mortar || pair.kinematics == "small-sliding" || !pair.as_meshed {
+        return;
+    }
+    let nodes = points(results, pair);
+    for (i, state) in results.states.iter().enumerate() {
+        let (x, t) = places(results, Some(i));
+        let values = at(state);
+        for node in nodes.iter().filter(|n| values[**n].status > 0.0) {
+            let foot = match &pair.primary {
+                Side::Rigid(obstacle) => obstacle.foot(x[*node], t),
+                Side::Body { facets, .. } => foot(&results.mesh, facets, &x, x[*node]),
+            };
+            // Over edges and corners there is no foot, and the distance is that to the edge.
+            if let Some(foot) = foot {
+                let off = (foot.gap - values[*node].gap).abs();
+                report.note("gap", &pair.name, off / sizes.approach, t);
+            }
+        }
+    }
+}
+
+/// Distances between tied surfaces do not change.
+fn tied(results: &Results, pair: &Pair, report: &mut Report) {
+    let (Side::Body { points, .. }, Side::Body { facets, .. }) = (&pair.secondary, &pair.primary)
+    else {
+        return;
+    };
+    let (x, _) = places(results, None);
+    let mesh = &results.mesh;
+    let feet: Vec<(usize, Foot)> = points
+        .iter()
+        .filter_map(|p| Some((*p, foot(mesh, facets, &x, x[*p])?)))
+        .collect();
+    for state in &results.states {
+        let largest = state
+            .u
+            .iter()
+            .map(|u| norm(*u))
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (node, foot) in &feet {
+            let mean = foot
+                .weights
+                .iter()
+                .fold([0.0; 3], |s, (n, w)| along(s, *w, state.u[*n]));
+            sum += norm(sub(state.u[*node], mean)).powi(2);
+            count += 1.0;
+        }
+        report.note(
+            "tie",
+            &pair.name,
+            (sum / f64::max(count, 1.0)).sqrt() / largest,
+            state.t,
+        );
+    }
+}
+
+/// How far a point moves over what it is on, and which way.
+fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+    if pair.belt || sizes.slip == 0.0 {
+        return;
+    }
+    let nodes = points(results, pair);
+    let dim = results.case.space.dim();
+    for (i, state) in results.states.iter().enumerate() {
+        let Some(Before::Written(old)) = results.before(i) else {
+            continue;
+        };
+        let (now, then) = (at(state), at(old));
+        let (x1, x0) = (state.places(), old.places());
+        let frictionless = now
+            .iter()
+            .all(|p| p.carried() == 0.0 || p.carried().is_nan());
+        for node in nodes
+            .iter()
+            .filter(|n| now[**n].status > 0.0 && then[**n].status > 0.0)
+        {
+            let moved = sub(x1[*node], x0[*node]);
+            let (carried, normal) = match &pair.primary {
+                Side::Rigid(obstacle) => {
+                    let Some(foot) = obstacle.foot(x1[*node], state.t) else {
+                        continue;
+                    };
+                    // What is under the point at the end has come this way.
+                    let back = obstacle.carried(foot.place, state.t, old.t);
+                    (scale(-1.0, back), foot.normal)
+                }
+                Side::Body { facets, .. } => {
+                    let Some(foot) = foot(&results.mesh, facets, &x0, x0[*node]) else {
+                        continue;
+                    };
+                    let moved = |s: Vec3, (n, w): &(usize, f64)| along(s, *w, sub(x1[*n], x0[*n]));
+                    (foot.weights.iter().fold([0.0; 3], moved), foot.normal)
+                }
+            };
+            let own = tangential(sub(moved, carried), normal);
+            let frame = frame(normal, dim);
+            let own = frame.map(|e| dot(own, e));
+            let said = [0, 1].map(|k| now[*node].slip[k] - then[*node].slip[k]);
+            let off = (own[0] - said[0]).hypot(own[1] - said[1]);
+            report.note("slip", &pair.name, off / sizes.slip, state.t);
+            let (length, carried) = (own[0].hypot(own[1]), now[*node].carried());
+            let slides = now[*node].status == 2.0 && then[*node].status == 2.0;
+            if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
+            {
+                let shear = now[*node].shear;
+                let cosine = (shear[0] * own[0] + shear[1] * own[1]) / (length * carried);
+                report.note("direction", &pair.name, 1.0 + cosine, state.t);
+            }
+        }
+    }
+}
+
+/// Directions 1 and 2 of the fields: the x axis laid into the surface, or where the normal is along it the y axis (in 3D the z axis),
+/// and the one across.
+fn frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
+    let axis = match (normal[0].abs() < 0.99, dim) {
+        (true, _) => [1.0, 0.0, 0.0],
+        (false, 2) => [0.0, 1.0, 0.0],
+        _ => [0.0, 0.0, 1.0],
+    };
+    let first = crate::vec3::unit(tangential(axis, normal));
+    [first, crate::vec3::cross(normal, first)]
+}

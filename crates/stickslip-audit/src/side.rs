@@ -1,0 +1,279 @@
+//! The two sides of an interface: points and facets of bodies, or an obstacle that moves.
+
+use std::collections::BTreeSet;
+
+use toml::Table;
+
+use crate::case::{Case, interpolate, kind, number, rows, text_of, vector};
+use crate::element::Kind;
+use crate::loads::{place, sense, stretch};
+use crate::mesh::{Facet, Mesh};
+use crate::vec3::{Vec3, add, dot, norm, scale, sub, tangential, turned, unit};
+
+/// A rigid shape with its motion.
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    table: Table,
+    flat: bool,
+}
+
+/// A surface.
+pub enum Side {
+    /// Of a body.
+    Body {
+        /// Its points.
+        points: BTreeSet<usize>,
+        /// Its facets.
+        facets: Vec<Facet>,
+    },
+    /// A rigid shape.
+    Rigid(Obstacle),
+}
+
+impl Side {
+    /// By the name that an interface has for it.
+    pub fn named(case: &Case, mesh: &Mesh, name: &str) -> Option<Side> {
+        if let Some(table) = case.of("obstacle", name) {
+            let flat = case.space.dim() == 2;
+            return Some(Side::Rigid(Obstacle {
+                table: table.clone(),
+                flat,
+            }));
+        }
+        let set = mesh.set(case, name)?;
+        let facets: Vec<Facet> = mesh.facets_of(&set).cloned().collect();
+        // Points of a set that are on none of its facets are no contact points.
+        let points = facets.iter().flat_map(|f| f.nodes.clone()).collect();
+        Some(Side::Body { points, facets })
+    }
+}
+
+/// A point over a surface.
+#[derive(Debug, Clone)]
+pub struct Foot {
+    /// Distance along the normal, negative inside.
+    pub gap: f64,
+    /// Normal out of the surface.
+    pub normal: Vec3,
+    /// What of the surface it is over: points and weights; none for an obstacle.
+    pub weights: Vec<(usize, f64)>,
+    /// The foot itself.
+    pub place: Vec3,
+}
+
+impl Obstacle {
+    fn frame(&self, t: f64) -> ([Vec3; 2], f64, Vec3) {
+        let empty = Table::new();
+        let motion = self
+            .table
+            .get("motion")
+            .and_then(toml::Value::as_table)
+            .unwrap_or(&empty);
+        let table = rows(motion.get("translation"));
+        let shift = std::array::from_fn(|i| interpolate(&table, t, i + 1));
+        let Some(rotation) = motion.get("rotation").and_then(toml::Value::as_table) else {
+            return ([[0.0; 3], [0.0, 0.0, 1.0]], 0.0, shift);
+        };
+        let axis = match rotation.contains_key("axis") {
+            true => unit(vector(rotation, "axis")),
+            false => [0.0, 0.0, 1.0],
+        };
+        let angle = interpolate(&rows(rotation.get("angle")), t, 1);
+        ([vector(rotation, "centre"), axis], angle, shift)
+    }
+
+    /// Where what was at `x` when the obstacle was as drawn is at `t`.
+    pub fn outward(&self, x: Vec3, t: f64) -> Vec3 {
+        let ([centre, axis], angle, shift) = self.frame(t);
+        add(add(turned(sub(x, centre), axis, angle), centre), shift)
+    }
+
+    fn inward(&self, x: Vec3, t: f64) -> Vec3 {
+        let ([centre, axis], angle, shift) = self.frame(t);
+        add(turned(sub(sub(x, shift), centre), axis, -angle), centre)
+    }
+
+    /// A point over it.
+    pub fn foot(&self, x: Vec3, t: f64) -> Option<Foot> {
+        let y = self.inward(x, t);
+        let (name, keys) = ["plane", "cylinder", "sphere"]
+            .into_iter()
+            .find_map(|name| Some((name, self.table.get(name)?.as_table()?)))?;
+        let (gap, normal) = if name == "plane" {
+            let normal = unit(vector(keys, "normal"));
+            (dot(sub(y, vector(keys, "point")), normal), normal)
+        } else {
+            let mut arm = sub(y, vector(keys, "centre"));
+            if name == "cylinder" {
+                let axis = if self.flat {
+                    [0.0, 0.0, 1.0]
+                } else {
+                    unit(vector(keys, "axis"))
+                };
+                arm = tangential(arm, axis);
+            }
+            let sign = match keys.get("inside").and_then(toml::Value::as_bool) {
+                Some(true) => -1.0,
+                _ => 1.0,
+            };
+            (
+                sign * (norm(arm) - number(keys, "radius")?),
+                scale(sign, unit(arm)),
+            )
+        };
+        let ([_, axis], angle, _) = self.frame(t);
+        let normal = turned(normal, axis, angle);
+        Some(Foot {
+            gap,
+            normal,
+            weights: Vec::new(),
+            place: sub(x, scale(gap, normal)),
+        })
+    }
+
+    /// How far what is now at `x` moves from one time to another.
+    pub fn carried(&self, x: Vec3, from: f64, to: f64) -> Vec3 {
+        sub(self.outward(self.inward(x, from), to), x)
+    }
+}
+
+/// The nearest foot on facets whose normals look at the point or away from it; only feet inside a facet count.
+pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot> {
+    let mut best: Option<Foot> = None;
+    for facet in facets {
+        let corners: Vec<Vec3> = facet.nodes.iter().map(|n| at[*n]).collect();
+        let middle = place(facet.kind, &corners, facet.kind.middle());
+        let radius = corners
+            .iter()
+            .map(|c| norm(sub(*c, middle)))
+            .fold(0.0, f64::max);
+        let far = norm(sub(x, middle)) - 1.1 * radius;
+        if best.as_ref().is_some_and(|b| far > b.gap.abs()) {
+            continue;
+        }
+        let Some(xi) = project(facet.kind, &corners, x) else {
+            continue;
+        };
+        let foot = place(facet.kind, &corners, xi);
+        let sense = sense(mesh, facet, at);
+        let normal = unit(scale(sense, stretch(facet.kind, &corners, xi)));
+        let gap = dot(sub(x, foot), normal);
+        if best.as_ref().is_none_or(|b| gap.abs() < b.gap.abs()) {
+            let weights = facet
+                .nodes
+                .iter()
+                .copied()
+                .zip(facet.kind.values(xi))
+                .collect();
+            best = Some(Foot {
+                gap,
+                normal,
+                weights,
+                place: foot,
+            });
+        }
+    }
+    best
+}
+
+/// Reference coordinates of the nearest place of a facet, by the method of Gauss and Newton; `None` if it is beyond the edge.
+fn project(kind: Kind, x: &[Vec3], at: Vec3) -> Option<[f64; 3]> {
+    let mut xi = kind.middle();
+    for _ in 0..30 {
+        let d = kind.gradients(xi);
+        let rest = sub(at, place(kind, x, xi));
+        let tangent = |k: usize| -> Vec3 {
+            std::array::from_fn(|i| x.iter().zip(&d).map(|(x, d)| x[i] * d[k]).sum())
+        };
+        let (a, b) = (tangent(0), tangent(1));
+        let step = match kind.dim() {
+            1 => [dot(a, rest) / dot(a, a), 0.0],
+            _ => {
+                let (aa, ab, bb) = (dot(a, a), dot(a, b), dot(b, b));
+                let (ra, rb) = (dot(a, rest), dot(b, rest));
+                let det = aa * bb - ab * ab;
+                [(bb * ra - ab * rb) / det, (aa * rb - ab * ra) / det]
+            }
+        };
+        let longest = step[0].abs().max(step[1].abs());
+        if !longest.is_finite() {
+            return None;
+        }
+        let share = if longest > 1.0 { 1.0 / longest } else { 1.0 };
+        xi[0] += share * step[0];
+        xi[1] += share * step[1];
+        if longest < 1e-12 {
+            break;
+        }
+    }
+    const EDGE: f64 = 1e-9;
+    let inside = match kind {
+        Kind::Triangle(_) => xi[0] >= -EDGE && xi[1] >= -EDGE && xi[0] + xi[1] <= 1.0 + EDGE,
+        _ => xi[0].abs() <= 1.0 + EDGE && xi[1].abs() <= 1.0 + EDGE,
+    };
+    inside.then_some(xi)
+}
+
+/// The two sides and the settings of an interface that the audit needs.
+pub struct Pair {
+    /// Name.
+    pub name: String,
+    /// Points are checked on this side.
+    pub secondary: Side,
+    /// This side carries the normal.
+    pub primary: Side,
+    /// `mortar` or `node-to-facet`.
+    pub mortar: bool,
+    /// Whether both sides are secondary.
+    pub two_sided: bool,
+    /// Whether the sides are glued together.
+    pub tied: bool,
+    /// The word of the kinematics.
+    pub kinematics: String,
+    /// Whether gaps count as meshed.
+    pub as_meshed: bool,
+    /// Whether surfaces resist approach as well.
+    pub damped: bool,
+    /// Whether the material of the primary moves by itself.
+    pub belt: bool,
+}
+
+impl Pair {
+    /// Reads an interface.
+    pub fn new(case: &Case, mesh: &Mesh, name: &str, table: &Table) -> Option<Pair> {
+        let kinematics = kind(table, "kinematics")
+            .map_or("convective", |k| k.0)
+            .to_string();
+        let primary = Side::named(case, mesh, text_of(table, "primary")?)?;
+        let discretisation = kind(table, "discretisation");
+        let triangles = text_of(table, "facets") == Some("triangles");
+        let mortar = match discretisation {
+            Some((word, _)) => word == "mortar",
+            None => kinematics != "pop-1995" && !triangles,
+        };
+        let flag =
+            |table: &Table, key: &str| table.get(key).and_then(toml::Value::as_bool) == Some(true);
+        let initial = text_of(table, "initial").unwrap_or("as-meshed");
+        Some(Pair {
+            name: name.to_string(),
+            secondary: Side::named(case, mesh, text_of(table, "secondary")?)?,
+            mortar: mortar && matches!(primary, Side::Body { .. }),
+            primary,
+            two_sided: discretisation.is_some_and(|(_, keys)| flag(keys, "two-sided")),
+            tied: flag(table, "tied"),
+            kinematics,
+            as_meshed: initial == "as-meshed",
+            damped: kind(table, "damping").is_some_and(|d| d.0 != "none"),
+            belt: table.contains_key("primary-velocity")
+                || table.contains_key("primary-velocity-table"),
+        })
+    }
+
+    /// The points of the secondary.
+    pub fn points(&self) -> Option<&BTreeSet<usize>> {
+        match &self.secondary {
+            Side::Body { points, .. } => Some(points),
+            Side::Rigid(_) => None,
+        }
+    }
+}
