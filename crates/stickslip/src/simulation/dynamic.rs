@@ -6,11 +6,10 @@ use super::inertia::{self, Inertia, dot, times};
 use super::model::{ContactAt, Dynamic};
 use super::run::{Observer, Simulation};
 
-use crate::error::Error;
 use crate::linear::BlockCsr;
 use crate::newton::condensed::{Gaps, Reduced};
 use crate::newton::{Converged, Origin, Progress, System, Whole};
-use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
+use crate::system::{Cause, Constraints, Rate, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
@@ -21,12 +20,9 @@ pub(super) struct Motion {
     /// `K u` at the last accepted state.
     pub internal: Vec<f64>,
     /// Displacements at the start of the step, and the farthest the bodies have been from there (in the norm of the mass).
-    start: Vec<f64>,
-    reach: f64,
+    pub start: Vec<f64>,
+    pub reach: f64,
 }
-
-/// Fraction of the duration of a step after its start at which loads that begin with the step are read.
-pub(super) const AFTER: f64 = 1e-9;
 
 /// Most step lengths whose condensed bodies are kept.
 const MOST_CONDENSED: usize = 4;
@@ -43,107 +39,6 @@ struct Solved {
 }
 
 impl Simulation {
-    /// Makes masses, initial velocities and the acceleration at the start of a dynamic step ready.
-    pub(super) fn start_motion(&mut self, dynamic: &Dynamic) -> Result<(), Error> {
-        let n = self.state.u.len();
-        if self.state.v.is_empty() {
-            self.state.v = vec![0.0; n];
-        }
-        self.state.a = vec![0.0; n];
-        let suits = self
-            .motion
-            .as_ref()
-            .is_some_and(|m| m.inertia.suits(&self.model, dynamic));
-        let inertia = match self.motion.take() {
-            Some(motion) if suits => motion.inertia,
-            old => {
-                let keys = old.map_or(0, |m| m.inertia.keys());
-                Inertia::new(&self.model, &self.matrix, dynamic, keys)
-            }
-        };
-        let masses = inertia.at_points(&self.model);
-        for interface in &mut self.model.interfaces {
-            interface.set_masses(&masses);
-        }
-        let before = inertia.kinetic_energy(&self.state.v);
-        self.model
-            .apply_initial_velocities(self.step, &mut self.state.v);
-        let energy = &mut self.summary.energy;
-        energy.kinetic = inertia.kinetic_energy(&self.state.v);
-        energy.initial += energy.kinetic - before;
-        let step = &self.model.steps[self.step];
-        let (t, dt) = (
-            step.start + AFTER * (step.end - step.start),
-            step.increments.initial,
-        );
-        self.load = self.external(t);
-        self.motion = Some(Motion {
-            inertia,
-            internal: times(&self.matrix, &self.state.u),
-            start: self.state.u.clone(),
-            reach: 0.0,
-        });
-        self.contact = self.initial_contact(t, dt)?;
-        self.initial_acceleration(t)
-    }
-
-    /// Forces of the interfaces at the start, slip at the velocities of the start.
-    pub(super) fn initial_contact(&mut self, t: f64, dt: f64) -> Result<Vec<f64>, Error> {
-        let State { u, v, .. } = &self.state;
-        let before = State {
-            t: t - dt,
-            u: u.iter().zip(v).map(|(u, v)| u - dt * v).collect(),
-            ..State::default()
-        };
-        let at = State {
-            t,
-            u: u.clone(),
-            ..State::default()
-        };
-        let stage = Stage {
-            from: &before,
-            at: &at,
-            dt,
-            rate: None,
-        };
-        let mut contact = vec![0.0; u.len()];
-        for interface in &mut self.model.interfaces {
-            interface
-                .add_initial(&stage, &mut contact)
-                .map_err(|e| e.at(t))?;
-        }
-        (self.model.couplings).add_initial(t, &self.state.u, &mut contact);
-        self.model.links.transfer(&mut contact);
-        Ok(contact)
-    }
-
-    /// `M a₀ = f(u₀, v₀)`.
-    fn initial_acceleration(&mut self, t: f64) -> Result<(), Error> {
-        let Some(motion) = &self.motion else {
-            return Ok(());
-        };
-        let inertia = &motion.inertia;
-        let internal = &motion.internal;
-        let damping = inertia.damping_force(&self.state.v);
-        let force: Vec<f64> = (0..internal.len())
-            .map(|i| self.load[i] - internal[i] - damping[i] - self.contact[i])
-            .collect();
-        let fixed = self.constraints(t).fixed;
-        self.state.a = inertia.acceleration(&force, &fixed).map_err(|e| e.at(t))?;
-        // Prescribed dofs have no acceleration, which is as good as known; those of light points follow from the interfaces.
-        self.model
-            .couplings
-            .start_motion(
-                (t, &self.model.links),
-                &inertia.light,
-                &mut |f| inertia.acceleration(f, &fixed),
-                (&mut self.state.a, &mut self.contact),
-            )
-            .map_err(|e| e.at(t))?;
-        self.model.links.impose(&mut self.state.a);
-        Ok(())
-    }
-
     /// Tries one implicit increment.
     pub(super) fn attempt_implicit(
         &mut self,

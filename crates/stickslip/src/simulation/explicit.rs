@@ -201,7 +201,7 @@ impl Simulation {
         energy.kinetic = explicit.kinetic_energy(&self.state.v);
         energy.initial += energy.kinetic - before;
         let step = self.model.steps[self.step].clone();
-        let soon = step.start + super::dynamic::AFTER * (step.end - step.start);
+        let soon = step.start + super::onset::AFTER * (step.end - step.start);
         let still = self.model.supports.iter().all(|s| {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
@@ -284,7 +284,7 @@ impl Simulation {
         let interfaces: f64 = all
             .map(|i| i.highest_frequency(&explicit.inverse, links))
             .sum();
-        let t = self.state.t + super::dynamic::AFTER * (step.end - step.start);
+        let t = self.state.t + super::onset::AFTER * (step.end - step.start);
         interfaces + (self.model.couplings).highest_frequency(t, &explicit.inverse, links)
     }
 

@@ -1,11 +1,14 @@
 //! Mass and damping of the bodies, and the matrices of implicit increments made of them.
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
 use super::model::{ContactMass, Dynamic, Model};
 use super::spin::mobility;
 use crate::body::MassKind;
 use crate::body::couplings::Couplings;
 use crate::contact::interface::Interface;
-use crate::linear::{BlockCsr, GmresSettings, Isotropic, gmres};
+use crate::linear::{BlockCsr, Factor, GmresSettings, Isotropic, Symbolic, gmres};
 use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
@@ -203,46 +206,74 @@ impl Inertia {
         0.5 * dot(v, &self.mass_times(v))
     }
 
-    /// The acceleration that a force gives to the dofs that are neither fixed nor light: `M a = f`.
-    pub fn acceleration(&self, force: &[f64], fixed: &[bool]) -> Result<Vec<f64>, StepFailure> {
+    /// Gives the accelerations that forces cause of the dofs that are neither fixed nor light: `(M + h C) a = f`.
+    ///
+    /// Damping that is stiff needs many iterations; then the matrix is factored, once.
+    pub fn accelerator<'a>(
+        &'a self,
+        fixed: &[bool],
+        lag: f64,
+    ) -> impl FnMut(&[f64]) -> Result<Vec<f64>, StepFailure> + 'a {
         let out: Vec<bool> = fixed.iter().zip(&self.light).map(|(f, l)| f | l).collect();
-        let diagonal = self.mass.diagonal();
-        let b: Vec<f64> = force
-            .iter()
-            .zip(&out)
-            .map(|(f, &out)| if out { 0.0 } else { *f })
-            .collect();
-        let mut a = vec![0.0; b.len()];
-        let report = gmres(
-            &mut |v, result| {
-                self.mass.mul(v, result);
-                for (r, &out) in result.iter_mut().zip(&out) {
-                    if out {
-                        *r = 0.0;
+        let matrix = match &self.damping {
+            Some(damping) if lag > 0.0 => {
+                let mut both = self.mass.clone();
+                both.add_scaled(lag, damping);
+                Cow::Owned(both)
+            }
+            _ => Cow::Borrowed(&self.mass),
+        };
+        let diagonal = matrix.diagonal();
+        let mut factor: Option<Factor> = None;
+        move |force| {
+            let mut b: Vec<f64> = force
+                .iter()
+                .zip(&out)
+                .map(|(f, &out)| if out { 0.0 } else { *f })
+                .collect();
+            if let Some(factor) = &factor {
+                factor.solve(&mut b);
+                return Ok(b);
+            }
+            let mut a = vec![0.0; b.len()];
+            let report = gmres(
+                &mut |v, result| {
+                    matrix.mul(v, result);
+                    for (r, &out) in result.iter_mut().zip(&out) {
+                        if out {
+                            *r = 0.0;
+                        }
                     }
-                }
-            },
-            &mut |v| {
-                for ((v, d), &out) in v.iter_mut().zip(&diagonal).zip(&out) {
-                    *v = if out { 0.0 } else { *v / d };
-                }
-            },
-            &b,
-            &mut a,
-            GmresSettings {
-                tolerance: 1e-13,
-                max_iterations: 400,
-                restart: 60,
-            },
-        );
-        if report.relative_residual.is_nan() || report.relative_residual > 1e-9 {
-            return Err(StepFailure::new(
-                Cause::Singular,
-                "the acceleration at the start cannot be found: the mass matrix is singular",
-            )
-            .help("give every material a density"));
+                },
+                &mut |v| {
+                    for ((v, d), &out) in v.iter_mut().zip(&diagonal).zip(&out) {
+                        *v = if out { 0.0 } else { *v / d };
+                    }
+                },
+                &b,
+                &mut a,
+                GmresSettings {
+                    tolerance: 1e-13,
+                    max_iterations: 400,
+                    restart: 60,
+                },
+            );
+            if report.relative_residual <= 1e-9 {
+                return Ok(a);
+            }
+            let singular = || {
+                StepFailure::new(
+                    Cause::Singular,
+                    "the acceleration at the start cannot be found: the mass matrix is singular",
+                )
+                .help("give every material a density")
+            };
+            let symbolic = Symbolic::analyze(&matrix, &out, &[]).map_err(|_| singular())?;
+            let made = Factor::new(&Arc::new(symbolic), &matrix, &[]).map_err(|_| singular())?;
+            made.solve(&mut b);
+            factor = Some(made);
+            Ok(b)
         }
-        Ok(a)
     }
 }
 

@@ -113,9 +113,10 @@ impl Simulation {
                 }
                 self.summary.energy.initial += self.model.couplings.use_springs(false);
                 match dynamic.method {
-                    Method::Implicit(_) => {
-                        self.start_motion(&dynamic)?;
+                    Method::Implicit(alphas) => {
+                        self.start_motion(&dynamic);
                         self.choose_candidates();
+                        self.start_forces(&dynamic, alphas)?;
                     }
                     Method::Explicit { .. } => {
                         self.wake();

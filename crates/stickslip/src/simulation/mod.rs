@@ -23,6 +23,7 @@ mod lock;
 mod loose;
 mod march;
 mod model;
+mod onset;
 mod pending;
 mod quality;
 mod run;

@@ -235,12 +235,21 @@ impl Couplings {
 
     /// Adds the forces of the last accepted state, which is at `u`, to the internal ones, by dof.
     pub fn add_initial(&self, t: f64, u: &[f64], out: &mut [f64]) {
+        self.add_forces(&self.memory.multipliers, (t, u), out);
+    }
+
+    /// The same for the last attempt, which ended at `u`.
+    pub fn add_tried(&self, t: f64, u: &[f64], out: &mut [f64]) {
+        self.add_forces(&self.iterate.now, (t, u), out);
+    }
+
+    fn add_forces(&self, multipliers: &[f64], (t, u): (f64, &[f64]), out: &mut [f64]) {
         for (i, coupling, row) in self.rows() {
             if !coupling.schedule.active(t) {
                 continue;
             }
             let force = match coupling.tie {
-                Tie::Equation { .. } => self.memory.multipliers[i],
+                Tie::Equation { .. } => multipliers.get(i).copied().unwrap_or(0.0),
                 Tie::Spring { .. } => self.target(i, coupling, t) * row.sum(u),
             };
             row.terms().for_each(|(dof, a)| out[dof] += a * force);

@@ -315,6 +315,28 @@ impl Interface {
         Ok(())
     }
 
+    /// Takes the tractions of an attempt, by what it remembered, as those of the last accepted state: what acts from the first instant of a motion. Where
+    /// a point sticks, what the others carry is only being built up, and all is left as it is.
+    pub fn adopt(&mut self, tried: &Memory) {
+        let points = &tried.last.points;
+        if points.iter().any(|e| e.response.status == Status::Stick) {
+            return;
+        }
+        let all = self.memory.committed.iter_mut().zip(points);
+        for (history, e) in all.filter(|(_, e)| e.response.status == Status::Slip) {
+            history.pressure = e.response.traction[0];
+            history.shear = e.along(&e.frame);
+        }
+    }
+
+    /// Whether a point touched or was near at the last evaluation, by the height of the cell beneath it.
+    pub fn touches(&self) -> bool {
+        let points = self.memory.trial.points.iter().zip(&self.points);
+        let mut points =
+            points.map(|(e, point)| e.over && e.gap <= evaluate::TOUCHING * point.size);
+        points.any(|touching| touching)
+    }
+
     fn poses(&self, stage: &Stage) -> Option<(Pose, Pose)> {
         match &self.primary {
             Primary::Rigid(_, motion) => Some((motion.pose(stage.at.t), motion.pose(stage.from.t))),

@@ -29,6 +29,18 @@ pub struct Alphas {
     pub gamma: f64,
 }
 
+impl Alphas {
+    /// The time over which damping should have acted on the accelerations at the start, in first increments `[-]`; zero where it need not.
+    ///
+    /// The velocity of a strongly damped motion follows from the balance at the end of the increment, and Newmark's relations then leave
+    /// `(½ - β/γ) dt² a₀` of the acceleration at the start in the displacements, however soon damping has put an end to it: without bound where damping is
+    /// stiff against the increment. Three times the ratio of that to `dt²/2` keeps it below a third of the displacement at the velocity to which
+    /// loads and damping come.
+    pub fn lag(&self) -> f64 {
+        3.0 * (1.0 - 2.0 * self.beta / self.gamma).abs()
+    }
+}
+
 /// What a scheme comes down to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
