@@ -301,6 +301,23 @@ fn a_cell_folded_over() {
 }
 
 #[test]
+fn a_negative_radius_is_that_of_its_body() {
+    let case = r#"
+format = 1
+model.space = "axisymmetric"
+body.q = { generate.rectangle = { from = [-0.001, 0], to = [0.02, 0.002], cells = [20, 2] }, material = "steel" }
+body.b = { generate.rectangle = { from = [0.03, 0], to = [0.04, 0.002], cells = [20, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.s = { set = "q.bottom", y = 0 }
+support.t = { set = "b.bottom", y = 1e-5 }
+step = [{ name = "press" }]
+"#;
+    let message = message(case, Path::new("."));
+    says(&message, &["body q: point 1", "the negative radius -0.001"]);
+    assert!(!message.contains("body b"), "{message}");
+}
+
+#[test]
 fn a_run_that_does_not_converge() {
     let message = wrong(
         "y = -1e-5 }",

@@ -56,7 +56,11 @@ impl Elastic {
         parts: Vec<Part>,
     ) -> Result<Self, Diagnostic> {
         let name = name.into();
-        space.check(&mesh)?;
+        let blocks: Vec<usize> = parts.iter().map(|p| p.block).collect();
+        space.check(&mesh, &blocks).map_err(|mut e| {
+            e.message = format!("body {name}: {}", e.message);
+            e
+        })?;
         let in_plane_stress = matches!(space, Space::PlaneStress { .. });
         if in_plane_stress && formulation == Formulation::MeanDilatation {
             return Err(Diagnostic::new(

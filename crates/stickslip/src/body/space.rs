@@ -110,11 +110,11 @@ impl Space {
         }
     }
 
-    /// Checks that `mesh` can stand for a body in this space.
+    /// Checks that these blocks of `mesh` can stand for a body in this space.
     ///
     /// # Errors
     /// The dimensions differ, the thickness is not positive, or a radius is negative.
-    pub fn check(&self, mesh: &Mesh) -> Result<(), Diagnostic> {
+    pub fn check(&self, mesh: &Mesh, blocks: &[usize]) -> Result<(), Diagnostic> {
         if mesh.dim != self.dim() {
             return Err(Diagnostic::new(
                 "space",
@@ -138,7 +138,11 @@ impl Space {
             Space::Axisymmetric => {
                 // Meshes made by transformations put points of the axis a rounding error beside it.
                 let size = mesh.points.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()));
-                if let Some(i) = mesh.points.iter().position(|p| p[0] < -1e-12 * size) {
+                let blocks = blocks.iter().filter_map(|&b| mesh.blocks.get(b));
+                let mut own = blocks.flat_map(|b| &b.connectivity);
+                let beyond =
+                    |&&i: &&usize| mesh.points.get(i).is_some_and(|p| p[0] < -1e-12 * size);
+                if let Some(&i) = own.find(beyond) {
                     return Err(Diagnostic::new(
                         "space",
                         format!(
