@@ -217,12 +217,27 @@ struct Multiplier {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Flips {
     count: usize,
+    /// The last statuses that differ from the one before, latest first.
     last: [Option<Status>; 4],
     /// Whether it lay over the primary, and how often it has slid off its outer edge.
     over: bool,
     left: usize,
     /// It has been put back onto the primary.
     returned: bool,
+}
+
+impl Flips {
+    /// Takes note of the status after an iteration; whether it has changed.
+    fn note(&mut self, now: Status) -> bool {
+        if self.last[0] == Some(now) {
+            return false;
+        }
+        let changed = self.last[0].is_some();
+        self.count += usize::from(changed);
+        self.last.rotate_right(1);
+        self.last[0] = Some(now);
+        changed
+    }
 }
 
 /// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.
@@ -532,16 +547,10 @@ impl Interface {
         memory.untouched = false;
         memory.changed = 0;
         for (flips, e) in memory.flips.iter_mut().zip(last) {
-            let now = Some(e.response.status);
-            if flips.last[0].is_some() && flips.last[0] != now {
-                flips.count += 1;
-                memory.changed += 1;
-            }
+            memory.changed += usize::from(flips.note(e.response.status));
             let over = e.over;
             flips.left += usize::from(flips.over && !over);
             flips.over = over;
-            flips.last.rotate_right(1);
-            flips.last[0] = now;
         }
         memory.steady.note(last);
         if unknown {

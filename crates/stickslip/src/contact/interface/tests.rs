@@ -102,6 +102,27 @@ fn moved(interface: &Interface, t: f64, size: f64) -> State {
     }
 }
 
+/// A course of statuses shows what a point did, not how long it rested.
+#[test]
+fn a_course_shows_changes_only() {
+    use super::Flips;
+    use crate::contact::response::Status;
+    let mut flips = Flips::default();
+    let course = [
+        Status::Open,
+        Status::Stick,
+        Status::Open,
+        Status::Open,
+        Status::Open,
+        Status::Open,
+    ];
+    let changes: Vec<bool> = course.iter().map(|s| flips.note(*s)).collect();
+    assert_eq!(changes, [false, true, true, false, false, false]);
+    assert_eq!(flips.count, 2);
+    let last: Vec<Status> = flips.last.iter().rev().flatten().copied().collect();
+    assert_eq!(last, [Status::Open, Status::Stick, Status::Open]);
+}
+
 #[test]
 fn facets_that_are_skipped_would_not_have_been_chosen() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
