@@ -54,7 +54,7 @@ pub struct Interface {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary_velocity: Option<Vec<f64>>,
     /// The same over the time of the analysis, instead of `primary-velocity`: rows `[time, vx, vy]`, in 3D
-    /// `[time, vx, vy, vz]`, linear in between, constant outside; it must cover the time of dynamic steps.
+    /// `[time, vx, vy, vz]`, linear in between, constant outside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary_velocity_table: Option<Vec<Vec<f64>>>,
     /// How quadrilateral facets of the primary are taken; as they are if not given, unless the kinematics needs
