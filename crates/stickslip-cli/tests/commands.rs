@@ -122,6 +122,15 @@ fn models_lists_families_and_parameters() {
     let none = stickslip(&["models", "glue"]);
     assert_eq!(code(&none), Some(1));
     assert!(text(&none.stderr).contains("no model or family `glue`"));
+    for (word, meant) in [
+        ("coulumb", "`coulomb`"),
+        ("fricton", "`friction`"),
+        ("friction.coulumb", "`friction.coulomb`"),
+        ("frction.colomb", "`friction.coulomb`"),
+    ] {
+        let said = text(&stickslip(&["models", word]).stderr);
+        assert!(said.contains(&format!("did you mean {meant}?")), "{said}");
+    }
 }
 
 #[test]

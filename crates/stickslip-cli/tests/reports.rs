@@ -90,6 +90,10 @@ fn what_cannot_be_drawn_is_an_error_of_the_input() {
             "there is no field `NO`",
         ),
         (
+            vec!["plot", &folder, "--field", "CPRES"],
+            "did you mean `CPRESS`?",
+        ),
+        (
             vec!["plot", &folder, "--time", "now"],
             "`last`, `all` or a number",
         ),

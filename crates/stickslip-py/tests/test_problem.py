@@ -69,6 +69,9 @@ def test_files_that_are_not_there_are_errors_of_files(tmp_path):
         stickslip.Problem.from_toml(tmp_path / "none.toml")
     assert pathlib.Path(caught.value.file) == tmp_path / "none.toml"
     assert isinstance(caught.value, OSError)
+    with pytest.raises(stickslip.FileError) as caught:
+        stickslip.Problem.from_toml("nofile")
+    assert caught.value.file == "nofile"
 
 
 def test_values_can_be_changed_by_key(problem):

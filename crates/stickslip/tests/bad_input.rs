@@ -301,6 +301,52 @@ fn a_cell_folded_over() {
 }
 
 #[test]
+fn a_number_of_increments_belongs_into_their_table() {
+    says(
+        &wrong(
+            "{ name = \"press\" }",
+            "{ name = \"press\", increments = 10 }",
+        ),
+        &["expected a table", "write `increments = { fixed = 10 }`"],
+    );
+}
+
+#[test]
+fn what_is_no_problem_file_is_told_for_what_it_is() {
+    let folder = support::folder("no-problems");
+    let said = |name: &str, content: &[u8]| {
+        let file = folder.join(name);
+        std::fs::write(&file, content).expect("a file");
+        match Document::read(&file) {
+            Ok(_) => panic!("{name} is taken for a problem"),
+            Err(e) => e.to_string(),
+        }
+    };
+    says(
+        &said("block.msh", MESH.as_bytes()),
+        &["block.msh", "a mesh of Gmsh", "gmsh.file"],
+    );
+    says(
+        &said("binary.msh", b"$MeshFormat\n4.1 1 8\n\x01\0\0\0\xff\xfe"),
+        &["a mesh of Gmsh"],
+    );
+    says(
+        &said("fields.vtu", b"<?xml version=\"1.0\"?>\n<VTKFile/>"),
+        &["XML", "problem files are TOML"],
+    );
+    says(
+        &said("job.txt", b"** a comment\n*HEADING\n"),
+        &["input deck", "`.inp`"],
+    );
+    std::fs::write(folder.join("case.toml"), CASE).expect("a file");
+    let message = match Document::read(&folder) {
+        Ok(_) => panic!("a folder is taken for a problem"),
+        Err(e) => e.to_string(),
+    };
+    says(&message, &["this is a folder", "case.toml"]);
+}
+
+#[test]
 fn a_negative_radius_is_that_of_its_body() {
     let case = r#"
 format = 1

@@ -1,7 +1,7 @@
 use std::process::ExitCode;
 
 use serde_json::Value;
-use stickslip::problem::{FamilyListing, families};
+use stickslip::problem::{FamilyListing, families, nearest};
 
 use super::{Failure, Outcome};
 use crate::print;
@@ -46,16 +46,39 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     if text.is_empty() {
         let known: Vec<&str> = families.iter().map(|f| f.key).collect();
+        let meant = match meant(&families, wanted_family, wanted_entry) {
+            Some(meant) => format!("did you mean `{meant}`? "),
+            None => String::new(),
+        };
         return Err(Failure::Arguments(
             format!("there is no model or family `{name}`"),
             format!(
-                "families: {}; `stickslip models` lists all entries",
+                "{meant}families: {}; `stickslip models` lists all entries",
                 known.join(", ")
             ),
         ));
     }
     print::out(&text.join("\n"))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The name that was probably meant: of an entry in the family that is named, or in the one nearest to it, or of anything.
+fn meant(families: &[FamilyListing], family: Option<&str>, entry: &str) -> Option<String> {
+    let keys: Vec<&str> = families.iter().map(|f| f.key).collect();
+    let Some(family) = family else {
+        let entries = families
+            .iter()
+            .flat_map(|f| f.entries.iter().map(|e| e.name));
+        let all: Vec<&str> = keys.iter().copied().chain(entries).collect();
+        return nearest(entry, &all).map(str::to_string);
+    };
+    let family = nearest(family, &keys)?;
+    let listing = families.iter().find(|f| f.key == family)?;
+    let entries: Vec<&str> = listing.entries.iter().map(|e| e.name).collect();
+    Some(match nearest(entry, &entries) {
+        Some(entry) => format!("{family}.{entry}"),
+        None => family.to_string(),
+    })
 }
 
 fn family(family: &FamilyListing) -> String {

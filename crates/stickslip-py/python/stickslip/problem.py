@@ -29,8 +29,8 @@ class Problem:
     def from_toml(cls, source: Union[str, os.PathLike[str]], meshes: Optional[Mapping[str, Mesh]] = None) -> Problem:
         """From a problem file, or from its text.
 
-        A path object, or a string without line breaks that ends with ``.toml``, is taken as a path. `meshes` are found by the names that
-        the problem gives mesh files.
+        A path object, or a string without line breaks that ends with ``.toml`` or has no ``=`` in it, is taken as a path. `meshes` are
+        found by the names that the problem gives mesh files.
 
         Raises
         ------
@@ -38,7 +38,8 @@ class Problem:
             With all findings.
         """
         text = os.fspath(source)
-        if not isinstance(source, str) or ("\n" not in text and text.endswith(".toml")):
+        named = "\n" not in text and text.strip() != "" and (text.endswith(".toml") or "=" not in text)
+        if not isinstance(source, str) or named:
             return cls(_core.Problem.from_file(Path(text), _given(meshes)))
         return cls(_core.Problem.from_text(text, None, _given(meshes)))
 

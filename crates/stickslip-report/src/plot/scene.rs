@@ -63,9 +63,16 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
         Some(field) => Ok(Some(field.clone())),
         None => {
             let names: Vec<&str> = list.iter().map(|f| f.name.as_str()).collect();
+            let meant = match stickslip::problem::nearest(name, &names) {
+                Some(meant) => format!("did you mean `{meant}`? "),
+                None => String::new(),
+            };
             Err(fault(
                 &results.directory,
-                format!("there is no field `{name}`; there are {}", names.join(", ")),
+                format!(
+                    "there is no field `{name}`; {meant}there are {}",
+                    names.join(", ")
+                ),
             ))
         }
     }

@@ -57,6 +57,7 @@ pub use interface::{FacetShape, Interface};
 pub use load::Load;
 pub use mass::Mass;
 pub use model::{Model, SpaceKind};
+pub use nearest::nearest;
 pub use obstacle::Obstacle;
 pub use output::Output;
 pub use probe::Probe;

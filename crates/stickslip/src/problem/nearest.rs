@@ -26,7 +26,7 @@ const SYNONYMS: &[(&str, &str)] = &[
 ];
 
 /// The one of `names` that `word` probably stands for: a synonym, or the nearest if at most a third of it differs.
-pub(super) fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let synonym = SYNONYMS.iter().filter(|(other, _)| *other == word);
     if let Some(name) = synonym
         .flat_map(|(_, name)| names.iter().find(|n| *n == name))

@@ -206,6 +206,13 @@ impl<'s> Walk<'s> {
     /// For `friction = "coulomb"`: how to write a kind; otherwise what the key means.
     fn kind_help(&self, expected: &Expected, found: &Value) -> Option<String> {
         let kinds: Vec<&str> = expected.kinds.iter().map(|(k, _)| *k).collect();
+        if let Some(example) = self.number_help(expected, found) {
+            let kinds = match kinds.is_empty() {
+                true => String::new(),
+                false => format!("; kinds: {}", kinds.join(", ")),
+            };
+            return Some(format!("write `{example}`{kinds}"));
+        }
         if kinds.is_empty() {
             return expected.description.map(first_sentence);
         }
@@ -222,6 +229,39 @@ impl<'s> Walk<'s> {
             "the kind is a key: `{example}`; kinds: {}",
             kinds.join(", ")
         ))
+    }
+
+    /// For `friction = 0.2` and `increments = 10`: where the number belongs, if there is a kind with one number, or a key of its type.
+    fn number_help(&self, expected: &Expected, found: &Value) -> Option<String> {
+        let (text, types) = match found {
+            DeValue::Integer(i) => (i.as_str(), ["integer", "number"]),
+            DeValue::Float(f) => (f.as_str(), ["number", "number"]),
+            _ => return None,
+        };
+        let of_type = |schema: &Json, kind: &str| Expected::of(self.root, schema).allows(kind);
+        let only = |required: &[&str], properties: &[(&str, &Json)], kind: &str| {
+            let wanted = properties.iter().filter(|(name, schema)| {
+                (required.is_empty() || required.contains(name)) && of_type(schema, kind)
+            });
+            let names: Vec<String> = wanted.map(|(name, _)| name.to_string()).collect();
+            match names.as_slice() {
+                [one] if required.len() < 2 => Some(one.clone()),
+                _ => None,
+            }
+        };
+        let here = self.path.last()?;
+        if expected.kinds.is_empty() {
+            let mut keys = types.iter();
+            let key = keys.find_map(|kind| only(&[], &expected.properties, kind))?;
+            return Some(format!("{here} = {{ {key} = {text} }}"));
+        }
+        expected.kinds.iter().find_map(|(kind, schema)| {
+            let inner = Expected::of(self.root, schema);
+            let required: Vec<&str> = strings(inner.own.get("required")).collect();
+            let key =
+                (required.len() == 1).then(|| only(&required, &inner.properties, "number"))??;
+            Some(format!("{here}.{kind} = {{ {key} = {text} }}"))
+        })
     }
 
     fn number(&mut self, expected: &Expected, value: &Spanned<Value>, span: Range<usize>) {
