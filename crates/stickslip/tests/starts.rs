@@ -113,6 +113,9 @@ fn overlap_is_resolved_over_the_step() {
     let outcome = simulation.run(&mut [&mut record]);
     outcome.unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(record.increments.len(), 4);
+    // An overlap that is meant is no reason to mend the mesh.
+    let said = support::build(&support::problem(&text)).map(|mut s| s.check().findings);
+    assert_eq!(said.unwrap_or_else(|e| panic!("{e}")), Vec::new());
     for (k, (_, row)) in record.increments.iter().enumerate() {
         let column = row
             .names

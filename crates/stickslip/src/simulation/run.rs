@@ -222,9 +222,10 @@ impl Simulation {
         outcome: Result<bool, Error>,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
-        if let Err(Error::Run(error)) = &outcome {
-            self.conclude(error);
-        }
+        let outcome = outcome.map_err(|e| match e {
+            Error::Run(error) => Error::Run(self.conclude(error)),
+            e => e,
+        });
         self.summary.finish(
             &self.newton.statistics,
             self.elapsed(),
@@ -296,16 +297,22 @@ impl Simulation {
         }
     }
 
-    /// Sees to it that there is a finding about what ended the run.
-    pub(super) fn conclude(&mut self, error: &RunError) {
+    /// Sees to it that there is a finding about what ended the run; the error says the same.
+    pub(super) fn conclude(&mut self, error: RunError) -> RunError {
         let findings = &self.summary.findings;
         if findings
             .iter()
-            .all(|f| f.severity < doctor::Severity::Error)
+            .any(|f| f.severity >= doctor::Severity::Error)
         {
-            let finding = doctor::stopped(self, error);
-            doctor::note(&mut self.summary.findings, finding);
+            return error;
         }
+        let finding = doctor::stopped(self, &error);
+        let error = match finding.cause.is_mistake() {
+            true => doctor::mistake(&finding, error.time),
+            false => error,
+        };
+        doctor::note(&mut self.summary.findings, finding);
+        error
     }
 
     /// Takes note of an attempt that failed.
@@ -329,6 +336,9 @@ impl Simulation {
     pub(super) fn give_up(&mut self, failure: StepFailure) -> RunError {
         if let Some(finding) = self.summary.findings.last_mut() {
             finding.severity = doctor::Severity::Error;
+            if finding.cause.is_mistake() {
+                return doctor::mistake(finding, self.state.t);
+            }
         }
         if failure.cause == Cause::Singular {
             let modes = diagnosis::free_modes(self, self.model.steps[self.step].end);

@@ -41,6 +41,11 @@ impl Amplitude {
         }
     }
 
+    /// Its rows of `[time, factor]`.
+    pub fn rows(&self) -> &[[f64; 2]] {
+        &self.table
+    }
+
     /// The times of its rows: increments land on them.
     pub fn times(&self) -> impl Iterator<Item = f64> + '_ {
         self.table.iter().map(|row| row[0])

@@ -7,6 +7,9 @@ use super::{Evaluations, Interface};
 use crate::contact::law::own::{LimitFunction, OwnFriction, OwnNormal, PressureFunction};
 use crate::contact::response::Told;
 
+/// Negative limit relative to the pressure that is none.
+const ROUNDING: f64 = 1e-12;
+
 impl Interface {
     /// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
     /// begins.
@@ -46,7 +49,15 @@ impl Interface {
         if let Some(friction) = &own.friction {
             let questions = self.questions(scene, &told, Asking::Friction, out, anchors);
             let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
-            for (q, answer) in questions.iter().zip(friction.limits(&points)) {
+            for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
+                // A negative limit would push where friction resists: the iteration stops instead.
+                if answer.value < -ROUNDING * q.friction.pressure.abs() {
+                    answer.value = f64::NAN;
+                }
+                answer.value = match answer.value < 0.0 {
+                    true => 0.0,
+                    false => answer.value,
+                };
                 told[q.point].limit = Some(answer);
             }
         }

@@ -324,7 +324,7 @@ impl Interface {
         (header.map(str::to_string).to_vec(), columns)
     }
 
-    /// Gaps of all points in the reference configuration; NaN or infinite where there is nothing opposite.
+    /// Gaps of all points at the last accepted state; NaN or infinite where there is nothing opposite.
     pub fn initial_gaps(&self) -> Vec<f64> {
         self.memory.committed.iter().map(|h| h.gap).collect()
     }

@@ -32,7 +32,8 @@ pub(in crate::simulation) fn diagnose(
         .iter()
         .filter_map(|c| c.evidence.as_deref())
         .collect();
-    let mut finding = match failure.cause {
+    let root = root(simulation, &failure.cause);
+    let mut finding = root.unwrap_or_else(|| match failure.cause {
         Cause::Singular => singular(simulation, trial, failure),
         Cause::LinearSolver => linear(simulation, trial),
         Cause::NotConverged => not_converged(simulation, trial, &evidence),
@@ -46,7 +47,7 @@ pub(in crate::simulation) fn diagnose(
             Finding::new(DoctorCause::Stopped, Severity::Error, "").advise(MORE_MEMORY)
         }
         Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
-    };
+    });
     if finding.message.is_empty() {
         finding.message = failure.message.clone();
     } else {
@@ -55,15 +56,54 @@ pub(in crate::simulation) fn diagnose(
     for (culprit, e) in failure.culprits.iter().zip(&evidence) {
         finding = finding.blame(point(e, culprit.what.clone()));
     }
-    finding.advice.extend(failure.help.clone());
+    // What helps against the failure does not help against the mistake that led to it.
+    if !finding.cause.is_mistake() {
+        finding.advice.extend(failure.help.clone());
+    }
     finding.tried = tried(simulation, trial, attempt, chart);
     finding.step = Some(simulation.step_name().to_string());
     finding.time = Some(trial.from);
     finding
 }
 
+/// A mistake in the model that keeps any system from being solved.
+fn root(simulation: &Simulation, cause: &Cause) -> Option<Finding> {
+    let model = &simulation.model;
+    match cause {
+        Cause::TooFar | Cause::Reach | Cause::Event | Cause::Interrupted | Cause::Memory => {
+            return None;
+        }
+        Cause::Singular | Cause::LinearSolver | Cause::NotConverged | Cause::CollapsedCell => {}
+        Cause::NotFinite => {
+            // Laws of the families are finite wherever they are asked.
+            let own = model.interfaces.iter().find(|i| i.laws.own.any());
+            let faulty = own.map(|i| {
+                Finding::new(
+                    DoctorCause::FaultyLaw,
+                    Severity::Warning,
+                    format!(
+                        "interface {}: a function that is used as a law gives something that is not finite, or a negative limit of friction",
+                        i.name
+                    ),
+                )
+                .blame(Guilty::interface(&i.name, "laws from functions"))
+                .advise("try the function at the gaps, pressures and speeds of the last increment")
+            });
+            return check::roots(model).into_iter().next().or(faulty);
+        }
+    }
+    check::roots(model).into_iter().next()
+}
+
 /// A run that ended for a reason of which there is no finding yet.
 pub(in crate::simulation) fn stopped(simulation: &Simulation, error: &RunError) -> Finding {
+    if let Some(mut finding) = check::roots(&simulation.model).into_iter().next() {
+        finding.severity = Severity::Error;
+        finding.message = format!("{}: {}", finding.message, error.message);
+        finding.step = Some(simulation.step_name().to_string());
+        finding.time = Some(error.time);
+        return finding;
+    }
     let mut finding = Finding::new(DoctorCause::Stopped, Severity::Error, error.message.clone());
     for culprit in &error.culprits {
         finding = finding.blame(Guilty::key("", culprit.clone()));
@@ -137,7 +177,9 @@ fn singular(simulation: &Simulation, trial: &Trial, failure: &StepFailure) -> Fi
         return finding;
     }
     if !free.is_empty() {
-        return free_mode(simulation, trial, &free, "is held by nothing");
+        // A body that contact cannot hold because its sides look the wrong way needs no other support.
+        let turned = check::opposed(simulation);
+        return turned.unwrap_or_else(|| free_mode(simulation, trial, &free, "is held by nothing"));
     }
     let model = &simulation.model;
     // A body in pieces is held only where its supports are.
@@ -204,7 +246,10 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
         };
         let e = interface.evidence(i);
         if gap > 0.0 {
-            finding = finding.blame(point(&e, format!("gap {gap:.3e}, the smallest")));
+            finding = finding.blame(point(
+                &e,
+                format!("gap {gap:.3e}, the smallest at the last state"),
+            ));
         }
     }
     finding
@@ -212,8 +257,14 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
         .advise("move the bodies until they touch, or prescribe a displacement instead of a force")
 }
 
-/// The point nearest to the primary in the reference configuration, and its gap.
+/// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.
 fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
+    let accepted = interface.initial_gaps();
+    let finite = accepted.into_iter().enumerate();
+    let accepted = finite.filter(|(_, g)| g.is_finite());
+    if let Some(found) = accepted.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        return Some(found);
+    }
     let mut opposite = Opposite::new(interface, t);
     let gaps = interface.points.iter().enumerate().filter_map(|(i, p)| {
         let nearest = opposite.nearest(p.position(&interface.reference))?;
@@ -293,13 +344,16 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
     let told = signs
         .as_ref()
         .is_some_and(|f| f.cause != DoctorCause::Chatter);
+    let to_and_fro = signs.clone().filter(|_| !told);
     let prescribed = match told {
         true => None,
         false => prescribed_slip(simulation, trial),
     };
     let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
     prescribed
-        .or(signs)
+        .or(signs.filter(|_| told))
+        .or_else(|| check::suspects(&simulation.model).into_iter().next())
+        .or(to_and_fro)
         .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
 }
 

@@ -64,11 +64,31 @@ pub enum DoctorCause {
     DisconnectedBody,
     /// Nothing moves and nothing is loaded.
     NothingActs,
+    /// A support holds the surface of contact itself.
+    SupportOnContact,
+    /// A load acts on the surface of contact itself.
+    LoadOnContact,
+    /// Two interfaces join the same surfaces at the same time.
+    DoubledInterface,
+    /// A factor jumps faster than increments can follow.
+    SuddenChange,
+    /// The largest value of an amplitude lies beyond the end of the analysis.
+    AmplitudeUnused,
+    /// A normal law is far softer or stiffer than the bodies.
+    LawOutOfRange,
+    /// A function that is used as a law gives what no law can.
+    FaultyLaw,
+    /// What is prescribed strains bodies more than small strains allow.
+    LargeStrain,
+    /// All that is prescribed opens an interface.
+    MovesApart,
+    /// A velocity comes near the speed of sound.
+    TooFast,
 }
 
 impl DoctorCause {
     /// All causes, in the order of [`code`](DoctorCause::code).
-    pub const ALL: [DoctorCause; 27] = [
+    pub const ALL: [DoctorCause; 37] = [
         DoctorCause::FreeRigidMode,
         DoctorCause::Chatter,
         DoctorCause::LostProjection,
@@ -96,7 +116,32 @@ impl DoctorCause {
         DoctorCause::FrictionWithoutPressure,
         DoctorCause::DisconnectedBody,
         DoctorCause::NothingActs,
+        DoctorCause::SupportOnContact,
+        DoctorCause::LoadOnContact,
+        DoctorCause::DoubledInterface,
+        DoctorCause::SuddenChange,
+        DoctorCause::AmplitudeUnused,
+        DoctorCause::LawOutOfRange,
+        DoctorCause::FaultyLaw,
+        DoctorCause::LargeStrain,
+        DoctorCause::MovesApart,
+        DoctorCause::TooFast,
     ];
+
+    /// Whether it is a mistake in the model, so that advice about how it is solved does not help.
+    pub fn is_mistake(self) -> bool {
+        matches!(
+            self,
+            DoctorCause::CollapsedCell
+                | DoctorCause::DoubledInterface
+                | DoctorCause::LawOutOfRange
+                | DoctorCause::FaultyLaw
+                | DoctorCause::TooFast
+                | DoctorCause::MixedUnits
+                | DoctorCause::LargeStrain
+                | DoctorCause::NormalsNotOpposed
+        )
+    }
 
     /// Its number in `culprits.vtu`, from 1.
     pub fn code(self) -> usize {

@@ -23,6 +23,7 @@ pub(super) use check::examine;
 pub(super) use culprits::write as write_culprits;
 pub(super) use diagnose::{MORE_MEMORY, diagnose, stopped};
 
+use crate::error::RunError;
 use crate::newton::Statistics;
 
 /// Most findings that a summary keeps.
@@ -44,6 +45,20 @@ impl Chart {
             continuations: statistics.continuations,
             augmentations: statistics.augmentations,
         }
+    }
+}
+
+/// The error of a run at time `t` that ends because of a mistake in the model.
+pub(super) fn mistake(finding: &Finding, t: f64) -> RunError {
+    let step = finding
+        .step
+        .as_deref()
+        .map_or(String::new(), |s| format!("step {s}: "));
+    RunError {
+        message: format!("{step}{}", finding.message),
+        time: t,
+        culprits: finding.guilty.iter().map(Guilty::to_string).collect(),
+        help: (!finding.advice.is_empty()).then(|| finding.advice.join("; ")),
     }
 }
 

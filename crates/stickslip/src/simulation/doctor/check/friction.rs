@@ -3,9 +3,11 @@
 use super::super::coupling::local_limit;
 use super::super::diagnose::friction_coefficient;
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
-use super::{Measured, forced, median, secondary, travel};
+use super::{Measured, driven, forced, median, secondary};
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::normal::NormalModel;
+use crate::math::{Vec3, dot, norm, sub};
+use crate::simulation::model::{Model, Step};
 use crate::simulation::run::Simulation;
 
 /// Coefficients of friction of dry surfaces end here.
@@ -14,8 +16,8 @@ const LARGE: f64 = 1.5;
 /// Ratio of the slopes of neighbouring pieces of a tabulated law that is hard on the iteration.
 const KINK: f64 = 300.0;
 
-/// Part of a unit normal that counts as the direction of a component.
-const ALONG: f64 = 0.1;
+/// Part of a motion along the normal that presses surfaces together.
+const ALONG: f64 = 1e-6;
 
 pub(super) fn check(
     simulation: &Simulation,
@@ -54,7 +56,6 @@ pub(super) fn check(
                 .advise("small increments, a regularised slip rule, or a dynamic step"),
             );
         }
-        out.extend(without_pressure(simulation, interface, measured));
     }
     if let NormalModel::Tabular(law) = &interface.laws.normal {
         let slopes: Vec<f64> = law
@@ -114,31 +115,46 @@ fn coupling(
     Some((median(limits.iter().map(|l| l.1).collect()), worst))
 }
 
-/// Friction where nothing that is prescribed has a part along the normal.
-fn without_pressure(
+/// Friction on an interface that slides while nothing has pressed it together, in the whole analysis or before a later step does.
+pub(super) fn pressureless(
     simulation: &Simulation,
     interface: &Interface,
     measured: &Measured,
 ) -> Option<Finding> {
+    friction_coefficient(interface)?;
     let model = &simulation.model;
-    let overlaps = measured.gaps.iter().zip(&interface.points);
-    let overlaps = overlaps.into_iter().any(|(g, p)| *g < -1e-6 * p.size);
-    let moves = matches!(&interface.primary, Primary::Rigid(_, motion) if motion.rotation.is_some()
-        || !motion.translation.is_empty());
-    if forced(model) || overlaps || moves || !model.initials.is_empty() || travel(model) == 0.0 {
+    let closed = measured.gaps.iter().zip(&interface.points);
+    let overlaps = closed.into_iter().any(|(g, p)| *g < -1e-6 * p.size);
+    if forced(model) || overlaps || !model.initials.is_empty() {
         return None;
     }
-    let mut along = [false; 3];
-    for n in measured.nearest.iter().flatten() {
-        for (along, c) in along.iter_mut().zip(n.normal) {
-            *along |= c.abs() > ALONG;
+    let nearest = measured.gaps.iter().enumerate();
+    let nearest = nearest.filter(|g| g.1.is_finite());
+    let (i, _) = nearest.min_by(|a, b| a.1.total_cmp(b.1))?;
+    let normals: Vec<Vec3> = measured
+        .nearest
+        .iter()
+        .flatten()
+        .map(|n| n.normal)
+        .collect();
+    let x = interface.points[i].position(&interface.reference);
+    let mut slid: Option<&str> = None;
+    for step in model
+        .steps
+        .iter()
+        .filter(|s| interface.schedule.active(s.end))
+    {
+        let moved = moved(model, interface, x, step)?;
+        let presses = |m: &Vec3| normals.iter().any(|n| dot(*m, *n).abs() > ALONG * norm(*m));
+        if moved.iter().any(presses) {
+            return slid.map(|early| too_early(interface, early, &step.name));
+        }
+        let size = interface.points[i].size;
+        if moved.iter().any(|m| norm(*m) > 1e-6 * size) {
+            slid = slid.or(Some(&step.name));
         }
     }
-    let pressed = model.supports.iter().any(|s| {
-        let mut entries = s.entries.iter().filter(|e| !e.hold && e.value != 0.0);
-        entries.any(|e| along[model.dofs.locate(e.dof).1])
-    });
-    (!pressed).then(|| {
+    slid.map(|_| {
         Finding::new(
             DoctorCause::FrictionWithoutPressure,
             Severity::Warning,
@@ -150,4 +166,55 @@ fn without_pressure(
         .blame(Guilty::interface(&interface.name, "carries no pressure"))
         .advise("prescribe a displacement or a load along its normal, in the same step or one before")
     })
+}
+
+/// Motions of the secondary relative to the primary that are prescribed within a step, both moved as wholes; `None` where it does not follow from
+/// supports and obstacles: bodies that are strained between supports bulge, and loose ones are pressed by others.
+fn moved(model: &Model, interface: &Interface, x: Vec3, step: &Step) -> Option<Vec<Vec3>> {
+    let owners = driven::owners(model);
+    let start = model.steps.first().map_or(0.0, |s| s.start);
+    let mut times = vec![step.end];
+    times.extend(
+        step.milestones
+            .iter()
+            .filter(|t| **t > step.start && **t < step.end),
+    );
+    let mut out = Vec::new();
+    for t in times {
+        let prescribed = driven::prescribed(model, &owners, t);
+        let mut sides = [[0.0; 3]; 2];
+        for (moved, side) in sides.iter_mut().zip(driven::pair(model, interface)) {
+            let Some(b) = side else {
+                if let Primary::Rigid(_, motion) = &interface.primary {
+                    let there = motion.pose(start).inward(x);
+                    *moved = sub(motion.pose(t).outward(there), x);
+                }
+                continue;
+            };
+            for c in 0..model.dofs.dim {
+                let component = prescribed[b][c];
+                let pushed = component.count == 0 && driven::meets_others(model, interface, b);
+                if component.uneven || pushed {
+                    return None;
+                }
+                moved[c] = component.mean;
+            }
+        }
+        out.push(sub(sides[0], sides[1]));
+    }
+    Some(out)
+}
+
+fn too_early(interface: &Interface, early: &str, late: &str) -> Finding {
+    let name = &interface.name;
+    Finding::new(
+        DoctorCause::FrictionWithoutPressure,
+        Severity::Warning,
+        format!(
+            "interface {name} slides in step {early}, but is pressed together only in step {late}: until then friction has no pressure and resists nothing"
+        ),
+    )
+    .blame(Guilty::interface(name, format!("carries no pressure in step {early}")))
+    .blame(Guilty::key("step", format!("{early} before {late}")))
+    .advise("press first, then slide: change the order of the steps, or their lists of supports")
 }

@@ -1,8 +1,10 @@
 //! Gaps that cannot close, overlaps that are too deep.
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
-use super::{Measured, forced, secondary, travel};
+use super::driven::flight;
+use super::{Measured, forced_by_loads, secondary, travel};
 use crate::contact::interface::Interface;
+use crate::contact::interface::Start;
 use crate::simulation::run::Simulation;
 
 /// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
@@ -29,7 +31,9 @@ pub(super) fn check(
     let model = &simulation.model;
     let mut out = Vec::new();
     let size = interface.points[first].size;
-    if smallest < -SHALLOW * size {
+    // What is to be done with overlaps has been said where `initial` says it.
+    let meant = interface.initial.start != Start::AsMeshed;
+    if smallest < -SHALLOW * size && !(meant && smallest > -DEEP * size) {
         let severity = match smallest < -DEEP * size {
             true => Severity::Warning,
             false => Severity::Note,
@@ -48,20 +52,24 @@ pub(super) fn check(
         for &(i, gap) in gaps.iter().take_while(|(_, g)| *g < -SHALLOW * size) {
             finding = finding.blame(secondary(interface, i, format!("gap {gap:.3e}")));
         }
-        out.push(
-            finding
+        out.push(match interface.initial.start {
+            Start::Ramp => finding
+                .advise("the fit is deeper than half a cell: take finer increments, or check the sizes of the bodies"),
+            Start::Offset | Start::Snap => finding
+                .advise("check the positions and sizes of the bodies: what is taken away is of the size of cells"),
+            Start::AsMeshed => finding
                 .advise("move a body by the overlap (`body.NAME.translate`) or mend the mesh")
-                .advise("if the overlap is an interference fit, apply it over several increments"),
-        );
+                .advise("if the overlap is an interference fit, resolve it over the first step (`initial = \"ramp\"`)"),
+        });
     }
-    let reach = travel(model);
-    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced(model) {
+    let reach = travel(model) + flight(model);
+    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(model) {
         out.push(
             Finding::new(
                 DoctorCause::InitialGap,
                 Severity::Warning,
                 format!(
-                    "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed moves {reach:.3e} at most",
+                    "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
                     interface.name
                 ),
             )

@@ -1,11 +1,18 @@
 //! What can be told of a model before it runs.
 
+mod cells;
 mod conditions;
+mod driven;
 mod friction;
 mod gaps;
+mod laws;
 mod meshes;
 mod motions;
 mod normals;
+mod schedules;
+mod speeds;
+mod strains;
+mod surfaces;
 mod units;
 
 pub(super) use meshes::disconnected;
@@ -41,23 +48,62 @@ pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>])
     let measured: Vec<Measured> = interfaces
         .map(|(interface, gaps)| measure(interface, gaps, t))
         .collect();
-    let mut out = Vec::new();
-    out.extend(disconnected(&simulation.model));
+    let model = &simulation.model;
+    let mut out = roots(model);
+    out.extend(disconnected(model));
     out.extend(motions::check(simulation, &measured));
-    for (interface, measured) in simulation.model.interfaces.iter().zip(&measured) {
+    for (interface, measured) in model.interfaces.iter().zip(&measured) {
         match normals::check(simulation, interface, measured) {
             // Gaps to a surface that looks the other way mean nothing.
             Some(finding) => out.push(finding),
             None => {
-                out.extend(gaps::check(simulation, interface, measured));
+                let apart = speeds::apart(model, interface, measured);
+                match apart {
+                    // What is never in contact rubs on nothing and closes no gap.
+                    Some(finding) => out.push(finding),
+                    None => {
+                        out.extend(gaps::check(simulation, interface, measured));
+                        out.extend(friction::pressureless(simulation, interface, measured));
+                    }
+                }
+                out.extend(strains::pressed(model, interface, measured));
                 out.extend(meshes::check(simulation, interface, measured));
+                out.extend(surfaces::check(model, interface));
             }
         }
         out.extend(friction::check(simulation, interface, measured));
     }
     out.extend(conditions::check(simulation, &measured));
-    out.extend(units::check(&simulation.model));
+    out.extend(schedules::check(model));
+    out.extend(strains::check(model));
+    out.extend(units::check(model));
     out.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    out
+}
+
+/// The first interface whose sides do not face each other, as far as the state of the run shows.
+pub(super) fn opposed(simulation: &Simulation) -> Option<Finding> {
+    let interfaces = simulation.model.interfaces.iter();
+    let mut found = interfaces.filter_map(|i| {
+        let measured = measure(i, &i.initial_gaps(), simulation.state.t);
+        normals::check(simulation, i, &measured)
+    });
+    found.next()
+}
+
+/// Mistakes that may be why the iteration does not converge: sizes and numbers of single bodies that are those of no body, strains that are not small.
+pub(super) fn suspects(model: &Model) -> Vec<Finding> {
+    let mut out = units::impossible(model);
+    out.extend(strains::check(model));
+    out
+}
+
+/// Mistakes that keep a system from being solved, whatever is done to solve it: cells, laws, surfaces that are joined twice, units of velocities.
+pub(super) fn roots(model: &Model) -> Vec<Finding> {
+    let mut out = cells::slivers(model);
+    out.extend(laws::check(model));
+    out.extend(surfaces::doubled(model));
+    out.extend(speeds::fast(model));
     out
 }
 
@@ -199,9 +245,13 @@ fn times(model: &Model) -> Vec<f64> {
 
 /// Whether forces act in the analysis, inertia included.
 fn forced(model: &Model) -> bool {
-    let loaded = model.loads.iter().any(|l| {
+    forced_by_loads(model) || model.moves()
+}
+
+/// Whether loads act in the analysis.
+fn forced_by_loads(model: &Model) -> bool {
+    model.loads.iter().any(|l| {
         let any = l.entries.iter().any(|(_, f)| *f != 0.0);
         any && times(model).iter().any(|&t| l.schedule.at(t) != 0.0)
-    });
-    loaded || model.moves()
+    })
 }

@@ -5,6 +5,7 @@
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::diameter;
+use crate::body::Space;
 use crate::simulation::Body;
 use crate::simulation::model::Model;
 
@@ -26,6 +27,19 @@ const SPEEDS: [f64; 2] = [10.0, 2e4];
 /// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`.
 const HARD: f64 = 1e9;
 
+/// Speeds of sound in hard solids `[m/s]`: lead has 1200, a porous ceramic less.
+const HARD_SPEEDS: [f64; 2] = [500.0, 2e4];
+
+/// Densities of solids, foams included `[kg/m³]`.
+const DENSITIES: [f64; 2] = [1.0, 3e4];
+
+/// Densities that differ by less are those of materials of one kind.
+const ALIKE: f64 = 2.0;
+
+/// Thickness over the size of the largest body that is hardly in the same unit, both ways; one of exactly 1 is the unit of length.
+const THICK: f64 = 50.0;
+const THIN: f64 = 2e-4;
+
 /// Size of a body of hard material that is hardly a length in metres.
 const HUGE: f64 = 20.0;
 
@@ -44,21 +58,19 @@ struct Numbers<'a> {
 }
 
 pub(super) fn check(model: &Model) -> Vec<Finding> {
-    let all: Vec<Numbers> = model
-        .elastic()
-        .flat_map(|body| {
-            let size = diameter(&model.mesh.points[body.points.clone()]);
-            body.elastic.parts().iter().map(move |part| Numbers {
-                body,
-                modulus: body.elastic.constrained_modulus(part.block).unwrap_or(0.0),
-                density: part.density,
-                size,
-            })
-        })
-        .collect();
+    let all = numbers(model);
     let mut out = Vec::new();
     out.extend(moduli(model, &all));
-    out.extend(sizes(model, &all));
+    out.extend(densities(model, &all));
+    out.extend(thickness(model, &all));
+    out.extend(impossible(model));
+    out
+}
+
+/// Bodies of impossible sizes or numbers.
+pub(super) fn impossible(model: &Model) -> Vec<Finding> {
+    let all = numbers(model);
+    let mut out: Vec<Finding> = sizes(model, &all).into_iter().collect();
     // One finding for several bodies of the same material would say the same thing again.
     let mut told = Vec::new();
     for numbers in &all {
@@ -69,6 +81,19 @@ pub(super) fn check(model: &Model) -> Vec<Finding> {
         }
     }
     out
+}
+
+fn numbers(model: &Model) -> Vec<Numbers<'_>> {
+    let bodies = model.elastic().flat_map(|body| {
+        let size = diameter(&model.mesh.points[body.points.clone()]);
+        body.elastic.parts().iter().map(move |part| Numbers {
+            body,
+            modulus: body.elastic.constrained_modulus(part.block).unwrap_or(0.0),
+            density: part.density,
+            size,
+        })
+    });
+    bodies.collect()
 }
 
 fn finding(message: String) -> Finding {
@@ -85,14 +110,63 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
         .into_iter()
         .find(|f| ratio > f / NEAR && ratio < f * NEAR)?;
     let remark = |n: &Numbers| format!("modulus {:.3e}", n.modulus);
+    let told = finding(format!(
+        "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
+        hard.body.name, soft.body.name
+    ));
+    // Metal on plastic is a common pair and differs by a thousand as well; plastics are light.
+    let alike = hard.density > 0.0 && soft.density > 0.0 && {
+        let ratio = hard.density / soft.density;
+        ratio.max(1.0 / ratio) < ALIKE
+    };
+    let doubtful = factor < 1e4 && !alike;
     Some(
-        finding(format!(
-            "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
-            hard.body.name, soft.body.name
-        ))
+        Finding {
+            severity: if doubtful {
+                Severity::Note
+            } else {
+                Severity::Warning
+            },
+            ..told
+        }
         .blame(super::body(model, &soft.body.name, remark(soft)))
         .blame(super::body(model, &hard.body.name, remark(hard))),
     )
+}
+
+/// Two bodies whose densities differ by the ratio of two units.
+fn densities(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let given = || all.iter().filter(|n| n.density > 0.0);
+    let heavy = given().max_by(|a, b| a.density.total_cmp(&b.density))?;
+    let light = given().min_by(|a, b| a.density.total_cmp(&b.density))?;
+    let ratio = heavy.density / light.density;
+    let near = |f: &f64| ratio > f / NEAR && ratio < f * NEAR;
+    let factor = FACTORS.into_iter().chain([1e12]).find(near)?;
+    let remark = |n: &Numbers| format!("density {:.3e}", n.density);
+    Some(
+        finding(format!(
+            "the densities of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
+            heavy.body.name, light.body.name
+        ))
+        .blame(super::body(model, &heavy.body.name, remark(heavy)))
+        .blame(super::body(model, &light.body.name, remark(light))),
+    )
+}
+
+/// A thickness that is far from the size of all bodies.
+fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let (Space::PlaneStrain { thickness } | Space::PlaneStress { thickness }) = model.space else {
+        return None;
+    };
+    let largest = all.iter().map(|n| n.size).reduce(f64::max)?;
+    let ratio = thickness / largest;
+    let far = !(THIN..=THICK).contains(&ratio) && thickness != 1.0;
+    far.then(|| {
+        finding(format!(
+            "the thickness of {thickness} is {ratio:.3e} times the size of the largest body, {largest:.3e}: is one in millimetres and the other in metres?"
+        ))
+        .blame(Guilty::key("model.thickness", format!("{thickness}")))
+    })
 }
 
 /// Two bodies one of which is a thousand times as large.
@@ -136,10 +210,17 @@ fn alone(model: &Model, n: &Numbers) -> Option<Finding> {
     if n.density > 0.0 {
         let speed = (n.modulus / n.density).sqrt();
         let mut systems = SYSTEMS.iter().filter(|s| plausible(s));
-        if !systems.any(|[_, length]| within(length * speed, SPEEDS)) {
+        if !systems.any(|[stress, length]| {
+            let speeds = match stress * n.modulus >= HARD {
+                true => HARD_SPEEDS,
+                false => SPEEDS,
+            };
+            let density = n.density * stress / (length * length);
+            within(length * speed, speeds) && within(density, DENSITIES)
+        }) {
             return Some(blame(
                 finding(format!(
-                    "body {name}: a modulus of {:.3e} and a density of {:.3e} make a speed of sound of {speed:.3e}, that of no solid in m/s, mm/s or in/s",
+                    "body {name}: a modulus of {:.3e} and a density of {:.3e} with a speed of sound of {speed:.3e} are those of no solid, in kg/m³, t/mm³ or lbf s²/in⁴",
                     n.modulus, n.density
                 )),
                 format!("modulus {:.3e}, density {:.3e}", n.modulus, n.density),

@@ -1,0 +1,211 @@
+//! Defects of supports, loads, amplitudes and steps.
+
+use stickslip::simulation::doctor::DoctorCause;
+
+use crate::Expected::{Found, Refused};
+use crate::models::{CUBES, LOAD, PRESS, SLIDE, THROW};
+use crate::{Defect, defect};
+
+pub const CONDITIONS: &[Defect] = &[
+    defect(
+        "a support holds one direction too few",
+        PRESS,
+        &[
+            ("friction.coulomb = { mu = 0.3 }", "friction.none = {}"),
+            ("set = \"upper.top\", x = 0,", "set = \"upper.top\","),
+        ],
+        Found(DoctorCause::FreeRigidMode, "upper"),
+    ),
+    defect(
+        "the support of the lower body is missing",
+        PRESS,
+        &[(
+            "support.base = { set = \"lower.bottom\", x = 0, y = 0 }\n",
+            "",
+        )],
+        Found(DoctorCause::FreeRigidMode, "lower"),
+    ),
+    defect(
+        "a body that nothing holds",
+        PRESS,
+        &[(
+            "step =",
+            "body.loose = { generate.rectangle = { from = [0, 1], to = [0.02, 1.02], cells = [2, 2] }, material = \"steel\" }\nstep =",
+        )],
+        Found(DoctorCause::FreeRigidMode, "loose"),
+    ),
+    defect(
+        "no friction where friction has to hold the block",
+        LOAD,
+        &[("friction.coulomb = { mu = 0.3 }", "friction.none = {}")],
+        Found(DoctorCause::FreeRigidMode, "block"),
+    ).also(&[DoctorCause::SlidesAway]),
+    defect(
+        "a cube without lateral support",
+        CUBES,
+        &[
+            ("friction.coulomb = { mu = 0.3 }", "friction.none = {}"),
+            ("x = 2e-3, y = 0, z = -2e-2", "z = -2e-2"),
+        ],
+        Found(DoctorCause::FreeRigidMode, "upper"),
+    ),
+    defect(
+        "supports contradict each other",
+        PRESS,
+        &[(
+            "step =",
+            "support.side = { set = \"upper.left\", x = 1e-6 }\nstep =",
+        )],
+        Found(DoctorCause::ContradictingSupports, "top"),
+    ),
+    defect(
+        "friction without anything that presses",
+        PRESS,
+        &[("x = 0, y = -1e-5", "x = 1e-5, y = 0")],
+        Found(DoctorCause::FrictionWithoutPressure, "joint"),
+    ),
+    defect(
+        "a prescribed displacement of zero",
+        PRESS,
+        &[("y = -1e-5", "y = 0")],
+        Found(DoctorCause::NothingActs, "step"),
+    ),
+    defect(
+        "a push beyond the limit of friction",
+        LOAD,
+        &[("traction.value = [1e7, 0]", "traction.value = [2e8, 0]")],
+        Found(DoctorCause::SlidesAway, "block"),
+    ),
+    defect(
+        "a slide over several facets in one increment",
+        PRESS,
+        &[
+            ("x = 0, y = -1e-5", "x = 0.012, y = -1e-5"),
+            (
+                "step = [{ name = \"press\" }]",
+                "step = [{ name = \"press\", increments = { fixed = 1 } }]\nsolver = { max-iterations = 2, tolerance = 1e-14 }",
+            ),
+        ],
+        Found(DoctorCause::TooLargeSlip, "joint"),
+    ),
+    defect(
+        "an explicit increment above the stable one",
+        THROW,
+        &[
+            (
+                "dynamic = {}",
+                "dynamic = { scheme.central-difference = {} }",
+            ),
+            ("fixed = 20", "fixed = 2"),
+        ],
+        Found(DoctorCause::Stopped, "stable"),
+    ),
+    defect(
+        "a support on the surface of contact",
+        PRESS,
+        &[("set = \"upper.top\"", "set = \"upper.bottom\"")],
+        Found(DoctorCause::SupportOnContact, "top"),
+    ),
+    defect(
+        "a support of the base on the surface of contact",
+        CUBES,
+        &[("set = \"lower.bottom\"", "set = \"lower.top\"")],
+        Found(DoctorCause::SupportOnContact, "base"),
+    ),
+    defect(
+        "a load on the surface of contact",
+        LOAD,
+        &[("set = \"block.top\"", "set = \"block.bottom\"")],
+        Found(DoctorCause::LoadOnContact, "weight"),
+    ).also(&[DoctorCause::SlidesAway]),
+    defect(
+        "an amplitude that jumps within one increment",
+        SLIDE,
+        &[("[[1, 0], [2, 1]]", "[[1, 0], [1.5, 0], [1.5000001, 1], [2, 1]]")],
+        Found(DoctorCause::SuddenChange, "along"),
+    ),
+    defect(
+        "an amplitude that begins with its full value",
+        SLIDE,
+        &[("down.table = [[0, 0], [1, 1]]", "down.table = [[0, 1], [1, 1]]")],
+        Found(DoctorCause::SuddenChange, "down"),
+    ),
+    defect(
+        "sliding before pressing",
+        SLIDE,
+        &[("down.table = [[0, 0], [1, 1]]", "down.table = [[1, 0], [2, 1]]"), ("along.table = [[1, 0], [2, 1]]", "along.table = [[0, 0], [1, 1]]")],
+        Found(DoctorCause::FrictionWithoutPressure, "step press"),
+    ),
+    defect(
+        "an amplitude that goes on beyond the analysis",
+        SLIDE,
+        &[("down.table = [[0, 0], [1, 1]]", "down.table = [[0, 0], [1000, 1]]")],
+        Found(DoctorCause::AmplitudeUnused, "down"),
+    ),
+    defect(
+        "an amplitude that begins after the analysis",
+        SLIDE,
+        &[("along.table = [[1, 0], [2, 1]]", "along.table = [[10, 0], [20, 1]]")],
+        Found(DoctorCause::NothingActs, "along"),
+    ),
+    defect(
+        "a bar pressed by half its height",
+        PRESS,
+        &[("y = -1e-5", "y = -1e-2")],
+        Found(DoctorCause::LargeStrain, "upper"),
+    ),
+    defect(
+        "a body pulled to twice its length",
+        PRESS,
+        &[("support.top", "support.side = { set = \"lower.right\", x = 0.04 }\nsupport.hold = { set = \"lower.left\", x = 0 }\nsupport.top")],
+        Found(DoctorCause::LargeStrain, "side"),
+    ).also(&[DoctorCause::ContradictingSupports]),
+    defect(
+        "a body thrown away from the wall",
+        THROW,
+        &[("velocity = [0, -10]", "velocity = [0, 10]")],
+        Found(DoctorCause::MovesApart, "block"),
+    ),
+    defect(
+        "a displacement with the wrong sign",
+        PRESS,
+        &[("y = -1e-5", "y = 1e-5")],
+        Found(DoctorCause::MovesApart, "joint"),
+    ),
+    defect(
+        "a pressure with the wrong sign",
+        LOAD,
+        &[("pressure.value = 1e8", "pressure.value = -1e8")],
+        Found(DoctorCause::SlidesAway, "block"),
+    ),
+    defect(
+        "a load that is listed in no step",
+        LOAD,
+        &[("name = \"load\"", "name = \"load\", loads = [\"weight\"]")],
+        Found(DoctorCause::NothingActs, "push"),
+    ),
+    defect(
+        "an interface that is listed in no step",
+        PRESS,
+        &[("name = \"press\"", "name = \"press\", interfaces = []")],
+        Found(DoctorCause::NothingActs, "joint"),
+    ),
+    defect(
+        "a load under a name that is not there",
+        LOAD,
+        &[("name = \"load\"", "name = \"load\", loads = [\"wieght\"]")],
+        Refused("wieght"),
+    ),
+    defect(
+        "an amplitude that runs back in time",
+        SLIDE,
+        &[("[[1, 0], [2, 1]]", "[[2, 0], [1, 1]]")],
+        Refused("amplitude.along.table"),
+    ),
+    defect(
+        "a support of a direction that the plane has not",
+        PRESS,
+        &[("y = -1e-5", "y = -1e-5, z = 0")],
+        Refused("support.top.z"),
+    ),
+];

@@ -1,0 +1,150 @@
+//! Sound models, of which each planted defect spoils one.
+
+/// Two blocks in the plane, pressed together by a prescribed displacement. Lengths in m.
+pub const PRESS: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "iron" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3, density = 7850 }
+material.iron.isotropic = { young = 170e9, poisson = 0.3, density = 7200 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = -1e-5 }
+step = [{ name = "press" }]
+"#;
+
+/// A block on a rigid floor under a pressure, held by friction alone.
+pub const LOAD: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
+load.weight = { set = "block.top", pressure.value = 1e8 }
+load.push = { set = "block.left", traction.value = [1e7, 0] }
+step = [{ name = "load" }]
+"#;
+
+/// Two cubes in space, pressed and slid. Lengths in mm, moduli in MPa.
+pub const CUBES: &str = r#"
+format = 1
+model.space = "solid"
+body.lower = { generate.box = { to = [10, 10, 10], cells = [3, 3, 3] }, material = "steel" }
+body.upper = { generate.box = { from = [1, 1, 10], to = [9, 9, 18], cells = [4, 4, 4] }, material = "steel" }
+material.steel.isotropic = { young = 210e3, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
+support.top = { set = "upper.top", x = 2e-3, y = 0, z = -2e-2 }
+step = [{ name = "press" }]
+"#;
+
+/// A block that is thrown at a floor.
+pub const THROW: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { from = [0, 0.001], to = [0.04, 0.021], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3, density = 7850 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor" }
+initial.fall = { set = "block", velocity = [0, -10] }
+step = [{ name = "fall", duration = 2e-5, increments = { fixed = 20 }, dynamic = {} }]
+"#;
+
+/// Two cells of Gmsh on a floor; the mesh is written next to the case.
+pub const MESHED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { gmsh.file = "block.msh", material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor" }
+support.top = { set = "block.top", x = 0, y = -1e-5 }
+step = [{ name = "press" }]
+"#;
+
+pub const MESH: &str = "$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 \"bottom\"
+1 2 \"top\"
+2 3 \"steel\"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 0.02 0 0
+3 0.04 0 0
+4 0 0.02 0
+5 0.02 0.02 0
+6 0.04 0.02 0
+7 0.02 0 0
+8 0.02 0.02 0
+$EndNodes
+$Elements
+6
+11 1 2 1 1 1 2
+12 1 2 1 1 2 3
+13 1 2 2 2 4 5
+14 1 2 2 2 5 6
+21 3 2 3 3 1 2 5 4
+22 3 2 3 3 2 3 6 5
+$EndElements
+";
+
+/// Two blocks, pressed together in a first step and slid in a second one.
+pub const SLIDE: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.down = { set = "upper.top", y = -1e-5, amplitude = "down" }
+support.along = { set = "upper.top", x = 1e-5, amplitude = "along" }
+amplitude.down.table = [[0, 0], [1, 1]]
+amplitude.along.table = [[1, 0], [2, 1]]
+step = [{ name = "press" }, { name = "slide" }]
+"#;
+
+/// A ring pressed on another one. Radius and axis.
+pub const RINGS: &str = r#"
+format = 1
+model.space = "axisymmetric"
+body.a = { generate.rectangle = { from = [0.01, 0], to = [0.03, 0.01], cells = [4, 2] }, material = "steel" }
+body.q = { generate.rectangle = { from = [0.012, 0.01], to = [0.028, 0.02], cells = [5, 3] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "q.bottom", primary = "a.top" }
+support.base = { set = "a.bottom", x = 0, y = 0 }
+support.top = { set = "q.top", x = 0, y = -1e-6 }
+step = [{ name = "press" }]
+"#;
+
+/// Two blocks, the upper one with a compliant surface.
+pub const COMPLIANT: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", normal.linear = { c = 1e14 }, friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = -1e-5 }
+step = [{ name = "press" }]
+"#;
+
+/// All models that have nothing wrong with them.
+pub const SOUND: [(&str, &str); 8] = [
+    ("press", PRESS),
+    ("load", LOAD),
+    ("cubes", CUBES),
+    ("throw", THROW),
+    ("meshed", MESHED),
+    ("slide", SLIDE),
+    ("rings", RINGS),
+    ("compliant", COMPLIANT),
+];
