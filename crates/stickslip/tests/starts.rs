@@ -152,3 +152,51 @@ fn an_explicit_step_knows_the_start_as_well() {
         );
     assert!(force(&text) > 0.0);
 }
+
+/// Only the points of a set are moved, and only within a distance.
+#[test]
+fn a_snap_may_be_of_some_points_and_within_a_distance() {
+    let moved = |initial: &str| {
+        let text = blocks(5e-3, -0.01, &format!("initial = \"snap\", {initial}"))
+            + "set.half = { of = \"upper\", box = { from = [-1, 0], to = [0.55, 3] } }\n";
+        let simulation = run(&text);
+        let notes = simulation.summary.notes.join("\n");
+        let count = notes.split(" points of the mesh moved").next();
+        let count = count.and_then(|n| n.rsplit(' ').next());
+        count.and_then(|n| n.parse::<usize>().ok())
+    };
+    assert_eq!(moved("initial-set = \"half\""), Some(4));
+    assert_eq!(moved("initial-distance = 0.006"), Some(7));
+    assert_eq!(moved("initial-distance = 0.004"), Some(0));
+}
+
+#[test]
+fn a_snap_within_a_distance_takes_overlaps_away() {
+    // Deeper than the distance, which is one of gaps.
+    let simulation = run(&blocks(
+        -0.02,
+        -0.01,
+        "initial = \"snap\", initial-distance = 0.001",
+    ));
+    near(simulation.summary.last["joint.CFN2"], 5.0, 3e-2);
+}
+
+#[test]
+fn tied_surfaces_are_glued_up_to_a_distance() {
+    // Two bars of length 1 in series, pulled; what is too far apart carries nothing.
+    for (gap, key, wanted) in [
+        (0.05, "initial-distance = 0.06", 5.0),
+        (0.05, "initial-distance = 0.04", 0.0),
+        (0.5, "initial-distance = 0.6", 5.0),
+        (0.05, "initial-tolerance = 0.4", 5.0),
+        (0.05, "initial-tolerance = 0.2", 0.0),
+    ] {
+        let text = blocks(
+            gap,
+            0.01,
+            &format!("tied = true, kinematics.small-sliding = {{}}, {key}"),
+        );
+        let found = run(&text).summary.last["joint.CFN2"];
+        assert!((found + wanted).abs() < 1e-6, "{key}: {found}");
+    }
+}

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
-use crate::contact::interface::Start;
+use crate::contact::interface::{Start, Within};
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
@@ -42,8 +42,8 @@ pub struct Interface {
     /// Where contact is evaluated. Default: `mortar`; `node-to-facet` where the kinematics is `pop-1995` or facets are `triangles`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub discretisation: Option<DiscretisationModel>,
-    /// The two surfaces are glued together where they lie opposite at the start, nearer than half the height of a cell, at the distance
-    /// that they have there: neither gap nor slip changes, in tension too, and laws have no meaning. For meshes that do not match. Default: false.
+    /// The two surfaces are glued together where they lie opposite at the start, nearer than half the height of a cell (or than
+    /// `initial-tolerance` or `initial-distance` say), at the distance that they have there: neither gap nor slip changes, in tension too, and laws have no meaning. For meshes that do not match. Default: false.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub tied: bool,
     /// How gap and slip are measured.
@@ -65,10 +65,18 @@ pub struct Interface {
     #[serde(default, skip_serializing_if = "as_meshed")]
     pub initial: Start,
     /// Gap up to which `initial` takes hold of a point, as a fraction of the height of the cell beneath; a tenth if not given. Without
-    /// meaning for `as-meshed` and `ramp`.
+    /// meaning for `as-meshed` and `ramp`, unless the surfaces are `tied`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_tolerance: Option<f64>,
+    /// The same as a length `[length]`, instead of `initial-tolerance`. `snap` moves points that overlap by more than that out as well, up to
+    /// the height of the cell.
+    #[schemars(extend("minimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_distance: Option<f64>,
+    /// Points to which `snap` is restricted: `body.set` or a `[set.NAME]`. Default: all of the secondary.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_set: Option<String>,
 }
 
 fn as_meshed(start: &Start) -> bool {
@@ -76,6 +84,12 @@ fn as_meshed(start: &Start) -> bool {
 }
 
 impl Interface {
+    /// How near points have to be at the start, if that is said.
+    pub fn within(&self) -> Option<Within> {
+        let distance = self.initial_distance.map(Within::Distance);
+        distance.or(self.initial_tolerance.map(Within::Fraction))
+    }
+
     /// Where contact is evaluated.
     pub fn discretisation(&self) -> DiscretisationModel {
         let by_points =

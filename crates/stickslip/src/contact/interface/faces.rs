@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Interface, Primary};
+use super::{GLUE, Interface, Primary};
 use crate::contact::mortar::{FaceIntegral, Scratch, Sides, correct, integrate};
 use crate::contact::search::Tree;
 use crate::contact::surface::ContactPoint;
@@ -11,9 +11,6 @@ use crate::system::{Stage, State};
 
 /// Faces integrated by one task.
 const CHUNK: usize = 8;
-
-/// Distance up to which tied surfaces are glued, relative to the height of the cell beneath.
-const GLUE: f64 = 0.5;
 
 impl Interface {
     /// Finds the distances of tied surfaces in the reference configuration.
@@ -36,8 +33,9 @@ impl Interface {
         let asleep = std::mem::take(&mut self.memory.asleep);
         let gaps = self.gaps_at(&still);
         self.memory.asleep = asleep;
+        let within = self.initial.within.unwrap_or(GLUE);
         let near = |(gap, p): (f64, &ContactPoint)| {
-            if gap.abs() <= GLUE * p.size {
+            if gap.abs() <= within.of(p.size) {
                 gap
             } else {
                 f64::NAN

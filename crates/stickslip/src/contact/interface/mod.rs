@@ -28,7 +28,7 @@ pub use quality::{Balance, Quality};
 pub use reach::Reach;
 pub use report::Resultant;
 pub use sides::WearReport;
-pub use start::{Initial, Start, TOLERANCE};
+pub use start::{CLOSE, GLUE, Initial, Start, Within};
 
 use super::enforcement::Multipliers;
 use super::kinematics::KinematicsModel;

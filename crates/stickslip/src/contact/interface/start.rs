@@ -29,8 +29,10 @@ pub enum Start {
 pub struct Initial {
     /// What becomes of the gaps.
     pub start: Start,
-    /// Gap up to which points are moved or count as closed, relative to the height of the cell beneath `[-]`.
-    pub tolerance: f64,
+    /// Gap up to which points are moved, count as closed or are glued; what is usual if not given.
+    pub within: Option<Within>,
+    /// Points of the mesh that may be moved, ascending; all if not given.
+    pub only: Option<Vec<usize>>,
     /// Gap at which a point counts as closed `[m]`, by point; empty until the interface acts, and where there is nothing to subtract.
     offset: Vec<f64>,
     /// The time over which overlap is resolved `[s]`.
@@ -39,21 +41,44 @@ pub struct Initial {
     begun: bool,
 }
 
-/// The default of [`Initial::tolerance`].
-pub const TOLERANCE: f64 = 0.1;
+/// How near a point has to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Within {
+    /// Relative to the height of the cell beneath `[-]`.
+    Fraction(f64),
+    /// A length `[m]`.
+    Distance(f64),
+}
+
+impl Within {
+    /// The distance for a point above a cell of this height `[m]`.
+    pub fn of(self, height: f64) -> f64 {
+        match self {
+            Within::Fraction(fraction) => fraction * height,
+            Within::Distance(distance) => distance,
+        }
+    }
+}
+
+/// How near a point has to be to be moved or to count as closed, if nothing else is said.
+pub const CLOSE: Within = Within::Fraction(0.1);
+
+/// How near tied surfaces have to be to be glued, if nothing else is said.
+pub const GLUE: Within = Within::Fraction(0.5);
 
 impl Default for Initial {
     fn default() -> Self {
-        Initial::new(Start::default(), TOLERANCE)
+        Initial::new(Start::default(), None)
     }
 }
 
 impl Initial {
     /// The start of an interface that has not begun to act.
-    pub fn new(start: Start, tolerance: f64) -> Self {
+    pub fn new(start: Start, within: Option<Within>) -> Self {
         Initial {
             start,
-            tolerance,
+            within,
+            only: None,
             offset: Vec::new(),
             span: [0.0; 2],
             begun: false,
@@ -90,13 +115,13 @@ impl Interface {
         let gaps = self.gaps_at(stage);
         self.memory.asleep = asleep;
         let largest = match self.initial.start {
-            Start::Offset => self.initial.tolerance,
-            _ => 0.0,
+            Start::Offset => self.initial.within.unwrap_or(CLOSE),
+            _ => Within::Distance(0.0),
         };
         let points = gaps.iter().zip(&self.points);
         self.initial.offset = points
             .map(|(&gap, point)| {
-                if gap <= largest * point.size {
+                if gap <= largest.of(point.size) {
                     gap
                 } else {
                     0.0
@@ -113,8 +138,19 @@ impl Interface {
         };
         let x = nodal.reference.clone();
         let feet = nodal.feet(&x, t);
+        let within = self.initial.within.unwrap_or(CLOSE);
         let near = |i: usize, gap: f64| {
-            gap != 0.0 && gap.abs() <= self.initial.tolerance * nodal.points[i].size
+            let size = nodal.points[i].size;
+            // A distance is one of the gap: what overlaps is moved out, unless it lies beneath the whole cell and faces something else.
+            let deepest = match within {
+                Within::Fraction(_) => within.of(size),
+                Within::Distance(d) => d.max(size),
+            };
+            gap != 0.0 && gap <= within.of(size) && -gap <= deepest
+        };
+        let chosen = |node: usize| {
+            let only = self.initial.only.as_ref();
+            only.is_none_or(|only| only.binary_search(&node).is_ok())
         };
         let feet = feet.into_iter().enumerate();
         feet.filter_map(|(i, foot)| Some((i, foot?)))
@@ -123,6 +159,7 @@ impl Interface {
                 let node = nodal.nodes[nodal.points[i].nodes[0]];
                 (node, scale(-gap, normal))
             })
+            .filter(|(node, _)| chosen(*node))
             .collect()
     }
 

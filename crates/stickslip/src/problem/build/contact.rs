@@ -9,7 +9,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Initial, Interface, Memory, Primary, TOLERANCE, neighbours};
+use crate::contact::interface::{Initial, Interface, Memory, Primary, neighbours};
 use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -100,6 +100,17 @@ impl Make<'_> {
             true => Ok((found?, None)),
             false => Ok((facets, Some(points))),
         }
+    }
+
+    /// How an interface starts; `key` is that of its secondary.
+    fn initial(&self, key: &str) -> Result<Initial, Error> {
+        let table = self.table;
+        let mut initial = Initial::new(table.initial, table.within());
+        if let Some(set) = &table.initial_set {
+            let key = key.rsplit_once('.').map_or(key, |(table, _)| table);
+            initial.only = Some(self.sets.points(set, &format!("{key}.initial-set"))?);
+        }
+        Ok(initial)
     }
 
     /// An interface between two surfaces, given with the keys that name them, which carries `share` of the pressure.
@@ -202,7 +213,7 @@ impl Make<'_> {
             belt: belt(table),
             schedule: self.schedule.clone(),
             edge_tolerance: EDGE_TOLERANCE,
-            initial: Initial::new(table.initial, table.initial_tolerance.unwrap_or(TOLERANCE)),
+            initial: self.initial(&secondary.1)?,
             memory: Memory::default(),
         })
     }

@@ -50,7 +50,10 @@ pub(super) fn apply(moves: &Moves, mesh: &mut Mesh) -> Result<(), Error> {
     }
     mesh.check().map_err(|mut e| {
         e.message = format!("after points were moved onto a primary: {}", e.message);
-        e.help = Some("give a smaller `initial-tolerance`, or `initial = \"offset\"`".into());
+        e.help = Some(
+            "give a smaller `initial-tolerance` or `initial-distance`, or `initial = \"offset\"`"
+                .into(),
+        );
         e.into()
     })
 }

@@ -274,6 +274,9 @@ fn interfaces(problem: &Problem, findings: &mut Findings) {
         if !problem.obstacle.contains_key(&interface.primary) {
             set(problem, findings, &key("primary"), &interface.primary);
         }
+        if let Some(points) = &interface.initial_set {
+            set(problem, findings, &key("initial-set"), points);
+        }
         if interface.primary == interface.secondary {
             findings.add(
                 &key("primary"),

@@ -4,6 +4,7 @@ use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
 use super::Findings;
 use crate::body::Formulation;
 use crate::contact::enforcement::Multipliers;
+use crate::contact::interface::Start;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
@@ -231,6 +232,30 @@ fn changes(problem: &Problem, findings: &mut Findings) {
     }
 }
 
+/// What is wrong with how near points have to be at the start.
+fn initial(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    let mut add = |key: &str, message: &str, help: &str| {
+        let key: Vec<&str> = table.iter().copied().chain([key]).collect();
+        findings.add(&key, message, help);
+    };
+    if interface.initial_tolerance.is_some() && interface.initial_distance.is_some() {
+        let message = "give `initial-tolerance` or `initial-distance`, not both";
+        add(
+            "initial-distance",
+            message,
+            "the one is a fraction of the height of cells, the other a length",
+        );
+    }
+    if interface.initial_set.is_some() && interface.initial != Start::Snap {
+        let message = "only `initial = \"snap\"` moves points";
+        add(
+            "initial-set",
+            message,
+            "add initial = \"snap\", or remove the key",
+        );
+    }
+}
+
 /// What is wrong with the laws of an interface; `table` is where they are chosen.
 fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     let Interface {
@@ -279,6 +304,8 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
             slip: SlipModel::default(),
             initial: interface.initial,
             initial_tolerance: interface.initial_tolerance,
+            initial_distance: interface.initial_distance,
+            initial_set: interface.initial_set.clone(),
             wear: None,
             primary_velocity: None,
             primary_velocity_table: None,
@@ -294,6 +321,7 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     if let Some(wear) = &interface.wear {
         findings.faults(&at(&["wear"]), wear.faults());
     }
+    initial(findings, table, interface);
     let triangles = interface.kinematics.as_dyn().triangles();
     if triangles && interface.facets == Some(FacetShape::Bilinear) {
         findings.add(
