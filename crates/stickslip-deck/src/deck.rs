@@ -51,6 +51,8 @@ pub struct Deck {
     pub masses: Vec<(String, f64, Place)>,
     /// `*INITIAL CONDITIONS`.
     pub initial: Vec<InitialCondition>,
+    /// `*INITIAL CONDITIONS` of temperature, in the order of the deck: the last counts at a node.
+    pub temperatures: Vec<Temperature>,
     /// `*TIME POINTS` by name.
     pub time_points: BTreeMap<String, TimePoints>,
     /// `*BOUNDARY` before the first step.
@@ -95,17 +97,21 @@ pub enum SurfaceParts {
 /// A material.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Material {
-    /// Elastic constants.
+    /// Elastic constants at the first temperature.
     pub elastic: Option<Elastic>,
-    /// Mass per volume.
+    /// Elastic constants by temperature, in the order of the deck.
+    pub elastic_at: Vec<(f64, Elastic)>,
+    /// Mass per volume at the first temperature.
     pub density: Option<f64>,
+    /// Mass per volume by temperature, in the order of the deck.
+    pub density_at: Vec<(f64, f64)>,
     /// Rayleigh damping: factors of mass and stiffness.
     pub damping: Option<[f64; 2]>,
     /// Where.
     pub place: Place,
 }
 
-/// `*ELASTIC` at its first temperature.
+/// `*ELASTIC` at a temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Elastic {
     /// Young's modulus and Poisson's ratio.
@@ -198,12 +204,12 @@ pub enum Behavior {
     },
     /// `TABULAR`: rows of overclosure and pressure.
     Tabular(Vec<[f64; 2]>),
-    /// `TIED`: the surfaces are glued.
-    Tied,
+    /// `TIED`: the surfaces are glued, by springs of this stiffness per area if one is given.
+    Tied(Option<f64>),
 }
 
 /// `*FRICTION`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
     /// Coefficient.
     pub mu: f64,
@@ -215,6 +221,8 @@ pub struct Friction {
     pub decay: Option<[f64; 2]>,
     /// `ROUGH`: sticks whatever the pressure.
     pub rough: bool,
+    /// Rows of coefficient, slip rate and pressure, where it depends on them (Abaqus); empty otherwise.
+    pub table: Vec<[f64; 3]>,
 }
 
 /// `*CONTACT PAIR`.
@@ -230,10 +238,19 @@ pub struct Pair {
     pub by_nodes: bool,
     /// `SMALL SLIDING`.
     pub small_sliding: bool,
-    /// `ADJUST` with a distance.
-    pub adjust: Option<f64>,
+    /// `ADJUST`: which nodes of the slave surface are moved onto the master.
+    pub adjust: Option<Adjust>,
     /// Where.
     pub place: Place,
+}
+
+/// `ADJUST` of a `*CONTACT PAIR`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Adjust {
+    /// Those that are no farther than this from it, and those that overlap.
+    Within(f64),
+    /// Those of a set of nodes, however far.
+    Set(String),
 }
 
 /// `*CLEARANCE`.
@@ -258,6 +275,10 @@ pub struct Tie {
     pub slave: String,
     /// Master surface.
     pub master: String,
+    /// `POSITION TOLERANCE`: nodes farther than this from the master stay free.
+    pub tolerance: Option<f64>,
+    /// Nodes that are tied are moved onto the master before, unless `ADJUST=NO`.
+    pub adjust: bool,
     /// Where.
     pub place: Place,
 }
@@ -329,6 +350,17 @@ pub struct InitialCondition {
     /// Direction, 0 to 2.
     pub component: usize,
     /// Value.
+    pub value: f64,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*INITIAL CONDITIONS` of temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Temperature {
+    /// Nodes.
+    pub target: Target,
+    /// Temperature.
     pub value: f64,
     /// Where.
     pub place: Place,
@@ -450,12 +482,12 @@ pub enum Distributed {
     Pressure(Vec<(u64, usize)>, f64),
     /// Pressure on a surface.
     Surface(String, f64),
-    /// Weight: elements, acceleration.
-    Gravity(Vec<u64>, [f64; 3]),
-    /// Elements, square of the angular speed, a point of the axis, its direction.
-    Centrifugal(Vec<u64>, f64, [f64; 3], [f64; 3]),
-    /// Force per volume: elements, force.
-    Body(Vec<u64>, [f64; 3]),
+    /// Weight: elements and the name they were given by, size of the acceleration, its direction of length one.
+    Gravity(Vec<u64>, String, f64, [f64; 3]),
+    /// Elements and the name they were given by, square of the angular speed, a point of the axis, its direction.
+    Centrifugal(Vec<u64>, String, f64, [f64; 3], [f64; 3]),
+    /// Force per volume along an axis, 0 to 2: elements, axis, force.
+    Body(Vec<u64>, usize, f64),
 }
 
 /// Which totals are printed.
@@ -512,6 +544,8 @@ pub enum Print {
         keys: Vec<String>,
         /// Totals.
         totals: Totals,
+        /// In global axes where elements have an `*ORIENTATION`; CalculiX prints along the local ones otherwise.
+        global: bool,
         /// When.
         when: When,
     },

@@ -3,8 +3,8 @@
 //! The road is `files → cards → Deck → Translation`:
 //!
 //! - [`source`] joins the included files and cuts them into cards: a keyword with parameters and its data lines.
-//! - [`Deck::read`] gives every card its meaning. A keyword that matters and is not supported is an error at its line; one that does
-//!   not change the answer is a note. All errors are reported at once.
+//! - [`Deck::read`] gives every card its meaning. One table says of every keyword and parameter whether it is read, refused at its line, or left out
+//!   with a note, as it cannot change the answer; what is in no row is an error. All errors are reported at once.
 //! - [`translate`](Deck::translate) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
 //! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
 //!   Abaqus's columns.
@@ -24,19 +24,18 @@
 //!   The strain across a plane-stress element is not printed.
 //! - `*RIGID BODY` of part of an elastic body has to have its reference node prescribed.
 //! - Lines and faces without section beside cells, which Gmsh writes, only carry sets; CalculiX would compute them.
-//! - A step whose loads have no amplitude ramps them where it is static and applies them at once where it is dynamic; `AMPLITUDE` of `*STEP`
-//!   is not followed, with a warning.
+//! - Several loads on one thing in one step need one amplitude, as they do in CalculiX; Abaqus would take each with its own.
 
 #![forbid(unsafe_code)]
 
 mod deck;
 mod finding;
-mod keywords;
 mod lint;
 mod parse;
 mod print;
 pub mod source;
 mod status;
+mod table;
 mod translate;
 
 pub use deck::*;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::mesh::FacetRef;
 
-use crate::deck::{Behavior, Deck, Interaction, Pair, SurfaceParts};
+use crate::deck::{Deck, Interaction, Pair, SurfaceParts};
 use crate::finding::{Finding, Severity};
 use crate::source::{Card, Place, Source, label};
 use crate::translate::Bodies;
@@ -150,14 +150,10 @@ fn of_interaction(deck: &Deck, name: &str, i: &Interaction) -> Vec<(String, &'st
             "write *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD, or LINEAR with 5 to 50 times Young's modulus",
         ));
     }
-    match i.friction {
-        Some(f) if f.stick.is_none() && !f.rough && f.decay.is_none() => out.push((
+    match &i.friction {
+        Some(f) if f.stick.is_none() && !f.rough && f.decay.is_none() && f.table.is_empty() => out.push((
             format!("the friction of {name} has no stick slope: sticking is exact here, CalculiX needs a slope"),
             "write coefficient, stick slope; a tenth of the slope of the pressure is customary",
-        )),
-        None if i.behavior == Some(Behavior::Tied) => out.push((
-            format!("{name} is TIED and has no *FRICTION: CalculiX takes the stiffness against sliding from its stick slope"),
-            "write *FRICTION with any coefficient and the stick slope",
         )),
         _ => {}
     }
@@ -165,7 +161,7 @@ fn of_interaction(deck: &Deck, name: &str, i: &Interaction) -> Vec<(String, &'st
 }
 
 /// The sum of area vectors, the area, and the number of facets of a surface.
-fn measure(bodies: &Bodies, facets: &[FacetRef]) -> (Vec3, f64) {
+pub(crate) fn measure(bodies: &Bodies, facets: &[FacetRef]) -> (Vec3, f64) {
     let mesh = bodies.mesh();
     let (mut sum, mut total) = ([0.0; 3], 0.0);
     for facet in facets {

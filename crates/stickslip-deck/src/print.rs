@@ -148,8 +148,11 @@ impl Printer {
                     set,
                     keys,
                     totals,
+                    global,
                     when,
-                } if self.due(when) => self.elements(simulation, &mut out, (set, keys, *totals)),
+                } if self.due(when) => {
+                    self.elements(simulation, &mut out, (set, keys, *totals, *global));
+                }
                 Print::Contact {
                     pair,
                     keys,
@@ -221,10 +224,11 @@ impl Printer {
             }
             for (node, point) in &nodes {
                 let mut v = dofs.vector(&values, *point);
+                // Nodes may have different axes: a sum has those of the model.
+                sum = add(sum, v);
                 if let Some(axes) = self.node_axes.get(node).filter(|_| !global) {
                     v = axes.map(|axis| dot(axis, v));
                 }
-                sum = add(sum, v);
                 if totals != Totals::Only {
                     row(out, &format!("{node:>10}"), &v);
                 }
@@ -244,7 +248,7 @@ impl Printer {
         &self,
         simulation: &Simulation,
         out: &mut String,
-        (set, keys, totals): (&str, &[String], Totals),
+        (set, keys, totals, global): (&str, &[String], Totals, bool),
     ) {
         let Some(elements) = self.element_sets.get(set) else {
             return;
@@ -276,7 +280,8 @@ impl Printer {
                             } else {
                                 (p.strain, 0.5)
                             };
-                            let v = tensor(&v, half, self.element_axes.get(id));
+                            let axes = self.element_axes.get(id).filter(|_| !global);
+                            let v = tensor(&v, half, axes);
                             row(out, &format!("{id:>10} {:>3}", i + 1), &v);
                         }
                     }

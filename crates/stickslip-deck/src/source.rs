@@ -51,6 +51,8 @@ pub struct Card {
 impl Card {
     /// The value of a parameter; `Some("")` if it was given without one.
     pub fn get(&self, name: &str) -> Option<&str> {
+        #[cfg(test)]
+        asked::note(&self.keyword, name);
         let found = self.parameters.iter().find(|p| p.name == name)?;
         Some(found.value.as_deref().unwrap_or(""))
     }
@@ -68,6 +70,27 @@ pub struct Source {
     pub files: Vec<PathBuf>,
     /// The cards in order.
     pub cards: Vec<Card>,
+    /// What was forgiven, and where.
+    pub forgiven: Vec<(Place, String)>,
+}
+
+/// Which parameters cards have been asked for: the test of the table compares.
+#[cfg(test)]
+pub(crate) mod asked {
+    use std::cell::RefCell;
+    use std::collections::BTreeSet;
+
+    thread_local! {
+        static ASKED: RefCell<BTreeSet<(String, String)>> = const { RefCell::new(BTreeSet::new()) };
+    }
+
+    pub fn note(keyword: &str, parameter: &str) {
+        ASKED.with_borrow_mut(|a| a.insert((keyword.into(), parameter.into())));
+    }
+
+    pub fn all() -> BTreeSet<(String, String)> {
+        ASKED.with_borrow(Clone::clone)
+    }
 }
 
 /// Deepest nesting of included files.
@@ -137,11 +160,15 @@ impl Source {
                 continue;
             }
             let line = match pending.take() {
-                Some(mut begun) if continues(line) => {
+                Some(mut begun) if continues(&begun.text, line) => {
                     begun.text.push_str(line);
                     begun
                 }
                 Some(begun) => {
+                    if line.starts_with(char::is_alphabetic) {
+                        let message = "the comma at the end of the line is taken as one too many: no parameters follow";
+                        self.forgiven.push((begun.place, message.into()));
+                    }
                     self.take(begun, path, open, lines)?;
                     Line {
                         text: line.to_string(),
@@ -269,10 +296,17 @@ impl Source {
     }
 }
 
-/// Whether a line after a keyword line that ends with a comma goes on with its parameters. They begin with a letter: numbers are data,
-/// and the comma is one too many.
-fn continues(line: &str) -> bool {
-    line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)))
+/// Whether a line after a keyword line that ends with a comma goes on with its parameters, as it does in Abaqus. They begin with a letter and are
+/// parameters of the keyword, or have a value: what else follows is data, and the comma is one too many, as it always is in CalculiX.
+fn continues(begun: &str, line: &str) -> bool {
+    let word = line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)));
+    let keyword = begun.trim_start_matches('*').split(',').next();
+    let Some(row) = crate::table::row(&squeeze(keyword.unwrap_or_default())) else {
+        return word;
+    };
+    let named = |part: &String| part.contains('=') || row.lists(&squeeze(part));
+    let parts = split(line);
+    word && parts.iter().filter(|p| !p.trim().is_empty()).all(named)
 }
 
 /// Capitals without blanks.

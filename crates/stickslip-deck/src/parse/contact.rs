@@ -1,21 +1,23 @@
 //! Interactions and pairs of surfaces.
 
-use super::{Context, Reader, clip, parameter};
+use super::{Context, Reader, clip, number, parameter};
 use crate::deck::Action;
-use crate::deck::{Behavior, Clearance, Friction, Interaction, Pair, Tie};
+use crate::deck::{Adjust, Behavior, Clearance, Friction, Interaction, Pair, Tie};
 use crate::source::{Card, label};
 
 impl Reader<'_> {
     pub(super) fn interaction(&mut self, card: &Card) {
-        self.parameters(card, &["NAME"], &["PAD", "USER"]);
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
-        if card.has("USER") {
+        if let Some(data) = card.data.first()
+            && !data.fields.is_empty()
+            && self.number(data, 0, 1.0) != 1.0
+        {
             self.error(
-                card.place,
-                "interactions of user subroutines are not supported",
-                "give *SURFACE BEHAVIOR and *FRICTION",
+                data.place,
+                "the thickness of an interaction is not supported",
+                "contact acts on the faces as they are: leave the line out, or write 1.",
             );
         }
         let interaction = Interaction {
@@ -38,40 +40,17 @@ impl Reader<'_> {
     }
 
     pub(super) fn behavior(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &[
-                "PRESSURE-OVERCLOSURE",
-                "PENALTY",
-                "DIRECT",
-                "NOSEPARATION",
-                "AUGMENTEDLAGRANGE",
-            ],
-            &[],
-        );
-        if card.has("NOSEPARATION") {
-            self.error(
-                card.place,
-                "surfaces that do not separate are not supported",
-                "use *TIE, or a tied interface",
-            );
-            return;
-        }
         let behavior = match card.get("PRESSURE-OVERCLOSURE").unwrap_or("HARD") {
             "HARD" | "" => {
-                if !card.data.is_empty() && !card.has("PENALTY") {
+                if card.data.iter().any(|d| !d.fields.is_empty()) {
                     self.note(card.place, "the data of hard contact are left out: it is exact here, without a penalty");
-                }
-                if card.has("PENALTY") {
-                    self.note(
-                        card.place,
-                        "PENALTY is left out: hard contact is exact here",
-                    );
                 }
                 Behavior::Hard
             }
             "LINEAR" => {
                 let Some(data) = self.line(card) else { return };
+                // Where CalculiX begins to look for contact is nothing that the pressure depends on.
+                self.only(card, 1, &["slope", "tension", "clearance"]);
                 let slope = self.number(data, 0, 0.0);
                 if slope <= 0.0 {
                     self.error(data.place, "the slope of the pressure over the overclosure must be above 0", "write it in the first field; in CalculiX 5 to 50 times Young's modulus is customary");
@@ -84,6 +63,7 @@ impl Reader<'_> {
             }
             "EXPONENTIAL" => {
                 let Some(data) = self.line(card) else { return };
+                self.only(card, 1, &["c0", "p0"]);
                 let (c0, p0) = (self.number(data, 0, 0.0), self.number(data, 1, 0.0));
                 if c0 <= 0.0 || p0 <= 0.0 {
                     self.error(
@@ -97,6 +77,7 @@ impl Reader<'_> {
             }
             "TABULAR" => {
                 let mut rows: Vec<[f64; 2]> = Vec::new();
+                self.only(card, usize::MAX, &["pressure", "overclosure"]);
                 for data in &card.data {
                     let row = [self.number(data, 1, 0.0), self.number(data, 0, 0.0)];
                     if rows
@@ -122,7 +103,11 @@ impl Reader<'_> {
                 }
                 Behavior::Tabular(rows)
             }
-            "TIED" => Behavior::Tied,
+            "TIED" => {
+                self.only(card, 1, &["stiffness"]);
+                let stiffness = card.data.first().map(|d| self.number(d, 0, 0.0));
+                Behavior::Tied(stiffness.filter(|k| *k > 0.0))
+            }
             other => {
                 let message = format!("PRESSURE-OVERCLOSURE={} is not supported", clip(other));
                 self.error(
@@ -154,60 +139,49 @@ impl Reader<'_> {
     }
 
     pub(super) fn friction(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &[
-                "TAUMAX",
-                "EXPONENTIALDECAY",
-                "ROUGH",
-                "LAGRANGE",
-                "SLIPTOLERANCE",
-                "ELASTICSLIP",
-                "PROPERTIES",
-            ],
-            &["ANISOTROPIC", "DEPVAR", "USER", "SHEARTRACTIONSLOPE"],
-        );
-        for name in ["ANISOTROPIC", "USER"] {
-            if card.has(name) {
-                self.error(
-                    card.place,
-                    format!("*FRICTION, {name} is not supported"),
-                    "friction is isotropic; see `stickslip models` for the laws there are",
-                );
-                return;
-            }
-        }
         let rough = card.has("ROUGH");
-        let mut v = [0.0; 3];
-        let mut given = 0;
+        let decaying = card.has("EXPONENTIALDECAY");
+        let (mut v, mut table, mut plain) = ([0.0; 3], Vec::new(), false);
         if !rough {
             let Some(data) = self.line(card) else { return };
             v = [0, 1, 2].map(|i| self.number(data, i, 0.0));
-            given = data.fields.len();
+            if decaying {
+                self.only(
+                    card,
+                    1,
+                    &["static coefficient", "kinetic coefficient", "decay"],
+                );
+            } else {
+                table = self.friction_table(card);
+                plain = table.is_empty() && data.fields.len() < 3;
+            }
         }
-        if v[0] < 0.0 {
+        if v[0] < 0.0 || table.iter().any(|row| row[0] < 0.0) {
             self.error(
                 card.place,
                 "the coefficient of friction is negative",
                 "write 0 or more",
             );
         }
-        let decay = card.has("EXPONENTIALDECAY").then_some([v[1], v[2]]);
-        for name in ["SLIPTOLERANCE", "ELASTICSLIP"] {
-            if card.has(name) {
-                self.note(
-                    card.place,
-                    format!("{name} is left out: sticking is exact here"),
-                );
-            }
-        }
+        let decay = decaying.then_some([v[1], v[2]]);
+        let slope = parameter(self, card, "SHEARTRACTIONSLOPE");
+        // CalculiX's stiffness of sticking stands where Abaqus has the slip rate, which says nothing in a single row.
+        let second = plain.then_some(v[1]);
         let friction = Friction {
             mu: v[0],
-            stick: (decay.is_none() && given > 1 && v[1] > 0.0).then_some(v[1]),
+            stick: slope.or(second).filter(|k| *k > 0.0),
             cap: parameter(self, card, "TAUMAX"),
             decay,
             rough,
+            table,
         };
+        if friction.cap.is_some() && !friction.table.is_empty() {
+            self.error(
+                card.place,
+                "*FRICTION, TAUMAX is not supported for coefficients that depend on slip rate or pressure",
+                "let the coefficients of the table fall with the pressure as the limit does",
+            );
+        }
         match self.context.clone() {
             Context::Interaction(name) => {
                 if let Some(i) = self.deck.interactions.get_mut(&name) {
@@ -229,7 +203,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn contact_damping(&mut self, card: &Card) {
-        self.parameters(card, &["DEFINITION", "TANGENTFRACTION"], &[]);
         if card
             .get("DEFINITION")
             .is_some_and(|d| d != "DAMPINGCOEFFICIENT")
@@ -245,10 +218,10 @@ impl Reader<'_> {
         let value = self.number(data, 0, 0.0);
         let tangent = parameter(self, card, "TANGENTFRACTION").unwrap_or(0.0);
         if tangent != 0.0 {
-            self.warn(
+            self.error(
                 card.place,
-                "TANGENT FRACTION is left out: damping acts against approach only",
-                "",
+                "*CONTACT DAMPING, TANGENT FRACTION is not supported",
+                "damping acts against approach only: write TANGENT FRACTION=0., or leave it out",
             );
         }
         match self.context.clone() {
@@ -266,7 +239,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn change(&mut self, card: &Card, context: fn(String) -> Context) {
-        self.parameters(card, &["INTERACTION"], &["RESET"]);
         let Some(name) = self.required(card, "INTERACTION") else {
             return;
         };
@@ -300,23 +272,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn contact_pair(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["INTERACTION", "TYPE", "SMALLSLIDING", "ADJUST", "TIED"],
-            &[
-                "CPSET",
-                "HCRIT",
-                "EXTENSIONZONE",
-                "SMOOTH",
-                "GEOMETRICCORRECTION",
-                "MECHANICALCONSTRAINT",
-                "NOTHICKNESS",
-                "SUPPLEMENTARYCONSTRAINTS",
-                "TRACKING",
-                "WEIGHT",
-                "SLIDINGTRANSITION",
-            ],
-        );
         let Some(interaction) = self.required(card, "INTERACTION") else {
             return;
         };
@@ -344,27 +299,18 @@ impl Reader<'_> {
                 return;
             }
         };
-        if card.has("TIED") {
+        let adjust = card.get("ADJUST").map(|text| match super::number(text) {
+            Some(distance) => Adjust::Within(distance),
+            None => Adjust::Set(text.to_string()),
+        });
+        if adjust == Some(Adjust::Set(String::new()))
+            || matches!(adjust, Some(Adjust::Within(d)) if d < 0.0)
+        {
             self.error(
                 card.place,
-                "TIED contact pairs are read as *TIE only",
-                "write *TIE, or PRESSURE-OVERCLOSURE=TIED",
+                "*CONTACT PAIR: ADJUST needs a distance of 0 or more, or a set of nodes",
+                "write ADJUST=0.01, or the name of an *NSET",
             );
-            return;
-        }
-        let mut adjust = None;
-        if let Some(text) = card.get("ADJUST") {
-            adjust = super::number(text);
-            if adjust.is_none() {
-                self.warn(
-                    card.place,
-                    format!(
-                        "ADJUST={} is left out: only distances are read, not sets of nodes",
-                        clip(text)
-                    ),
-                    "give a distance, or write `initial = \"snap\"` in a stickslip file",
-                );
-            }
         }
         let pairs: Vec<&crate::source::Data> = card.data.iter().collect();
         if pairs.is_empty() {
@@ -384,19 +330,21 @@ impl Reader<'_> {
                 interaction: interaction.clone(),
                 by_nodes,
                 small_sliding: card.has("SMALLSLIDING"),
-                adjust,
+                adjust: adjust.clone(),
                 place: data.place,
             });
         }
     }
 
     pub(super) fn clearance(&mut self, card: &Card) {
-        self.parameters(card, &["MASTER", "SLAVE", "VALUE"], &["TABULAR", "CPSET"]);
         let (Some(slave), Some(master)) =
             (self.required(card, "SLAVE"), self.required(card, "MASTER"))
         else {
             return;
         };
+        if self.required(card, "VALUE").is_none() {
+            return;
+        }
         let value = parameter(self, card, "VALUE").unwrap_or(0.0);
         self.deck.clearances.push(Clearance {
             slave,
@@ -407,36 +355,23 @@ impl Reader<'_> {
     }
 
     pub(super) fn tie(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["NAME", "POSITIONTOLERANCE", "ADJUST"],
-            &[
-                "TYPE",
-                "NOROTATION",
-                "TIEDNSET",
-                "CONSTRAINTRATIO",
-                "CYCLICSYMMETRY",
-                "MULTISTAGE",
-                "FLUIDPERIODIC",
-                "FLUIDCYCLIC",
-                "NOTHICKNESS",
-            ],
-        );
-        for name in [
-            "CYCLICSYMMETRY",
-            "MULTISTAGE",
-            "FLUIDPERIODIC",
-            "FLUIDCYCLIC",
-        ] {
-            if card.has(name) {
-                self.error(
-                    card.place,
-                    format!("*TIE, {name} is not supported"),
-                    "only surfaces that stay together are tied",
-                );
+        let tolerance = parameter(self, card, "POSITIONTOLERANCE");
+        if tolerance.is_some_and(|t| t < 0.0) {
+            self.error(
+                card.place,
+                "*TIE: the position tolerance is negative",
+                "nodes of the slave surface are tied that are no farther from the master: write a distance",
+            );
+        }
+        let adjust = match card.get("ADJUST").unwrap_or("YES") {
+            "NO" => false,
+            "YES" | "" => true,
+            other => {
+                let message = format!("*TIE: ADJUST={} is not known", clip(other));
+                self.error(card.place, message, "ADJUST is YES or NO");
                 return;
             }
-        }
+        };
         for data in &card.data {
             let one = Card {
                 data: vec![data.clone()],
@@ -453,8 +388,69 @@ impl Reader<'_> {
                 name,
                 slave,
                 master,
+                // CalculiX takes none for the default.
+                tolerance: tolerance.filter(|t| *t >= 1e-10),
+                adjust,
                 place: data.place,
             });
         }
+    }
+
+    /// It is an error if a card has more lines, or lines with more fields, than these.
+    fn only(&mut self, card: &Card, lines: usize, fields: &[&str]) {
+        let means = |text: &String| !text.is_empty() && number(text) != Some(0.0);
+        let beyond = card.data.iter().enumerate().find_map(|(i, data)| {
+            let from = if i < lines { fields.len() } else { 0 };
+            let at = from + data.fields.iter().skip(from).position(means)?;
+            Some((data.place, at, data.fields[at].clone()))
+        });
+        if let Some((place, field, text)) = beyond {
+            let message = format!(
+                "{}: field {} of this line, `{}`, is not read",
+                card.written,
+                field + 1,
+                clip(&text)
+            );
+            let one = if lines == 1 { ", in one line" } else { "" };
+            self.error(
+                place,
+                message,
+                &format!("the fields are: {}{one}", fields.join(", ")),
+            );
+        }
+    }
+
+    /// The rows of a coefficient that depends on slip rate or pressure; empty if it does not.
+    fn friction_table(&mut self, card: &Card) -> Vec<[f64; 3]> {
+        let mut rows: Vec<[f64; 3]> = Vec::new();
+        if card.data.len() < 2 {
+            // One row says the same at every slip rate, pressure and temperature.
+            return rows;
+        }
+        self.only(card, usize::MAX, &["coefficient", "slip rate", "pressure"]);
+        for data in &card.data {
+            let row = [0, 1, 2].map(|i| self.number(data, i, 0.0));
+            if rows.iter().any(|r| r[1..] == row[1..]) {
+                self.error(
+                    data.place,
+                    "there is a coefficient for this slip rate and pressure already",
+                    "write coefficient, slip rate, pressure",
+                );
+            }
+            rows.push(row);
+        }
+        let count = |k: usize| {
+            let values: std::collections::BTreeSet<u64> =
+                rows.iter().map(|r| r[k].to_bits()).collect();
+            values.len()
+        };
+        if count(1) * count(2) != rows.len() {
+            self.error(
+                card.place,
+                "the table of coefficients has gaps",
+                "give a coefficient for each slip rate at each pressure",
+            );
+        }
+        rows
     }
 }

@@ -4,24 +4,42 @@ use super::{Context, Reader};
 use crate::deck::{Elastic, Material, Orientation, Section};
 use crate::source::{Card, Data};
 
-/// Data lines as one list of numbers, as long as asked for.
-fn numbers(reader: &mut Reader, card: &Card, count: usize) -> Vec<f64> {
-    let mut out = Vec::with_capacity(count);
-    for data in &card.data {
-        // Eight numbers a line, whatever is missing at its end.
-        let here = (count - out.len()).min(8);
-        out.extend((0..here).map(|i| reader.number(data, i, 0.0)));
-        if out.len() == count {
-            break;
+/// Constants of a material by temperature: `count` numbers and a temperature a row, eight numbers a line, whatever is missing at its end.
+fn rows(reader: &mut Reader, card: &Card, count: usize) -> Vec<(f64, Vec<f64>)> {
+    let lines = (count + 1).div_ceil(8);
+    let last = (count + 1) - 8 * (lines - 1);
+    let mut out = Vec::new();
+    for row in card.data.chunks(lines) {
+        let mut numbers: Vec<f64> = Vec::with_capacity(8 * lines);
+        for data in row {
+            numbers.extend((0..8).map(|i| reader.number(data, i, 0.0)));
         }
+        numbers.resize(8 * lines, 0.0);
+        if numbers[count + 1..].iter().any(|n| *n != 0.0) {
+            let place = row.last().map_or(card.place, |d| d.place);
+            let message = format!(
+                "{}: field {} of this line is not read",
+                card.written,
+                last + 1
+            );
+            let help =
+                format!("a row has {count} constants and a temperature, eight numbers a line");
+            reader.error(place, message, &help);
+        }
+        let temperature = numbers[count];
+        numbers.truncate(count);
+        out.push((temperature, numbers));
     }
-    out.resize(count, 0.0);
+    if let Some(i) = (1..out.len()).find(|&i| out[i - 1].0 >= out[i].0) {
+        let place = card.data[i * lines].place;
+        let message = format!("temperature {} does not follow {}", out[i].0, out[i - 1].0);
+        reader.error(place, message, "temperatures of a material increase");
+    }
     out
 }
 
 impl Reader<'_> {
     pub(super) fn material(&mut self, card: &Card) {
-        self.parameters(card, &["NAME"], &["SRATE"]);
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
@@ -52,72 +70,18 @@ impl Reader<'_> {
         None
     }
 
-    fn first_temperature(&mut self, card: &Card, lines: usize) {
-        if card.data.len() > lines {
-            self.note(
-                card.place,
-                format!(
-                    "{}: only the values of the first temperature are used",
-                    card.written
-                ),
-            );
-        }
-    }
-
     pub(super) fn elastic(&mut self, card: &Card) {
-        self.parameters(card, &["TYPE"], &["MODULI"]);
         let kind = card.get("TYPE").unwrap_or("ISO").to_string();
         if self.line(card).is_none() {
             return;
         }
-        let elastic = match kind.as_str() {
-            "ISO" | "ISOTROPIC" | "" => {
-                let v = numbers(self, card, 2);
-                self.first_temperature(card, 1);
-                Elastic::Isotropic([v[0], v[1]])
-            }
-            "ENGINEERINGCONSTANTS" => {
-                let v = numbers(self, card, 9);
-                self.first_temperature(card, 2);
-                Elastic::Engineering(std::array::from_fn(|i| v[i]))
-            }
-            "ORTHO" | "ORTHOTROPIC" => {
-                let v = numbers(self, card, 9);
-                self.first_temperature(card, 2);
-                let mut c = [[0.0; 6]; 6];
-                for (k, (i, j)) in [
-                    (0, 0),
-                    (0, 1),
-                    (1, 1),
-                    (0, 2),
-                    (1, 2),
-                    (2, 2),
-                    (3, 3),
-                    (4, 4),
-                    (5, 5),
-                ]
-                .into_iter()
-                .enumerate()
-                {
-                    c[i][j] = v[k];
-                    c[j][i] = v[k];
-                }
-                Elastic::Full(Box::new(c))
-            }
-            "ANISO" | "ANISOTROPIC" => {
-                let v = numbers(self, card, 21);
-                self.first_temperature(card, 3);
-                let mut c = [[0.0; 6]; 6];
-                // The upper triangle, column by column.
-                let upper = (0..6).flat_map(|j| (0..=j).map(move |i| (i, j)));
-                for ((i, j), value) in upper.zip(v) {
-                    c[i][j] = value;
-                    c[j][i] = value;
-                }
-                Elastic::Full(Box::new(c))
-            }
+        let (count, make): (usize, fn(&[f64]) -> Elastic) = match kind.as_str() {
+            "ISO" | "ISOTROPIC" | "" => (2, |v| Elastic::Isotropic([v[0], v[1]])),
+            "ENGINEERINGCONSTANTS" => (9, |v| Elastic::Engineering(std::array::from_fn(|i| v[i]))),
+            "ORTHO" | "ORTHOTROPIC" => (9, orthotropic),
+            "ANISO" | "ANISOTROPIC" => (21, anisotropic),
             other => {
-                let message = format!("*ELASTIC of type {other} is not supported");
+                let message = format!("*ELASTIC of type {} is not supported", super::clip(other));
                 self.error(
                     card.place,
                     message,
@@ -126,22 +90,27 @@ impl Reader<'_> {
                 return;
             }
         };
+        let rows = rows(self, card, count);
+        let rows: Vec<(f64, Elastic)> = rows.iter().map(|(t, v)| (*t, make(v))).collect();
         if let Some(material) = self.own(card) {
-            material.elastic = Some(elastic);
+            material.elastic = rows.first().map(|(_, e)| e.clone());
+            material.elastic_at = rows;
         }
     }
 
     pub(super) fn density(&mut self, card: &Card) {
-        let Some(data) = self.line(card) else { return };
-        let value = self.number(data, 0, 0.0);
-        self.first_temperature(card, 1);
+        if self.line(card).is_none() {
+            return;
+        }
+        let rows = rows(self, card, 1);
+        let rows: Vec<(f64, f64)> = rows.iter().map(|(t, v)| (*t, v[0])).collect();
         if let Some(material) = self.own(card) {
-            material.density = Some(value);
+            material.density = rows.first().map(|(_, d)| *d);
+            material.density_at = rows;
         }
     }
 
     pub(super) fn damping(&mut self, card: &Card) {
-        self.parameters(card, &["ALPHA", "BETA"], &["STRUCTURAL", "COMPOSITE"]);
         let [alpha, beta] =
             ["ALPHA", "BETA"].map(|name| super::parameter(self, card, name).unwrap_or(0.0));
         if let Some(material) = self.own(card) {
@@ -150,19 +119,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn solid_section(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["ELSET", "MATERIAL", "ORIENTATION"],
-            &["CONTROLS", "STACKDIRECTION", "COMPOSITE"],
-        );
-        if card.has("COMPOSITE") {
-            self.error(
-                card.place,
-                "composite sections are not supported",
-                "give each layer elements and a *SOLID SECTION of its own",
-            );
-            return;
-        }
         let (Some(set), Some(material)) = (
             self.required(card, "ELSET"),
             self.required(card, "MATERIAL"),
@@ -185,7 +141,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn orientation(&mut self, card: &Card) {
-        self.parameters(card, &["NAME", "SYSTEM", "DEFINITION"], &[]);
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
@@ -226,6 +181,13 @@ impl Reader<'_> {
             );
             return;
         };
+        if let Some(more) = card.data.get(2).filter(|d| !d.fields.is_empty()) {
+            self.error(
+                more.place,
+                "*ORIENTATION: this line is not read",
+                "the lines are: two points and the origin; axis and angle of a further rotation",
+            );
+        }
         if let Some(line) = card.data.get(1) {
             let about = self.whole(line, 0).unwrap_or(0) as usize;
             let angle = self.number(line, 1, 0.0).to_radians();
@@ -252,6 +214,40 @@ impl Reader<'_> {
             },
         );
     }
+}
+
+/// `*ELASTIC, TYPE=ORTHO`: D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+fn orthotropic(v: &[f64]) -> Elastic {
+    let mut c = [[0.0; 6]; 6];
+    for (k, (i, j)) in [
+        (0, 0),
+        (0, 1),
+        (1, 1),
+        (0, 2),
+        (1, 2),
+        (2, 2),
+        (3, 3),
+        (4, 4),
+        (5, 5),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        c[i][j] = v[k];
+        c[j][i] = v[k];
+    }
+    Elastic::Full(Box::new(c))
+}
+
+/// `*ELASTIC, TYPE=ANISO`: the upper triangle, column by column.
+fn anisotropic(v: &[f64]) -> Elastic {
+    let mut c = [[0.0; 6]; 6];
+    let upper = (0..6).flat_map(|j| (0..=j).map(move |i| (i, j)));
+    for ((i, j), value) in upper.zip(v) {
+        c[i][j] = *value;
+        c[j][i] = *value;
+    }
+    Elastic::Full(Box::new(c))
 }
 
 /// Orthonormal axes from a vector along the first and one in the plane of the first two.

@@ -2,12 +2,15 @@
 
 use stickslip::io::abaqus;
 
-use super::{Reader, clip, number, parameter, whole};
+use super::{Reader, clip, parameter, whole};
 use crate::deck::{
     Element, Equation, InitialCondition, Rigid, SpringSection, Surface, SurfaceParts, Term,
     TimePoints, Transform,
 };
 use crate::source::{Card, Data, Place, label, squeeze};
+
+/// Numbers of nodes that elements have.
+const NODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
 
 /// Nodes of element types that are not cells.
 fn other_nodes(kind: &str) -> Option<usize> {
@@ -59,7 +62,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn nodes(&mut self, card: &Card) {
-        self.parameters(card, &["NSET"], &["SYSTEM"]);
         if card
             .get("SYSTEM")
             .is_some_and(|s| !s.is_empty() && s != "R")
@@ -96,7 +98,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn elements(&mut self, card: &Card) {
-        self.parameters(card, &["TYPE", "ELSET"], &["SOLIDELEMENTNUMBERING"]);
         let Some(kind) = self.required(card, "TYPE") else {
             return;
         };
@@ -125,6 +126,7 @@ impl Reader<'_> {
             }
         };
         let mut set = Vec::new();
+        let mut forgiven = false;
         let mut lines = card.data.iter();
         while let Some(data) = lines.next() {
             let Some(id) = self.whole(data, 0) else {
@@ -136,6 +138,17 @@ impl Reader<'_> {
             while nodes.len() < count {
                 let Some(more) = lines.next() else { break };
                 self.members(more, 0, &mut nodes);
+            }
+            // CalculiX reads as many numbers as the type has nodes. As many as another type has say that the type is another.
+            if nodes.len() > count && !NODES.contains(&nodes.len()) {
+                if !forgiven {
+                    let message = format!(
+                        "{kind} has {count} nodes: further numbers in the lines of its elements are left out"
+                    );
+                    self.note(data.place, message);
+                }
+                forgiven = true;
+                nodes.truncate(count);
             }
             if nodes.len() != count {
                 let message = format!("element {id} has {} nodes; {kind} has {count}", nodes.len());
@@ -214,18 +227,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn node_set(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &[
-                "NSET",
-                "GENERATE",
-                "UNSORTED",
-                "ELSET",
-                "INTERNAL",
-                "FREQUENCY",
-            ],
-            &["INSTANCE"],
-        );
         let Some(name) = self.required(card, "NSET") else {
             return;
         };
@@ -243,11 +244,10 @@ impl Reader<'_> {
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
                 match whole(field) {
                     Some(n) if self.deck.nodes.contains_key(&n) => out.push(n),
-                    Some(n) => self.error(
-                        data.place,
-                        format!("there is no node {n}"),
-                        "*NODE must stand before *NSET",
-                    ),
+                    Some(n) => {
+                        let absent = (name.clone(), format!("node {n}"), data.place);
+                        self.absent.push(absent);
+                    }
                     None => match self.deck.node_sets.get(&label(field)) {
                         Some(set) => out.extend(set),
                         None => {
@@ -264,12 +264,44 @@ impl Reader<'_> {
         add(self.deck.node_sets.entry(name).or_default(), out);
     }
 
+    /// Nodes of sets that are not there: CalculiX leaves them out, which changes nothing where the set is only printed.
+    pub(super) fn judge_absent(&mut self) {
+        for (set, what, place) in std::mem::take(&mut self.absent) {
+            let (mut printed, mut used) = (false, false);
+            for card in self.source.cards.iter().filter(|c| c.keyword != "NSET") {
+                let named = card
+                    .parameters
+                    .iter()
+                    .any(|p| p.value.as_deref() == Some(&set));
+                match card.keyword.as_str() {
+                    "NODEPRINT" | "NODEFILE" | "NODEOUTPUT" => printed |= named,
+                    _ => used |= named,
+                }
+            }
+            let mut fields = self
+                .source
+                .cards
+                .iter()
+                .flat_map(|c| &c.data)
+                .flat_map(|d| &d.fields);
+            used |= fields.any(|f| label(f) == set);
+            match printed && !used {
+                false => self.error(
+                    place,
+                    format!("there is no {what}"),
+                    "*NODE must stand before *NSET",
+                ),
+                true => self.note(
+                    place,
+                    format!(
+                        "there is no {what}: it is left out of the set {set}, which is only printed"
+                    ),
+                ),
+            }
+        }
+    }
+
     pub(super) fn element_set(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["ELSET", "GENERATE", "UNSORTED", "INTERNAL"],
-            &["INSTANCE"],
-        );
         let Some(name) = self.required(card, "ELSET") else {
             return;
         };
@@ -324,10 +356,17 @@ impl Reader<'_> {
     }
 
     pub(super) fn surface(&mut self, card: &Card) {
-        self.parameters(card, &["NAME", "TYPE", "INTERNAL"], &["TRIM"]);
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
+        let outside = |d: &Data| d.fields.len() < 2;
+        if card.get("TRIM") == Some("YES") && card.data.iter().any(outside) {
+            self.error(
+                card.place,
+                "*SURFACE, TRIM=YES is not supported",
+                "name the faces (S1 to S6) that are meant",
+            );
+        }
         let parts = match card.get("TYPE").unwrap_or("ELEMENT") {
             "" | "ELEMENT" => {
                 let mut faces = Vec::new();
@@ -406,8 +445,25 @@ impl Reader<'_> {
         }
     }
 
+    /// Normals of nodes are for shells and beams, unless they are those of contact.
+    pub(super) fn normal(&mut self, card: &Card) {
+        match card.get("TYPE").unwrap_or("ELEMENT") {
+            "CONTACTSURFACE" => self.error(
+                card.place,
+                "normals of contact surfaces are those of their faces",
+                "leave *NORMAL, TYPE=CONTACT SURFACE out, or refine the mesh",
+            ),
+            _ => self.note(
+                card.place,
+                format!(
+                    "{} is left out: normals at nodes are for shells and beams",
+                    card.written
+                ),
+            ),
+        }
+    }
+
     pub(super) fn transform(&mut self, card: &Card) {
-        self.parameters(card, &["NSET", "TYPE"], &[]);
         let Some(set) = self.required(card, "NSET") else {
             return;
         };
@@ -450,8 +506,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn equation(&mut self, card: &Card) {
-        self.parameters(card, &[], &["REMOVE"]);
-        if card.has("REMOVE") || self.in_step {
+        if self.in_step {
             self.error(
                 card.place,
                 "equations cannot change from step to step",
@@ -511,11 +566,13 @@ impl Reader<'_> {
     }
 
     pub(super) fn rigid_body(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["NSET", "ELSET", "REFNODE", "ROTNODE"],
-            &["POSITION"],
-        );
+        if card.get("POSITION").is_some_and(|p| p != "INPUT") {
+            self.error(
+                card.place,
+                "*RIGID BODY: the reference node stays where it is",
+                "write POSITION=INPUT, and give the node the place that is meant",
+            );
+        }
         let node = |r: &mut Self, name: &str| {
             let text = card.get(name)?;
             let id = whole(text).or_else(|| match r.deck.node_sets.get(text).map(Vec::as_slice) {
@@ -543,18 +600,9 @@ impl Reader<'_> {
     }
 
     pub(super) fn spring(&mut self, card: &Card) {
-        self.parameters(card, &["ELSET"], &["ORIENTATION", "NONLINEAR"]);
         let Some(set) = self.required(card, "ELSET") else {
             return;
         };
-        if card.has("NONLINEAR") || card.has("ORIENTATION") {
-            self.error(
-                card.place,
-                "springs are linear and along the axes",
-                "give one stiffness",
-            );
-            return;
-        }
         let kind = self
             .elements_of(&set, card.place)
             .first()
@@ -569,8 +617,16 @@ impl Reader<'_> {
             data = &data[1..];
         }
         // An empty line of directions has survived as one without fields.
-        let data = data.iter().find(|d| !d.fields.is_empty());
-        let Some(line) = data else {
+        let mut data = data.iter().filter(|d| !d.fields.is_empty());
+        let (line, more) = (data.next(), data.next());
+        if let Some(more) = more {
+            self.error(
+                more.place,
+                "a spring has one stiffness",
+                "springs are linear and do not depend on temperature: give one stiffness",
+            );
+        }
+        let Some(line) = line else {
             self.error(
                 card.place,
                 "*SPRING has no stiffness",
@@ -588,7 +644,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn mass(&mut self, card: &Card) {
-        self.parameters(card, &["ELSET"], &[]);
         let Some(set) = self.required(card, "ELSET") else {
             return;
         };
@@ -606,7 +661,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn initial_conditions(&mut self, card: &Card) {
-        self.parameters(card, &["TYPE"], &["USER", "FILE"]);
         let Some(kind) = self.required(card, "TYPE") else {
             return;
         };
@@ -614,12 +668,19 @@ impl Reader<'_> {
             "VELOCITY" => true,
             "DISPLACEMENT" => false,
             "TEMPERATURE" => {
-                self.note(card.place, "*INITIAL CONDITIONS of temperature are left out: temperatures are not computed");
+                self.initial_temperatures(card);
                 return;
             }
             other => {
-                let message = format!("*INITIAL CONDITIONS of type {other} are not supported");
-                self.error(card.place, message, "types are DISPLACEMENT and VELOCITY");
+                let message = format!(
+                    "*INITIAL CONDITIONS of type {} are not supported",
+                    clip(other)
+                );
+                self.error(
+                    card.place,
+                    message,
+                    "types are DISPLACEMENT, VELOCITY and TEMPERATURE",
+                );
                 return;
             }
         };
@@ -640,24 +701,39 @@ impl Reader<'_> {
         }
     }
 
+    fn initial_temperatures(&mut self, card: &Card) {
+        for data in &card.data {
+            let Some(target) = self.target(data, 0) else {
+                continue;
+            };
+            let value = self.number(data, 1, 0.0);
+            if data.fields.len() > 2 && self.number(data, 2, 0.0) != 0.0 {
+                self.error(
+                    data.place,
+                    "temperatures do not vary across a section",
+                    "write node or set, temperature",
+                );
+            }
+            self.deck.temperatures.push(crate::deck::Temperature {
+                target,
+                value,
+                place: data.place,
+            });
+        }
+    }
+
     pub(super) fn amplitude(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &[
-                "NAME",
-                "TIME",
-                "VALUE",
-                "DEFINITION",
-                "SHIFTX",
-                "SHIFTY",
-                "SMOOTH",
-            ],
-            &["TIMEPOINTS"],
-        );
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
-        if card.get("DEFINITION").is_some_and(|d| d != "TABULAR") || card.has("SMOOTH") {
+        if card.get("VALUE").is_some_and(|v| v != "RELATIVE") {
+            self.error(
+                card.place,
+                "*AMPLITUDE, VALUE=ABSOLUTE is not supported",
+                "amplitudes multiply the values they belong to: give factors",
+            );
+        }
+        if card.get("DEFINITION").is_some_and(|d| d != "TABULAR") {
             self.error(
                 card.place,
                 "only tabular amplitudes are read",
@@ -707,7 +783,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn time_points(&mut self, card: &Card) {
-        self.parameters(card, &["NAME", "GENERATE", "TIME"], &[]);
         let Some(name) = self.required(card, "NAME") else {
             return;
         };
@@ -727,7 +802,9 @@ impl Reader<'_> {
                 times.extend((0..=(count + 1e-9) as usize).map(|i| from + by * i as f64));
                 continue;
             }
-            times.extend(data.fields.iter().filter_map(|f| number(f)));
+            for i in 0..data.fields.len() {
+                times.push(self.number(data, i, 0.0));
+            }
         }
         let points = TimePoints {
             times,

@@ -2,30 +2,10 @@
 
 use super::{Reader, keys, parameter, whole};
 use crate::deck::{Action, Boundary, Distributed, Print, Procedure, Step, Totals, When};
-use crate::source::{Card, Place, label, squeeze};
+use crate::source::{Card, Data, Place, label, squeeze};
 
 impl Reader<'_> {
     pub(super) fn step(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["NLGEOM", "INC", "AMPLITUDE", "NAME", "PERTURBATION"],
-            &[
-                "INCF",
-                "TURBULENCEMODEL",
-                "SHOCKSMOOTHING",
-                "UNSYMM",
-                "EXTRAPOLATION",
-                "SOLVER",
-                "CONVERTSDI",
-            ],
-        );
-        if card.has("PERTURBATION") {
-            self.error(
-                card.place,
-                "*STEP, PERTURBATION is not supported",
-                "take PERTURBATION out: a static step from the deformed state is computed",
-            );
-        }
         if self.in_step {
             self.step_without_procedure();
             self.warn(card.place, "the step before has no *END STEP", "");
@@ -34,16 +14,22 @@ impl Reader<'_> {
         if nonlinear && !self.deck.steps.iter().any(|s| s.nonlinear) {
             self.note(
                 card.place,
-                "NLGEOM: contact follows the surfaces as they move; strains and rotations of the bodies are taken as small",
+                "NLGEOM: contact follows the surfaces as they move; strains and rotations of the bodies are taken as small, and the run says how large they become",
             );
         }
+        let abrupt = match card.get("AMPLITUDE") {
+            None => None,
+            Some("STEP") => Some(true),
+            Some("RAMP") => Some(false),
+            Some(other) => {
+                let message = format!("*STEP, AMPLITUDE={} is not known", super::clip(other));
+                self.error(card.place, message, "AMPLITUDE of *STEP is RAMP or STEP");
+                None
+            }
+        };
         self.deck.steps.push(Step {
             nonlinear,
-            abrupt: match card.get("AMPLITUDE") {
-                Some("STEP") => Some(true),
-                Some("RAMP") => Some(false),
-                _ => None,
-            },
+            abrupt,
             place: card.place,
             ..Step::default()
         });
@@ -118,20 +104,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn statics(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["DIRECT"],
-            &[
-                "SOLVER",
-                "TIMERESET",
-                "TOTALTIMEATSTART",
-                "STABILIZE",
-                "ALLSDTOL",
-                "CONTINUE",
-                "LONGTERM",
-                "FULLYPLASTIC",
-            ],
-        );
         let times = self.times(card);
         self.proceed(
             card,
@@ -143,21 +115,23 @@ impl Reader<'_> {
     }
 
     pub(super) fn dynamics(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["DIRECT", "EXPLICIT", "ALPHA"],
-            &[
-                "SOLVER",
-                "TIMERESET",
-                "TOTALTIMEATSTART",
-                "RELATIVETOABSOLUTE",
-                "APPLICATION",
-                "INITIAL",
-                "NOHAF",
-                "HALFINCSCALEFACTOR",
-                "HAFTOL",
-            ],
-        );
+        if card
+            .get("APPLICATION")
+            .is_some_and(|a| a != "TRANSIENTFIDELITY")
+        {
+            self.error(
+                card.place,
+                "*DYNAMIC: only APPLICATION=TRANSIENT FIDELITY is read",
+                "leave APPLICATION out and give ALPHA, or use *STATIC for what is slow",
+            );
+        }
+        if card.get("INITIAL") == Some("NO") {
+            self.error(
+                card.place,
+                "*DYNAMIC, INITIAL=NO is not supported",
+                "accelerations at the start follow from what acts then: leave INITIAL out",
+            );
+        }
         let times = self.times(card);
         let alpha = parameter(self, card, "ALPHA");
         if alpha.is_some_and(|a| !(-1.0 / 3.0..=0.0).contains(&a)) {
@@ -203,29 +177,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn boundary(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["OP", "AMPLITUDE", "FIXED", "TYPE", "LOADCASE"],
-            &[
-                "TIMEDELAY",
-                "SUBMODEL",
-                "STEP",
-                "DATASET",
-                "MASSFLOW",
-                "REGION",
-                "USER",
-            ],
-        );
-        for name in ["SUBMODEL", "USER", "TIMEDELAY"] {
-            if card.has(name) {
-                self.error(
-                    card.place,
-                    format!("*BOUNDARY, {name} is not supported"),
-                    "prescribe displacements, with an *AMPLITUDE where they change in time",
-                );
-                return;
-            }
-        }
         if card.get("TYPE").is_some_and(|t| t != "DISPLACEMENT") {
             self.error(
                 card.place,
@@ -237,6 +188,7 @@ impl Reader<'_> {
         if self.in_step {
             self.operation(card, Action::ClearBoundaries);
         }
+        let amplitude = self.course(card);
         for data in &card.data {
             let Some(target) = self.target(data, 0) else {
                 continue;
@@ -289,7 +241,7 @@ impl Reader<'_> {
                 target,
                 components,
                 value,
-                amplitude: card.get("AMPLITUDE").map(str::to_string),
+                amplitude: amplitude.clone(),
                 fixed: card.has("FIXED"),
                 place: data.place,
             };
@@ -301,25 +253,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn forces(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["OP", "AMPLITUDE"],
-            &[
-                "TIMEDELAY",
-                "USER",
-                "SECTOR",
-                "SUBMODEL",
-                "STEP",
-                "DATASET",
-                "OMEGA0",
-                "FOLLOWER",
-                "LOADCASE",
-            ],
-        );
         if self.own_step(card).is_none() {
             return;
         }
         self.operation(card, Action::ClearForces);
+        let amplitude = self.course(card);
         for data in &card.data {
             let (Some(target), Some(component)) =
                 (self.target(data, 0), self.direction(data, 1, 3))
@@ -327,19 +265,68 @@ impl Reader<'_> {
                 continue;
             };
             let value = self.number(data, 2, 0.0);
-            let amplitude = card.get("AMPLITUDE").map(str::to_string);
             self.act(Action::Force {
                 target,
                 component,
                 value,
-                amplitude,
+                amplitude: amplitude.clone(),
                 place: data.place,
             });
         }
     }
 
-    fn distribute(&mut self, card: &Card, load: Distributed, place: Place) {
-        let amplitude = card.get("AMPLITUDE").map(str::to_string);
+    /// The amplitude of a card. With TIME DELAY it is one of its own, which is that much later.
+    fn course(&mut self, card: &Card) -> Option<String> {
+        let name = card
+            .get("AMPLITUDE")
+            .filter(|n| !n.is_empty())
+            .map(str::to_string);
+        let Some(delay) = parameter(self, card, "TIMEDELAY") else {
+            return name;
+        };
+        let known = name
+            .as_ref()
+            .and_then(|n| self.deck.amplitudes.get(n))
+            .cloned();
+        let (Some(name), Some(mut amplitude)) = (name, known) else {
+            self.error(
+                card.place,
+                format!(
+                    "{}, TIME DELAY needs an amplitude that it delays",
+                    card.written
+                ),
+                "write AMPLITUDE=..., with the *AMPLITUDE before this card",
+            );
+            return None;
+        };
+        for row in &mut amplitude.rows {
+            row[0] += delay;
+        }
+        let later = format!("{name} after {delay}");
+        self.deck.amplitudes.insert(later.clone(), amplitude);
+        Some(later)
+    }
+
+    /// It is an error if a line has more fields than the kind of load reads.
+    fn no_more(&mut self, data: &Data, count: usize, kind: &str) {
+        let means = |text: &String| !text.is_empty() && super::number(text) != Some(0.0);
+        if let Some(at) = data.fields.iter().skip(count).position(means) {
+            let field = count + at;
+            let message = format!(
+                "field {} of this line, `{}`, is not read",
+                field + 1,
+                super::clip(&data.fields[field])
+            );
+            self.error(
+                data.place,
+                message,
+                &format!("a line with {kind} has {count} fields"),
+            );
+        }
+    }
+
+    fn distribute(&mut self, amplitude: &Option<String>, load: Distributed, place: Place) {
+        let amplitude = amplitude.clone();
         self.act(Action::Distributed {
             load,
             amplitude,
@@ -348,23 +335,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn distributed(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["OP", "AMPLITUDE"],
-            &[
-                "TIMEDELAY",
-                "SECTOR",
-                "SUBMODEL",
-                "STEP",
-                "DATASET",
-                "FOLLOWER",
-                "LOADCASE",
-            ],
-        );
         if self.own_step(card).is_none() {
             return;
         }
         self.operation(card, Action::ClearDistributed);
+        let amplitude = self.course(card);
         for data in &card.data {
             let Some(first) = data.fields.first().cloned() else {
                 continue;
@@ -373,7 +348,11 @@ impl Reader<'_> {
             // `*DLOAD` of a surface is what some pre-processors write.
             if what == "P" && self.deck.surfaces.contains_key(&label(&first)) {
                 let p = self.number(data, 2, 0.0);
-                self.distribute(card, Distributed::Surface(label(&first), p), data.place);
+                self.distribute(
+                    &amplitude,
+                    Distributed::Surface(label(&first), p),
+                    data.place,
+                );
                 continue;
             }
             let elements = match first.is_empty() && matches!(what.as_str(), "GRAV" | "CENTRIF") {
@@ -384,10 +363,24 @@ impl Reader<'_> {
                 continue;
             }
             let value = self.number(data, 2, 0.0);
+            let count = match what.as_str() {
+                "GRAV" => 6,
+                "CENTRIF" => 9,
+                _ => 3,
+            };
+            self.no_more(data, count, &what);
             let load = match what.as_str() {
                 "GRAV" => {
                     let d = [3, 4, 5].map(|i| self.number(data, i, 0.0));
-                    Distributed::Gravity(elements, d.map(|c| c * value))
+                    let Some(d) = stickslip::math::normalize(d) else {
+                        self.error(
+                            data.place,
+                            "GRAV needs a direction",
+                            "write set, GRAV, acceleration, x, y, z",
+                        );
+                        continue;
+                    };
+                    Distributed::Gravity(elements, label(&first), value, d)
                 }
                 "CENTRIF" => {
                     let p = [3, 4, 5].map(|i| self.number(data, i, 0.0));
@@ -396,11 +389,19 @@ impl Reader<'_> {
                         self.error(data.place, "CENTRIF needs the square of the angular speed, a point and a direction of the axis", "write set, CENTRIF, omega squared, px, py, pz, dx, dy, dz");
                         continue;
                     }
-                    Distributed::Centrifugal(elements, value, p, d)
+                    Distributed::Centrifugal(elements, label(&first), value, p, d)
                 }
-                "BX" => Distributed::Body(elements, [value, 0.0, 0.0]),
-                "BY" => Distributed::Body(elements, [0.0, value, 0.0]),
-                "BZ" => Distributed::Body(elements, [0.0, 0.0, value]),
+                "BX" => Distributed::Body(elements, 0, value),
+                "BY" => Distributed::Body(elements, 1, value),
+                "BZ" => Distributed::Body(elements, 2, value),
+                "P" => {
+                    self.error(
+                        data.place,
+                        "the load `P` is a pressure on a shell or on a surface",
+                        "on solid elements name the face, P1 to P6; on a surface use *DSLOAD",
+                    );
+                    continue;
+                }
                 _ if what.starts_with('P') => {
                     let Some(face) = self.face(&what, 'P', data.place) else {
                         continue;
@@ -426,27 +427,16 @@ impl Reader<'_> {
                     continue;
                 }
             };
-            self.distribute(card, load, data.place);
+            self.distribute(&amplitude, load, data.place);
         }
     }
 
     pub(super) fn surface_loads(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &["OP", "AMPLITUDE"],
-            &[
-                "TIMEDELAY",
-                "SUBMODEL",
-                "STEP",
-                "DATASET",
-                "FOLLOWER",
-                "CONSTANTRESULTANT",
-            ],
-        );
         if self.own_step(card).is_none() {
             return;
         }
         self.operation(card, Action::ClearDistributed);
+        let amplitude = self.course(card);
         for data in &card.data {
             let name = data.fields.first().map(|f| label(f)).unwrap_or_default();
             let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
@@ -459,7 +449,7 @@ impl Reader<'_> {
                 continue;
             }
             let p = self.number(data, 2, 0.0);
-            self.distribute(card, Distributed::Surface(name, p), data.place);
+            self.distribute(&amplitude, Distributed::Surface(name, p), data.place);
         }
     }
 
@@ -482,21 +472,6 @@ impl Reader<'_> {
     }
 
     pub(super) fn print(&mut self, card: &Card) {
-        self.parameters(
-            card,
-            &[
-                "NSET",
-                "ELSET",
-                "TOTALS",
-                "FREQUENCY",
-                "FREQUENCYF",
-                "TIMEPOINTS",
-                "SLAVE",
-                "MASTER",
-                "GLOBAL",
-            ],
-            &["SUMMARY", "POSITION", "LASTITERATIONS", "CONTACTELEMENTS"],
-        );
         if self.own_step(card).is_none() {
             return;
         }
@@ -564,6 +539,7 @@ impl Reader<'_> {
                     set,
                     keys,
                     totals,
+                    global: card.get("GLOBAL") == Some("YES"),
                     when,
                 },
                 None => {

@@ -1,11 +1,11 @@
 //! Contact pairs and ties to interfaces, interactions to laws.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::bodies::Bodies;
 use super::sets::Sets;
 use super::{Job, toml};
-use crate::deck::{Action, Behavior, Friction, Interaction, Pair, SurfaceParts};
+use crate::deck::{Action, Adjust, Behavior, Friction, Interaction, Pair, SurfaceParts, Target};
 use crate::source::Place;
 
 /// `(body, name of the set)` of each part of a surface.
@@ -90,7 +90,10 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let single = secondary.len() * primary.len() == 1;
         for (s, from) in &secondary {
             for (p, to) in &primary {
-                if s == p && !single {
+                if s == p
+                    && !single
+                    && meet(job, bodies, (&pair.slave, &pair.master), (*s, pair.place))
+                {
                     continue;
                 }
                 let wanted = match single {
@@ -101,7 +104,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     ),
                 };
                 let name = job.fresh("interface", &toml::name(&wanted));
-                interface(job, &name, pair, (from, to));
+                interface(job, (bodies, sets), &name, pair, (from, to));
                 job.pairs
                     .push((name, pair.slave.clone(), pair.master.clone()));
             }
@@ -112,7 +115,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let primary = parts(job, bodies, sets, &tie.master, true, tie.place);
         for (s, from) in &secondary {
             for (p, to) in &primary {
-                if s == p {
+                if s == p && meet(job, bodies, (&tie.slave, &tie.master), (*s, tie.place)) {
                     continue;
                 }
                 let name = job.fresh("interface", &toml::name(&tie.name));
@@ -121,13 +124,92 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 job.out.line(&format!("primary = {}", toml::text(to)));
                 job.out.line("tied = true");
                 job.out.line("kinematics.small-sliding = {}");
+                by_points(job, &tie.slave);
+                if tie.adjust {
+                    job.out.line("initial = \"snap\"");
+                }
+                let distance = tie
+                    .tolerance
+                    .unwrap_or_else(|| TOLERANCE * face_size(job, bodies, &tie.master));
+                job.out
+                    .line(&format!("initial-distance = {}", toml::number(distance)));
             }
         }
     }
     changes(job);
 }
 
-fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
+/// `POSITION TOLERANCE` of a `*TIE` that has none, relative to the size of the faces of the master (CalculiX CrunchiX manual, *Keywords in CalculiX,
+/// \*TIE*).
+const TOLERANCE: f64 = 0.025;
+
+/// A typical size of the faces of a surface.
+fn face_size(job: &Job, bodies: &Bodies, surface: &str) -> f64 {
+    let Some(surface) = job.deck.surfaces.get(surface) else {
+        return 0.0;
+    };
+    let facets: Vec<_> = bodies
+        .faces(&surface.parts)
+        .into_values()
+        .flatten()
+        .collect();
+    let (_, area) = crate::lint::measure(bodies, &facets);
+    let mean = area / facets.len().max(1) as f64;
+    if bodies.dim() == 3 { mean.sqrt() } else { mean }
+}
+
+/// A slave surface of nodes is met by points.
+fn by_points(job: &mut Job, surface: &str) -> bool {
+    let surface = job.deck.surfaces.get(surface);
+    let nodes = surface.is_some_and(|s| matches!(s.parts, SurfaceParts::Nodes(_)));
+    if nodes {
+        job.out.line("discretisation.node-to-facet = {}");
+    }
+    nodes
+}
+
+/// Whether the parts of two surfaces that belong to one body have nodes in common, where nothing can be tied or touch; it is an error if so.
+fn meet(
+    job: &mut Job,
+    bodies: &Bodies,
+    (slave, master): (&str, &str),
+    (body, place): (usize, Place),
+) -> bool {
+    let nodes = |name: &str| -> BTreeSet<u64> {
+        let Some(surface) = job.deck.surfaces.get(name) else {
+            return BTreeSet::new();
+        };
+        let own = |n: &u64| bodies.of_node.get(n) == Some(&body);
+        if let SurfaceParts::Nodes(nodes) = &surface.parts {
+            return nodes.iter().copied().filter(own).collect();
+        }
+        let facets = bodies.faces(&surface.parts).remove(&body);
+        let mesh = bodies.mesh();
+        let points = mesh.points_of_facets(&facets.unwrap_or_default());
+        points.into_iter().map(|p| mesh.point_ids[p]).collect()
+    };
+    let (ours, theirs) = (nodes(slave), nodes(master));
+    let Some(first) = ours.intersection(&theirs).next() else {
+        return false;
+    };
+    let count = ours.intersection(&theirs).count();
+    job.error(
+        place,
+        format!(
+            "the surfaces {slave} and {master} have {count} nodes in common, such as node {first}"
+        ),
+        "leave the faces at these nodes out of one of the two",
+    );
+    true
+}
+
+fn interface(
+    job: &mut Job,
+    (bodies, sets): (&Bodies, &mut Sets),
+    name: &str,
+    pair: &Pair,
+    (from, to): (&str, &str),
+) {
     let deck = job.deck;
     let Some(interaction) = deck.interactions.get(&pair.interaction) else {
         return;
@@ -135,15 +217,15 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
     job.table("interface", name, pair.place);
     job.out.line(&format!("secondary = {}", toml::text(from)));
     job.out.line(&format!("primary = {}", toml::text(to)));
-    if interaction.behavior == Some(Behavior::Tied) {
-        job.out.line("tied = true");
+    if let Some(Behavior::Tied(stiffness)) = &interaction.behavior {
+        tied(job, pair, interaction, *stiffness);
         return;
     }
     if let Some(line) = normal(interaction.behavior.as_ref(), pair.by_nodes) {
         job.out.line(&line);
     }
-    if let Some(f) = interaction.friction {
-        job.out.line(&friction(&f));
+    if let Some(f) = &interaction.friction {
+        job.out.line(&friction(f));
     }
     enforcement(job, interaction);
     if let Some([d, _]) = interaction.damping
@@ -156,7 +238,7 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
     }
     // CalculiX integrates penalty springs over the faces; on quadratic ones that is what the points of the faces do here.
     let quadratic = compliant(interaction) && curved(job, pair);
-    if pair.by_nodes || quadratic {
+    if !by_points(job, &pair.slave) && (pair.by_nodes || quadratic) {
         job.out.line("discretisation.node-to-facet = {}");
     }
     if pair.small_sliding {
@@ -170,14 +252,67 @@ fn interface(job: &mut Job, name: &str, pair: &Pair, (from, to): (&str, &str)) {
         // Whatever gap the meshes have counts as none.
         job.out.line("initial = \"offset\"");
         job.out.line("initial-tolerance = 1e3");
-    } else if let Some(distance) = pair.adjust {
-        job.out.line("initial = \"snap\"");
-        let size = cell_height(job, pair);
-        if size > 0.0 && distance > 0.0 {
-            job.out.line(&format!(
-                "initial-tolerance = {}",
-                toml::number(distance / size)
-            ));
+    } else {
+        adjust(job, bodies, sets, pair);
+    }
+}
+
+/// `PRESSURE-OVERCLOSURE=TIED`: glue, or springs in all directions if it has a stiffness. CalculiX takes that against sliding from the stick slope.
+fn tied(job: &mut Job, pair: &Pair, interaction: &Interaction, stiffness: Option<f64>) {
+    job.out.line("tied = true");
+    by_points(job, &pair.slave);
+    // Springs act between the places that lie opposite at the start, however far they are stretched.
+    if pair.small_sliding || stiffness.is_some() {
+        job.out.line("kinematics.small-sliding = {}");
+    }
+    if pair.by_nodes {
+        job.error(
+            pair.place,
+            "PRESSURE-OVERCLOSURE=TIED is for pairs of faces",
+            "write TYPE=SURFACE TO SURFACE, or *TIE",
+        );
+    }
+    let Some(stiffness) = stiffness else { return };
+    match interaction.friction.as_ref().and_then(|f| f.stick) {
+        Some(stick) => job.out.line(&format!(
+            "enforcement.penalty = {{ stiffness = {}, tangential-stiffness = {} }}",
+            toml::number(stiffness),
+            toml::number(stick)
+        )),
+        None => job.error(
+            interaction.place,
+            "an interaction that is TIED by a stiffness has none against sliding",
+            "write *FRICTION with a coefficient and the stick slope beneath, as CalculiX wants it; or use *TIE, which is exact",
+        ),
+    }
+}
+
+/// `ADJUST`: nodes of the slave surface that are moved onto the master.
+fn adjust(job: &mut Job, bodies: &Bodies, sets: &mut Sets, pair: &Pair) {
+    let Some(adjust) = &pair.adjust else { return };
+    job.out.line("initial = \"snap\"");
+    match adjust {
+        Adjust::Within(distance) => job
+            .out
+            .line(&format!("initial-distance = {}", toml::number(*distance))),
+        Adjust::Set(name) => {
+            // However far: nothing in the model is farther than this.
+            let x = &bodies.mesh().points;
+            let far = x.iter().flatten().fold(0.0, |m: f64, c| m.max(c.abs()));
+            job.out
+                .line(&format!("initial-distance = {}", toml::number(4.0 * far)));
+            let nodes = job.nodes(&Target::Set(name.clone()));
+            if !nodes.iter().any(|n| bodies.of_node.contains_key(n)) {
+                let message = format!("no node of the set {name} is part of a body");
+                job.error(
+                    pair.place,
+                    message,
+                    "ADJUST names nodes of the slave surface",
+                );
+                return;
+            }
+            let set = sets.points(bodies, &toml::name(name), &nodes);
+            job.out.line(&format!("initial-set = {}", toml::text(&set)));
         }
     }
 }
@@ -205,35 +340,10 @@ fn curved(job: &Job, pair: &Pair) -> bool {
     faces.iter().any(|(e, _)| solid(e) && nodes(e) >= 10)
 }
 
-/// A typical height of the cells of the slave surface, to which distances are related.
-fn cell_height(job: &Job, pair: &Pair) -> f64 {
-    let deck = job.deck;
-    let Some(SurfaceParts::Faces(faces)) = deck.surfaces.get(&pair.slave).map(|s| &s.parts) else {
-        return 0.0;
-    };
-    let heights = faces.iter().filter_map(|(e, _)| {
-        let nodes = &deck.elements.get(e)?.nodes;
-        let x: Vec<[f64; 3]> = nodes.iter().map(|n| deck.nodes[n]).collect();
-        let extent = |c: usize| {
-            let (low, high) = x
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-                    (l.min(p[c]), h.max(p[c]))
-                });
-            high - low
-        };
-        (0..3)
-            .map(extent)
-            .filter(|h| *h > 0.0)
-            .min_by(f64::total_cmp)
-    });
-    heights.max_by(f64::total_cmp).unwrap_or(0.0)
-}
-
 /// The line of the normal law; `None` is the default, which is exact.
 fn normal(behavior: Option<&Behavior>, by_nodes: bool) -> Option<String> {
     match behavior? {
-        Behavior::Hard | Behavior::Tied => None,
+        Behavior::Hard | Behavior::Tied(_) => None,
         Behavior::Linear { slope, tension } if by_nodes && *tension > 0.0 => {
             let rows: Vec<String> = smooth(*slope, *tension)
                 .iter()
@@ -283,7 +393,38 @@ fn smooth(slope: f64, tension: f64) -> Vec<[f64; 2]> {
     rows
 }
 
+/// Coefficients over pressure and slip rate, as a table of one row a pressure. The rows of the deck fill it, which its reader has seen to.
+fn coefficients(rows: &[[f64; 3]]) -> String {
+    let list = |k: usize| {
+        let mut all: Vec<f64> = rows.iter().map(|r| r[k]).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    };
+    let (speeds, pressures) = (list(1), list(2));
+    let at = |p: f64, v: f64| {
+        rows.iter()
+            .find(|r| r[1] == v && r[2] == p)
+            .map_or(0.0, |r| r[0])
+    };
+    let table: Vec<String> = pressures
+        .iter()
+        .map(|p| toml::numbers(&speeds.iter().map(|v| at(*p, *v)).collect::<Vec<_>>()))
+        .collect();
+    let mut keys = Vec::new();
+    for (key, list) in [("pressures", &pressures), ("speeds", &speeds)] {
+        if list.len() > 1 {
+            keys.push(format!("{key} = {}", toml::numbers(list)));
+        }
+    }
+    keys.push(format!("mu = [{}]", table.join(", ")));
+    format!("friction.tabular = {{ {} }}", keys.join(", "))
+}
+
 fn friction(f: &Friction) -> String {
+    if !f.table.is_empty() {
+        return coefficients(&f.table);
+    }
     let cap = match f.cap {
         Some(cap) => format!(", cap = {}", toml::number(cap)),
         None => String::new(),
@@ -304,7 +445,7 @@ fn friction(f: &Friction) -> String {
 /// The stiffness of sticking is taken where contact is a spring as well; hard contact is exact, and so is stick then.
 fn enforcement(job: &mut Job, interaction: &Interaction) {
     let compliant = compliant(interaction);
-    match interaction.friction.and_then(|f| f.stick) {
+    match interaction.friction.as_ref().and_then(|f| f.stick) {
         Some(stick) if compliant => job.out.line(&format!(
             "enforcement.penalty = {{ tangential-stiffness = {} }}",
             toml::number(stick)
@@ -326,50 +467,70 @@ fn changes(job: &mut Job) {
         .collect();
     for (step, s) in deck.steps.iter().enumerate() {
         for action in &s.actions {
-            let (name, line) = match action {
-                Action::ChangeFriction(name, f, place) => {
-                    let Some(i) = current.get_mut(name) else {
-                        continue;
-                    };
-                    if let (Some(now), Some(before)) = (f.stick, i.friction.and_then(|f| f.stick))
-                        && now != before
-                    {
-                        job.warn(
-                            *place,
-                            "the stick slope stays that of *SURFACE INTERACTION",
-                            "",
-                        );
-                    }
-                    i.friction = Some(*f);
-                    (name, friction(f))
-                }
-                Action::ChangeBehavior(name, b, place) => {
-                    let Some(line) = normal(Some(b), false) else {
-                        job.error(
-                            *place,
-                            "an interface cannot become hard or tied in a later step",
-                            "use LINEAR, EXPONENTIAL or TABULAR",
-                        );
-                        continue;
-                    };
-                    (name, line)
+            let (name, place) = match action {
+                Action::ChangeFriction(name, _, place) | Action::ChangeBehavior(name, _, place) => {
+                    (name, *place)
                 }
                 _ => continue,
             };
-            let interfaces: Vec<String> = deck
-                .pairs
-                .iter()
-                .filter(|p| p.interaction == *name)
-                .flat_map(|p| {
-                    job.pairs
-                        .iter()
-                        .filter(|(_, s, m)| *s == p.slave && *m == p.master)
-                        .map(|(n, ..)| n.clone())
-                })
-                .collect();
-            for i in interfaces {
-                job.changes.push((step, i, line.clone()));
+            let Some(interaction) = current.get_mut(name) else {
+                continue;
+            };
+            if matches!(interaction.behavior, Some(Behavior::Tied(_))) {
+                job.error(
+                    place,
+                    format!("the interaction {name} is TIED and cannot change"),
+                    "use LINEAR with a high stiffness where surfaces come apart in a later step",
+                );
+                continue;
             }
+            let before = interaction.clone();
+            match action {
+                Action::ChangeFriction(_, f, _) => interaction.friction = Some(f.clone()),
+                Action::ChangeBehavior(_, b, _) => interaction.behavior = Some(b.clone()),
+                _ => {}
+            }
+            change(job, (step, name, place), &before, &interaction.clone());
+        }
+    }
+}
+
+/// One change of an interaction: `(step, interaction, place)`, before and after.
+fn change(
+    job: &mut Job,
+    (step, name, place): (usize, &str, Place),
+    before: &Interaction,
+    after: &Interaction,
+) {
+    let stick = |i: &Interaction| i.friction.as_ref().and_then(|f| f.stick);
+    if compliant(before) && stick(before) != stick(after) {
+        job.error(
+            place,
+            "the stick slope cannot change from step to step",
+            "give the one of the *FRICTION beneath *SURFACE INTERACTION",
+        );
+    }
+    let pairs = job.deck.pairs.iter().filter(|p| p.interaction == *name);
+    for pair in pairs.collect::<Vec<_>>() {
+        let line = match before.behavior == after.behavior {
+            true => after.friction.as_ref().map(friction),
+            false => normal(after.behavior.as_ref(), pair.by_nodes),
+        };
+        let Some(line) = line else {
+            job.error(
+                place,
+                "an interface cannot become hard or tied in a later step",
+                "use LINEAR, EXPONENTIAL or TABULAR",
+            );
+            return;
+        };
+        let interfaces = job
+            .pairs
+            .iter()
+            .filter(|(_, s, m)| *s == pair.slave && *m == pair.master);
+        let interfaces: Vec<String> = interfaces.map(|(n, ..)| n.clone()).collect();
+        for i in interfaces {
+            job.changes.push((step, i, line.clone()));
         }
     }
 }

@@ -12,11 +12,11 @@ use crate::source::Place;
 
 /// A value that acts in some of the steps.
 #[derive(Debug, Clone)]
-struct Acting<T> {
-    what: T,
+pub(super) struct Acting<T> {
+    pub what: T,
     amplitude: Option<String>,
-    place: Place,
-    label: String,
+    pub place: Place,
+    pub label: String,
     steps: Vec<bool>,
     /// Steps in which a value with an amplitude takes its place: it ends at once, instead of falling over the step.
     ends: Vec<bool>,
@@ -24,7 +24,7 @@ struct Acting<T> {
 
 impl<T> Acting<T> {
     /// When it acts.
-    fn when(&self) -> When {
+    pub fn when(&self) -> When {
         When {
             amplitude: self.amplitude.clone(),
             steps: self.steps.clone(),
@@ -35,17 +35,17 @@ impl<T> Acting<T> {
 
 /// When a load acts.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct When {
+pub(super) struct When {
     amplitude: Option<String>,
     steps: Vec<bool>,
     ends: Vec<bool>,
 }
 
 /// A value with its amplitude, and where and for what it was given.
-type Given<T> = (T, Option<String>, Place, String);
+pub(super) type Given<T> = (T, Option<String>, Place, String);
 
 /// Values by step to values with their steps, equal ones together.
-fn collect<K: Ord + Clone, T: Clone + PartialEq>(
+pub(super) fn collect<K: Ord + Clone, T: Clone + PartialEq>(
     by_step: &[BTreeMap<K, Given<T>>],
 ) -> Vec<(K, Acting<T>)> {
     let mut out: Vec<(K, Acting<T>)> = Vec::new();
@@ -85,14 +85,25 @@ fn collect<K: Ord + Clone, T: Clone + PartialEq>(
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     forces(job, bodies, sets);
     pressures(job, bodies, sets);
-    volumes(job, bodies, sets);
+    super::volumes::write(job, bodies, sets);
     initial(job, bodies, sets);
 }
 
+/// Loads that are given several times in a step add up. CalculiX has one amplitude for the sum.
+pub(super) fn two_courses(job: &mut Job, place: Place) {
+    job.error(
+        place,
+        "what is loaded here is loaded in the same step with another amplitude",
+        "loads that add up have one amplitude: write one line with one amplitude for the sum",
+    );
+}
+
 /// Opens the table of a load and writes what all have in common.
-fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
+pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
     let name = job.fresh("load", &toml::name(name));
-    let factor = match (&when.amplitude, when.ends.contains(&true)) {
+    // From the first step on, where steps change without amplitudes as they usually do not.
+    let unusual = when.amplitude.is_none() && steps::unusual(job.deck);
+    let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {
         (None, false) => None,
         (Some(a), false) => Some(steps::amplitude(job, a, &when.steps, &name)),
         (a, true) => Some(steps::ending(
@@ -103,7 +114,11 @@ fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
         )),
     };
     let steps = when.steps.iter().zip(&when.ends).map(|(a, b)| *a || *b);
-    let steps: Vec<bool> = steps.collect();
+    let mut steps: Vec<bool> = steps.collect();
+    if unusual {
+        let first = steps.iter().position(|on| *on).unwrap_or(0);
+        steps[first..].fill(true);
+    }
     job.table("load", &name, place);
     job.out.line(&format!("set = {}", toml::text(set)));
     if let Some(factor) = factor {
@@ -143,11 +158,12 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                             *place,
                             label(target),
                         ));
-                        let before = if touched.insert((node, *component)) {
-                            0.0
-                        } else {
-                            entry.0
-                        };
+                        let first = touched.insert((node, *component));
+                        let before = if first { 0.0 } else { entry.0 };
+                        if !first && entry.1 != *amplitude {
+                            two_courses(job, *place);
+                            return;
+                        }
                         *entry = (before + value, amplitude.clone(), *place, label(target));
                     }
                 }
@@ -239,6 +255,8 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     type State = BTreeMap<(usize, FacetRef), (f64, Option<String>, Place, String)>;
     let (mut state, mut by_step) = (State::new(), Vec::new());
     for step in &job.deck.steps {
+        // As forces: the first pressure of a step on a face replaces what was there, further ones add to it.
+        let mut touched = BTreeSet::new();
         for action in &step.actions {
             let Action::Distributed {
                 load,
@@ -273,9 +291,16 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             };
             for (body, list) in faces {
                 for facet in list {
+                    let again = !touched.insert((body, facet));
+                    let before = state.get(&(body, facet)).filter(|_| again);
+                    let sum = value + before.map_or(0.0, |b| b.0);
+                    if before.is_some_and(|b| b.1 != *amplitude) {
+                        two_courses(job, *place);
+                        return;
+                    }
                     state.insert(
                         (body, facet),
-                        (value, amplitude.clone(), *place, label.clone()),
+                        (sum, amplitude.clone(), *place, label.clone()),
                     );
                 }
             }
@@ -302,78 +327,6 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 "pressure = {{ value = {} }}",
                 toml::number(f64::from_bits(value))
             ));
-        }
-    }
-}
-
-/// A load on cells, as the table of the problem writes it.
-#[derive(Debug, Clone, PartialEq)]
-enum Volume {
-    Gravity([f64; 3]),
-    Body([f64; 3]),
-    Centrifugal(f64, [f64; 3], [f64; 3]),
-}
-
-fn volumes(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    // One of a kind acts on an element; body forces along each axis.
-    type State = BTreeMap<(Vec<u64>, u8), (Volume, Option<String>, Place, String)>;
-    let (mut state, mut by_step) = (State::new(), Vec::new());
-    for step in &job.deck.steps {
-        for action in &step.actions {
-            let Action::Distributed {
-                load,
-                amplitude,
-                place,
-            } = action
-            else {
-                if *action == Action::ClearDistributed {
-                    state.clear();
-                }
-                continue;
-            };
-            let (elements, kind, volume, label) = match load {
-                Distributed::Gravity(e, g) => (e, 0, Volume::Gravity(*g), "gravity"),
-                Distributed::Centrifugal(e, w, p, d) => {
-                    (e, 1, Volume::Centrifugal(*w, *p, *d), "centrifugal")
-                }
-                Distributed::Body(e, f) => {
-                    let axis = f.iter().position(|c| *c != 0.0).unwrap_or(0) as u8;
-                    (e, 2 + axis, Volume::Body(*f), "body-force")
-                }
-                _ => continue,
-            };
-            state.insert(
-                (elements.clone(), kind),
-                (volume, amplitude.clone(), *place, label.to_string()),
-            );
-        }
-        by_step.push(state.clone());
-    }
-    let dim = bodies.dim();
-    for ((elements, _), a) in collect(&by_step) {
-        for set in sets.cells_of(bodies, &toml::name(&a.label), &elements) {
-            open(job, &a.label, &set, a.place, &a.when());
-            let line = match &a.what {
-                Volume::Gravity(g) => format!(
-                    "gravity = {{ acceleration = {} }}",
-                    toml::numbers(&g[..dim])
-                ),
-                Volume::Body(f) => {
-                    format!("body-force = {{ value = {} }}", toml::numbers(&f[..dim]))
-                }
-                Volume::Centrifugal(w, p, d) => {
-                    let axis = match dim {
-                        3 => format!(", axis = {}", toml::numbers(d)),
-                        _ => String::new(),
-                    };
-                    format!(
-                        "centrifugal = {{ speed = {}, point = {}{axis} }}",
-                        toml::number(w.sqrt()),
-                        toml::numbers(&p[..dim])
-                    )
-                }
-            };
-            job.out.line(&line);
         }
     }
 }

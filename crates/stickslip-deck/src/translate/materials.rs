@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::bodies::Bodies;
 use super::{Job, toml};
-use crate::deck::{Deck, Elastic, Orientation, Section};
+use crate::deck::{Deck, Elastic, Material, Orientation, Section};
 
 /// The name of the material of a section: with an orientation it is one of its own, unless the material has no directions.
 pub(super) fn of(deck: &Deck, section: &Section) -> String {
@@ -34,11 +34,16 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
         let Some(material) = deck.materials.get(&section.material) else {
             continue;
         };
-        let Some(elastic) = &material.elastic else {
+        if material.elastic.is_none() {
             let message = format!("the material {} has no *ELASTIC", section.material);
             job.error(material.place, message, "bodies are linear elastic");
             continue;
+        }
+        let (elastic, density) = match constants(job, bodies, material, &section.material) {
+            Some((Some(elastic), density)) => (elastic, density),
+            _ => continue,
         };
+        let elastic = &elastic;
         let axes = section
             .orientation
             .as_ref()
@@ -51,7 +56,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             continue;
         }
         job.table("material", &name, material.place);
-        let density = match material.density {
+        let density = match density {
             Some(d) => format!(", density = {}", toml::number(d)),
             None => String::new(),
         };
@@ -90,6 +95,75 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
                     rows.join(", ")
                 ));
             }
+        }
+    }
+}
+
+/// Elastic constants and density at the temperature that the elements of the material have, which stays what it is at the start.
+fn constants(
+    job: &mut Job,
+    bodies: &Bodies,
+    material: &Material,
+    name: &str,
+) -> Option<(Option<Elastic>, Option<f64>)> {
+    if material.elastic_at.len() < 2 && material.density_at.len() < 2 {
+        return Some((material.elastic.clone(), material.density));
+    }
+    let deck = job.deck;
+    let mut at: BTreeMap<u64, f64> = BTreeMap::new();
+    for t in &deck.temperatures {
+        at.extend(job.nodes(&t.target).into_iter().map(|n| (n, t.value)));
+    }
+    let own = bodies
+        .section
+        .iter()
+        .filter(|(e, s)| deck.sections[**s].material == name && bodies.of_element.contains_key(e));
+    let nodes = own.flat_map(|(e, _)| deck.elements[e].nodes.iter());
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for n in nodes {
+        // CalculiX starts at zero where nothing is said.
+        let t = at.get(n).copied().unwrap_or(0.0);
+        (low, high) = (low.min(t), high.max(t));
+    }
+    if high > low {
+        job.error(
+            material.place,
+            format!("the material {name} depends on temperature, and its elements have temperatures from {low} to {high}"),
+            "give its elements one temperature by *INITIAL CONDITIONS, or a material of its own to the elements of each temperature",
+        );
+        return None;
+    }
+    let elastic = between(&material.elastic_at, low, |a, b, w| a.mix(b, w));
+    let density = between(&material.density_at, low, |a, b, w| a + w * (b - a));
+    Some((elastic, density))
+}
+
+/// Linear between the rows of a table over temperature, constant outside.
+fn between<T: Clone>(rows: &[(f64, T)], t: f64, mix: impl Fn(&T, &T, f64) -> T) -> Option<T> {
+    let after = rows.partition_point(|r| r.0 <= t);
+    match (after.checked_sub(1).map(|i| &rows[i]), rows.get(after)) {
+        (Some(a), Some(b)) => Some(mix(&a.1, &b.1, (t - a.0) / (b.0 - a.0))),
+        (a, b) => a.or(b).map(|row| row.1.clone()),
+    }
+}
+
+impl Elastic {
+    /// Constants between these and others of the same kind.
+    fn mix(&self, other: &Elastic, w: f64) -> Elastic {
+        let mean = |a: f64, b: f64| a + w * (b - a);
+        match (self, other) {
+            (Elastic::Isotropic(a), Elastic::Isotropic(b)) => {
+                Elastic::Isotropic(std::array::from_fn(|i| mean(a[i], b[i])))
+            }
+            (Elastic::Engineering(a), Elastic::Engineering(b)) => {
+                Elastic::Engineering(std::array::from_fn(|i| mean(a[i], b[i])))
+            }
+            (Elastic::Full(a), Elastic::Full(b)) => {
+                let row = |i: usize| std::array::from_fn(|j| mean(a[i][j], b[i][j]));
+                Elastic::Full(Box::new(std::array::from_fn(row)))
+            }
+            // One *ELASTIC has rows of one kind.
+            _ => self.clone(),
         }
     }
 }

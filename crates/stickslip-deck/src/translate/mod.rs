@@ -9,6 +9,7 @@ mod sets;
 mod steps;
 mod supports;
 mod toml;
+mod volumes;
 
 pub(crate) use bodies::Bodies;
 
@@ -160,11 +161,15 @@ impl Deck {
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
-        if deck_has_stick(self) {
-            // The slip of a spring that the deck gives is no error of the solution.
+        let (stick, soft) = (deck_has_stick(self), deck_ties_by_springs(self));
+        if stick || soft {
+            // The slip and the stretch of springs that the deck gives are no errors of the solution.
             job.out.line("");
             job.out.line("[quality]");
             job.out.line("false-slip = 1e300");
+        }
+        if soft {
+            job.out.line("penetration-to-approach = 1e300");
         }
         steps::write(&mut job);
         for step in &self.steps {
@@ -282,7 +287,16 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
 /// Whether sticking is a spring of the deck's own.
 fn deck_has_stick(deck: &Deck) -> bool {
     let mut all = deck.interactions.values();
-    all.any(|i| contact::compliant(i) && i.friction.is_some_and(|f| f.stick.is_some()))
+    all.any(|i| contact::compliant(i) && i.friction.as_ref().is_some_and(|f| f.stick.is_some()))
+}
+
+/// Whether surfaces are tied by springs of the deck's own.
+fn deck_ties_by_springs(deck: &Deck) -> bool {
+    let mut used = deck
+        .pairs
+        .iter()
+        .filter_map(|p| deck.interactions.get(&p.interaction));
+    used.any(|i| matches!(i.behavior, Some(crate::deck::Behavior::Tied(Some(_)))))
 }
 
 /// A translation under way.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Job, toml};
 use crate::deck::{Deck, Print, Procedure, Step, When};
+use crate::source::Place;
 
 fn times(step: &Step) -> [f64; 4] {
     match step.procedure {
@@ -19,6 +20,71 @@ pub(super) fn duration(step: &Step) -> f64 {
     }
 }
 
+/// Whether what a step changes without an amplitude changes at once, instead of growing over it.
+pub(super) fn abrupt(step: &Step) -> bool {
+    let dynamic = matches!(step.procedure, Procedure::Dynamic { .. });
+    step.abrupt.unwrap_or(dynamic)
+}
+
+/// Whether loads without amplitude change otherwise than usual in some step: at once in a static one, or slowly in a dynamic one.
+pub(super) fn unusual(deck: &Deck) -> bool {
+    deck.steps.iter().any(|s| {
+        let dynamic = matches!(s.procedure, Procedure::Dynamic { .. });
+        abrupt(s) != dynamic
+    })
+}
+
+/// The course of a displacement that is prescribed without an amplitude, where it has to be said: the name of an amplitude that makes it jump.
+pub(super) fn jump(
+    job: &mut Job,
+    active: &[bool],
+    (value, place): (f64, Place),
+    user: &str,
+) -> Option<String> {
+    let deck = job.deck;
+    let (mut jumps, mut usual) = (false, false);
+    for (i, step) in deck.steps.iter().enumerate() {
+        let begins = active[i] && (i == 0 || !active[i - 1]);
+        let dynamic = matches!(step.procedure, Procedure::Dynamic { .. });
+        match (begins, abrupt(step), dynamic) {
+            (false, ..) => {}
+            // Where nothing has moved yet, zero is zero at once.
+            _ if value == 0.0 && i == 0 => {}
+            (_, true, false) if value != 0.0 => jumps = true,
+            (_, at_once, dynamic) if at_once == dynamic => usual = true,
+            _ => {
+                job.error(
+                    place,
+                    format!(
+                        "AMPLITUDE of *STEP is not supported for what step {} prescribes here",
+                        i + 1
+                    ),
+                    "give the *BOUNDARY an AMPLITUDE of its own",
+                );
+                return None;
+            }
+        }
+    }
+    if jumps && usual {
+        job.error(
+            place,
+            "what is prescribed here jumps in one step and grows in another",
+            "give the *BOUNDARY of each step an AMPLITUDE of its own",
+        );
+    }
+    if !jumps {
+        return None;
+    }
+    let end = job.spans.last().map_or(1.0, |[s, l]| s + l);
+    let name = job.fresh("amplitude", &toml::name(&format!("{user}-course")));
+    job.table("amplitude", &name, place);
+    job.out.line(&format!(
+        "table = [[0.0, 1.0], {}]",
+        toml::numbers(&[end, 1.0])
+    ));
+    Some(name)
+}
+
 /// An amplitude of the deck over the time of the analysis, as a table of its own for what acts in these steps. Its name.
 pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) -> String {
     let Some(a) = job.deck.amplitudes.get(name) else {
@@ -30,7 +96,8 @@ pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) 
     } else {
         // Time starts anew in every step.
         for ([start, length], _) in job.spans.clone().iter().zip(active).filter(|(_, on)| **on) {
-            for row in &a.rows {
+            push(&mut rows, [*start, value(&a.rows, 0.0)]);
+            for row in a.rows.iter().filter(|r| r[0] >= 0.0) {
                 if row[0] <= *length * (1.0 + 1e-12) {
                     push(&mut rows, [start + row[0], row[1]]);
                 }
@@ -63,7 +130,7 @@ pub(super) fn ending(
     let mut before = 0.0;
     for (i, [start, length]) in job.spans.clone().into_iter().enumerate() {
         let end = start + length;
-        let dynamic = matches!(job.deck.steps[i].procedure, Procedure::Dynamic { .. });
+        let at_once = abrupt(&job.deck.steps[i]);
         match (given, active[i]) {
             (Some(a), true) => {
                 let from = if a.total_time { 0.0 } else { start };
@@ -75,12 +142,12 @@ pub(super) fn ending(
                 before = value(&a.rows, end - from);
             }
             (None, true) => {
-                push(&mut rows, [start, if dynamic { 1.0 } else { before }]);
+                push(&mut rows, [start, if at_once { 1.0 } else { before }]);
                 before = 1.0;
             }
-            // It falls over a static step, unless something takes its place.
+            // It falls where loads change slowly, unless something takes its place.
             (_, false) => {
-                let fades = !ends[i] && !dynamic;
+                let fades = !ends[i] && !at_once;
                 push(&mut rows, [start, if fades { before } else { 0.0 }]);
                 before = 0.0;
             }
@@ -185,7 +252,7 @@ pub(super) fn write(job: &mut Job) {
                 (false, false) => 1.0,
             };
             sizes.push(format!("initial = {}", toml::number(initial)));
-            if smallest > 0.0 {
+            if smallest > 0.0 && !explicit {
                 sizes.push(format!(
                     "smallest = {}",
                     toml::number(fraction(smallest).min(initial))
@@ -201,6 +268,11 @@ pub(super) fn write(job: &mut Job) {
         job.out
             .line(&format!("increments = {{ {} }}", sizes.join(", ")));
         match dynamic {
+            // What is the smallest increment elsewhere is one to be reached by mass scaling in an explicit step.
+            Some((true, _)) if smallest > 0.0 => job.out.line(&format!(
+                "dynamic = {{ scheme.central-difference = {{ mass-scaling = {} }} }}",
+                toml::number(smallest)
+            )),
             Some((true, _)) => job.out.line("dynamic = { scheme.central-difference = {} }"),
             // CalculiX's own default.
             Some((false, alpha)) => {
@@ -225,27 +297,6 @@ pub(super) fn write(job: &mut Job) {
                 lines.join(", ")
             ));
         }
-        ramps(job, i, step);
-    }
-}
-
-/// Loads without amplitude grow over static steps and act at once in dynamic ones; `AMPLITUDE` of `*STEP` may say otherwise.
-fn ramps(job: &mut Job, index: usize, step: &Step) {
-    let dynamic = matches!(step.procedure, Procedure::Dynamic { .. });
-    if step.abrupt.is_some_and(|abrupt| abrupt != dynamic) {
-        let usual = if dynamic {
-            "at once in a dynamic step"
-        } else {
-            "linearly over a static step"
-        };
-        job.warn(
-            step.place,
-            format!(
-                "*STEP, AMPLITUDE is left out in step {}: loads act {usual}",
-                index + 1
-            ),
-            "give the loads an *AMPLITUDE",
-        );
     }
 }
 

@@ -173,9 +173,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     for ((steps, amplitude, values), (nodes, first)) in ordered {
         let name = job.fresh("support", &toml::name(&first.label));
         let set = sets.points(bodies, &toml::name(&first.label), &nodes);
-        let factor = amplitude
-            .as_ref()
-            .map(|a| steps::amplitude(job, a, &steps, &name));
+        let given = values
+            .iter()
+            .flatten()
+            .map(|(bits, _)| f64::from_bits(*bits));
+        let largest = given.fold(0.0, |m: f64, v| m.max(v.abs()));
+        let factor = course(job, &amplitude, &steps, (largest, first.place), &name);
         job.table("support", &name, first.place);
         job.out.line(&format!("set = {}", toml::text(&set)));
         let mut held = Vec::new();
@@ -196,6 +199,21 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 .line(&format!("amplitude = {}", toml::text(&factor)));
         }
         job.active.push(("supports", name, steps));
+    }
+}
+
+/// The amplitude of what is prescribed, under its name in the problem.
+fn course(
+    job: &mut Job,
+    amplitude: &Option<String>,
+    active: &[bool],
+    (value, place): (f64, Place),
+    user: &str,
+) -> Option<String> {
+    match amplitude {
+        Some(a) => Some(steps::amplitude(job, a, active, user)),
+        None if steps::unusual(job.deck) => steps::jump(job, active, (value, place), user),
+        None => None,
     }
 }
 
@@ -259,9 +277,9 @@ fn reference(
     };
     job.led.insert(index);
     let place = first.place;
-    let factor = amplitude
-        .as_ref()
-        .map(|a| steps::amplitude(job, a, steps, &name));
+    let given = values.iter().flatten().map(|v| v.value.abs());
+    let largest = given.fold(0.0, f64::max);
+    let factor = course(job, amplitude, steps, (largest, place), &name);
     job.table("support", &name, place);
     job.out.line(&format!("set = {}", toml::text(&set)));
     for (axis, v) in ["x", "y", "z"][..dim].iter().zip(values) {
@@ -319,9 +337,7 @@ fn local(
             return;
         }
         let name = job.fresh("coupling", &toml::name(&format!("{}-{node}", v.label)));
-        let factor = amplitude
-            .as_ref()
-            .map(|a| steps::amplitude(job, a, steps, &name));
+        let factor = course(job, amplitude, steps, (v.value, v.place), &name);
         let terms: Vec<String> = ["x", "y", "z"][..bodies.dim()]
             .iter()
             .zip(axis)

@@ -211,7 +211,7 @@ fn tied_surfaces_carry_tension() {
     let tied = pair(
         0.0,
         "SURFACE TO SURFACE",
-        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.e7\n",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n",
     );
     near(run("tied-behavior", &(tied + &pull)).u(17)[2], 0.008, 1e-6);
     let tie = pair(0.0, "SURFACE TO SURFACE", "");

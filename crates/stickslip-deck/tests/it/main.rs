@@ -2,8 +2,10 @@
 
 mod cards;
 mod elements;
+mod loads;
 mod malformed;
 mod reading;
 mod steps;
 mod styles;
 mod support;
+mod ties;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stickslip_deck::{Deck, Elastic, Severity};
+use stickslip_deck::{Action, Deck, Elastic, Print, Severity};
 
 use crate::support::{place, refused};
 
@@ -59,6 +59,112 @@ fn keyword_lines_go_on_after_a_comma() {
     // A comma too many before data is no continuation.
     assert_eq!(deck.node_sets["A"], [1, 2]);
     assert_eq!(deck.node_sets["B"], [1, 3]);
+}
+
+#[test]
+fn a_comma_too_many_is_forgiven() {
+    let step = "*MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*STEP\n*STATIC\n";
+    let deck = with(&format!(
+        "{step}*NODE PRINT, NSET=N,\nU, RF\n*BOUNDARY,\nN, 1, 3\n*BOUNDARY,\nOP=NEW\nN, 2\n*END STEP\n"
+    ));
+    let [Print::Node { keys, .. }] = deck.steps[0].prints.as_slice() else {
+        panic!("{:?}", deck.steps[0].prints);
+    };
+    assert_eq!(keys, &["U", "RF"]);
+    let lines = deck.steps[0]
+        .actions
+        .iter()
+        .filter(|a| matches!(a, Action::Boundary(_)));
+    assert_eq!(lines.count(), 2);
+    let forgiven = deck
+        .notes
+        .iter()
+        .filter(|n| n.message.contains("one too many"));
+    assert_eq!(forgiven.map(|n| n.line).collect::<Vec<_>>(), [13, 15]);
+}
+
+#[test]
+fn what_calculix_forgives_is_forgiven_where_it_changes_nothing() {
+    // A set that is only printed may name nodes that are not there.
+    let step = "*STEP\n*STATIC\n*NODE PRINT, NSET=A\nU\n*END STEP\n";
+    let deck = with(&format!("*NSET, NSET=A\n1, 29\n{step}"));
+    assert_eq!(deck.node_sets["A"], [1]);
+    assert!(
+        deck.notes
+            .iter()
+            .any(|n| n.message.contains("there is no node 29"))
+    );
+    for used in [
+        "*BOUNDARY\nA, 1\n",
+        "*NSET, NSET=B\nA\n",
+        "*TRANSFORM, NSET=A\n1., 0., 0., 0., 1., 0.\n",
+    ] {
+        let message = refused(&format!("{TET}*NSET, NSET=A\n1, 29\n{used}{step}"));
+        assert!(
+            message.contains("job.inp:9: error: there is no node 29"),
+            "{message}"
+        );
+    }
+    // Numbers behind the nodes of an element, unless they are those of another type.
+    let wide = TET.replace("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 1, 1, 1\n");
+    let deck = read(&wide);
+    assert_eq!(deck.elements[&1].nodes, [1, 2, 3, 4]);
+    assert!(
+        deck.notes
+            .iter()
+            .any(|n| n.message.contains("further numbers"))
+    );
+    let message = refused(&TET.replace("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 1, 1, 1, 1, 1, 1\n"));
+    assert!(message.contains("has 10 nodes; C3D4 has 4"), "{message}");
+}
+
+#[test]
+fn a_restart_is_the_only_thing_said_of_a_deck_that_goes_on_from_one() {
+    let message =
+        refused("*RESTART, READ, STEP=1\n*STEP\n*STATIC\n*EL PRINT, ELSET=NOWHERE\nS\n*END STEP\n");
+    assert_eq!(message.matches("error:").count(), 2, "{message}");
+    assert!(
+        message
+            .lines()
+            .next()
+            .is_some_and(|l| l.contains("*RESTART, READ")),
+        "{message}"
+    );
+    assert!(!message.contains("NOWHERE"), "{message}");
+}
+
+#[test]
+fn messages_name_what_is_meant() {
+    for (card, wanted) in [
+        ("*ELEMENT, TYPE=D\n7, 1, 2, 3\n", "a network of flows"),
+        (
+            "*STEP\n*STATIC\n*DLOAD\nE, P, 1.\n*END STEP\n",
+            "P1 to P6; on a surface use *DSLOAD",
+        ),
+        (
+            "*STEP\n*STATIC\n*DLOAD\nE, P1, 1., 3.\n*END STEP\n",
+            "field 4 of this line, `3.`",
+        ),
+        (
+            "*SPRING, ELSET=E\n\n1.\n2., 1.\n",
+            "a spring has one stiffness",
+        ),
+        (
+            "*SOLID SECTION, ELSET=E, MATERAIL=M\n",
+            "did you mean MATERIAL?",
+        ),
+        (
+            "*NORMAL, TYPE=CONTACT SURFACE\n1, 2, 0., 0., 1.\n",
+            "those of their faces",
+        ),
+        (
+            "*AMPLITUDE, NAME=A, VALUE=ABSOLUTE\n0., 1.\n",
+            "amplitudes multiply",
+        ),
+    ] {
+        let message = refused(&format!("{TET}{card}"));
+        assert!(message.contains(wanted), "{message}");
+    }
 }
 
 #[test]

@@ -223,6 +223,10 @@ fn other(upper: &str) -> Unsupported {
     ];
     let found = STARTS.iter().find(|(start, ..)| upper.starts_with(start));
     let (what, help) = match found {
+        _ if upper == "D" => (
+            "an element of a network of flows",
+            "leave the network out, and prescribe what it does as pressures",
+        ),
         Some(&(_, what, help)) => (what, help),
         None => (
             "no element type of Abaqus or CalculiX that is known here",

@@ -1,0 +1,135 @@
+//! Materials and sections.
+
+use super::{Data, Row, card, harmless, harmless_card, idle, read, refused};
+
+const HEAT: &str = "temperatures are not computed, and what would change them is refused";
+const CONSTANT: &str = "constants depend on temperature only";
+
+pub(super) const ROWS: &[Row] = &[
+    card(
+        "MATERIAL",
+        Data::Nothing,
+        &[
+            read("NAME"),
+            harmless(
+                "SRATE",
+                "elastic constants do not depend on the rate of strain",
+            ),
+            refused("RTOL", "give elastic constants"),
+        ],
+    ),
+    card(
+        "ELASTIC",
+        Data::Any,
+        &[
+            read("TYPE"),
+            harmless(
+                "MODULI",
+                "without *VISCOELASTIC, which is refused, moduli are those of any time",
+            ),
+            refused("DEPENDENCIES", CONSTANT),
+        ],
+    ),
+    card(
+        "DENSITY",
+        Data::Lines("density, temperature"),
+        &[refused("DEPENDENCIES", CONSTANT)],
+    ),
+    card(
+        "DAMPING",
+        Data::Nothing,
+        &[
+            read("ALPHA"),
+            read("BETA"),
+            harmless(
+                "STRUCTURAL",
+                "it acts in the frequency domain, where nothing is computed",
+            ),
+            harmless("COMPOSITE", "it acts on modes, which are not computed"),
+        ],
+    ),
+    harmless_card(
+        "EXPANSION",
+        "bodies keep the temperature that they have at the start, so that nothing expands: *TEMPERATURE is refused",
+    ),
+    harmless_card("CONDUCTIVITY", HEAT),
+    harmless_card("SPECIFICHEAT", HEAT),
+    harmless_card("LATENTHEAT", HEAT),
+    harmless_card(
+        "VISCOSITY",
+        "it is a property of fluids, and bodies are solid",
+    ),
+    harmless_card(
+        "FLUIDCONSTANTS",
+        "it is a property of fluids, and bodies are solid",
+    ),
+    harmless_card(
+        "SPECIFICGASCONSTANT",
+        "it is a property of fluids, and bodies are solid",
+    ),
+    harmless_card("ELECTRICALCONDUCTIVITY", "no currents are computed"),
+    harmless_card("MAGNETICPERMEABILITY", "no magnetic fields are computed"),
+    harmless_card(
+        "USEROUTPUTVARIABLES",
+        "it makes room for results of user subroutines",
+    ),
+    card(
+        "SOLIDSECTION",
+        Data::Line("thickness"),
+        &[
+            read("ELSET"),
+            read("MATERIAL"),
+            read("ORIENTATION"),
+            idle(
+                "CONTROLS",
+                "elements under reduced integration have stickslip's own hourglass control",
+            ),
+            harmless(
+                "STACKDIRECTION",
+                "it orders layers, and sections with layers are refused",
+            ),
+            harmless(
+                "OFFSET",
+                "solid and plane elements lie where their nodes are",
+            ),
+            harmless(
+                "NODALTHICKNESS",
+                "*NODAL THICKNESS, which would give it, is refused",
+            ),
+            refused(
+                "COMPOSITE",
+                "give each layer elements and a *SOLID SECTION of its own",
+            ),
+            refused(
+                "REFNODE",
+                "generalised plane strain is not computed: use CPE elements, or solid ones",
+            ),
+            refused(
+                "SYMMETRIC",
+                "give each layer elements and a *SOLID SECTION of its own",
+            ),
+            refused(
+                "LAYUP",
+                "give each layer elements and a *SOLID SECTION of its own",
+            ),
+        ],
+    ),
+    harmless_card(
+        "SECTIONCONTROLS",
+        "elements under reduced integration have stickslip's own hourglass control",
+    ),
+    harmless_card(
+        "HOURGLASSSTIFFNESS",
+        "elements under reduced integration have stickslip's own hourglass control",
+    ),
+    card(
+        "ORIENTATION",
+        Data::Lines("ax, ay, az, bx, by, bz, cx, cy, cz"),
+        &[
+            read("NAME"),
+            read("SYSTEM"),
+            read("DEFINITION"),
+            refused("LOCALDIRECTIONS", "give the axes of a rectangular system"),
+        ],
+    ),
+];

@@ -1,0 +1,183 @@
+//! Nodes, elements, sets, surfaces, and what ties nodes together.
+
+use super::{Data, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
+
+const INSTANCE: &str = "write a flat deck, without parts and instances";
+
+pub(super) const ROWS: &[Row] = &[
+    card("HEADING", Data::Any, &[]),
+    card(
+        "NODE",
+        // Directions of normals are for shells and beams.
+        Data::Lines("node, x, y, z, normal x, normal y, normal z"),
+        &[read("NSET"), read("SYSTEM"), INPUT],
+    ),
+    card(
+        "ELEMENT",
+        Data::Any,
+        &[
+            read("TYPE"),
+            read("ELSET"),
+            harmless(
+                "SOLIDELEMENTNUMBERING",
+                "it numbers elements that CalculiX makes of shells",
+            ),
+            refused("OFFSET", "write the numbers of the nodes out"),
+            INPUT,
+        ],
+    ),
+    card(
+        "NSET",
+        Data::Any,
+        &[
+            read("NSET"),
+            read("GENERATE"),
+            read("ELSET"),
+            idle("UNSORTED", "sets keep the order of the deck"),
+            idle("INTERNAL", "it hides the set in a viewer"),
+            refused("INSTANCE", INSTANCE),
+            INPUT,
+        ],
+    ),
+    card(
+        "ELSET",
+        Data::Any,
+        &[
+            read("ELSET"),
+            read("GENERATE"),
+            idle("UNSORTED", "sets keep the order of the deck"),
+            idle("INTERNAL", "it hides the set in a viewer"),
+            refused("INSTANCE", INSTANCE),
+            INPUT,
+        ],
+    ),
+    card(
+        "SURFACE",
+        Data::Lines("element or set of elements or node, face"),
+        &[
+            read("NAME"),
+            read("TYPE"),
+            read("TRIM"),
+            idle("INTERNAL", "it hides the surface in a viewer"),
+            refused("COMBINE", "write the faces of both surfaces into one"),
+            refused("CROP", "name the faces that are meant"),
+            refused(
+                "MAXRATIO",
+                "it is of surfaces that sections of shells smooth",
+            ),
+        ],
+    ),
+    card(
+        "TRANSFORM",
+        Data::Line("ax, ay, az, bx, by, bz"),
+        &[read("NSET"), read("TYPE")],
+    ),
+    harmless_card(
+        "PHYSICALCONSTANTS",
+        "neither radiation nor gravitation between bodies is computed; both are refused where they are asked for",
+    ),
+    card(
+        "EQUATION",
+        Data::Any,
+        &[
+            refused(
+                "REMOVE",
+                "equations cannot change from step to step: give those that hold throughout before the first *STEP",
+            ),
+            INPUT,
+        ],
+    ),
+    card(
+        "RIGIDBODY",
+        Data::Nothing,
+        &[
+            read("NSET"),
+            read("ELSET"),
+            read("REFNODE"),
+            read("ROTNODE"),
+            read("POSITION"),
+            harmless("ISOTHERMAL", "temperatures are not computed"),
+            refused(
+                "PINNSET",
+                "tie nodes to the body by *EQUATION, or name its elements",
+            ),
+            refused(
+                "TIENSET",
+                "tie nodes to the body by *EQUATION, or name its elements",
+            ),
+            refused(
+                "ANALYTICALSURFACE",
+                "write a stickslip problem file, which has obstacles (plane, cylinder, sphere)",
+            ),
+        ],
+    ),
+    card(
+        "SPRING",
+        Data::Any,
+        &[
+            read("ELSET"),
+            refused(
+                "ORIENTATION",
+                "springs are along the axes, or along the line of a SPRINGA",
+            ),
+            refused("NONLINEAR", "springs are linear: give one stiffness"),
+            refused("COMPLEXSTIFFNESS", "springs are elastic"),
+            refused("RTOL", "springs are linear: give one stiffness"),
+        ],
+    ),
+    card(
+        "MASS",
+        Data::Line("mass"),
+        &[
+            read("ELSET"),
+            refused("ALPHA", "masses have no damping of their own"),
+            refused("COMPOSITE", "modal damping is not computed"),
+            refused("TYPE", "masses are the same in all directions"),
+            refused("ORIENTATION", "masses are the same in all directions"),
+        ],
+    ),
+    card(
+        "INITIALCONDITIONS",
+        Data::Lines("node or set of nodes, direction or temperature, value"),
+        &[
+            read("TYPE"),
+            refused("USER", SUBROUTINE),
+            refused(
+                "FILE",
+                "results of other runs are not read: write the values into the deck",
+            ),
+            refused(
+                "STEP",
+                "results of other runs are not read: write the values into the deck",
+            ),
+            refused(
+                "INC",
+                "results of other runs are not read: write the values into the deck",
+            ),
+            INPUT,
+        ],
+    ),
+    card(
+        "AMPLITUDE",
+        Data::Any,
+        &[
+            read("NAME"),
+            read("TIME"),
+            read("SHIFTX"),
+            read("SHIFTY"),
+            read("DEFINITION"),
+            read("VALUE"),
+            refused("SMOOTH", "give more points of the curve"),
+            refused("USER", SUBROUTINE),
+            refused("FIXEDINTERVAL", "write the times out"),
+            refused("BEGIN", "write the times out"),
+            INPUT,
+        ],
+    ),
+    card(
+        "TIMEPOINTS",
+        Data::Any,
+        &[read("NAME"), read("GENERATE"), read("TIME")],
+    ),
+    card("NORMAL", Data::Any, &[read("TYPE")]),
+];

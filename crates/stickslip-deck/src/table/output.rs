@@ -1,0 +1,114 @@
+//! What is printed and written.
+
+use super::{Data, Fate, Parameter, Row, card, harmless, harmless_card, read, refused};
+
+const VIEW: &str = "it only chooses what is written";
+
+/// When something is written.
+const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPOINTS")];
+
+/// A card that asks for fields: when is read, and what is written is always the same.
+const fn fields(keyword: &'static str) -> Row {
+    Row {
+        keyword,
+        fate: Fate::Read,
+        data: Data::Any,
+        parameters: WHEN,
+        others: Some(Fate::Idle(VIEW)),
+    }
+}
+
+pub(super) const ROWS: &[Row] = &[
+    card(
+        "NODEPRINT",
+        Data::Any,
+        &[
+            read("NSET"),
+            read("TOTALS"),
+            read("FREQUENCY"),
+            read("FREQUENCYF"),
+            read("TIMEPOINTS"),
+            read("GLOBAL"),
+            harmless("SUMMARY", VIEW),
+        ],
+    ),
+    card(
+        "ELPRINT",
+        Data::Any,
+        &[
+            read("ELSET"),
+            read("TOTALS"),
+            read("FREQUENCY"),
+            read("FREQUENCYF"),
+            read("TIMEPOINTS"),
+            read("GLOBAL"),
+            harmless("SUMMARY", VIEW),
+            refused(
+                "POSITION",
+                "values are printed at the points of integration: leave it out",
+            ),
+        ],
+    ),
+    card(
+        "CONTACTPRINT",
+        Data::Any,
+        &[
+            read("SLAVE"),
+            read("MASTER"),
+            read("TOTALS"),
+            read("FREQUENCY"),
+            read("FREQUENCYF"),
+            read("TIMEPOINTS"),
+            harmless("SUMMARY", VIEW),
+            harmless("LASTITERATIONS", VIEW),
+            harmless("CONTACTELEMENTS", VIEW),
+            harmless(
+                "NSET",
+                "all contact pairs are printed, or the one of SLAVE and MASTER",
+            ),
+            harmless(
+                "SET",
+                "all contact pairs are printed, or the one of SLAVE and MASTER",
+            ),
+        ],
+    ),
+    fields("NODEFILE"),
+    fields("ELFILE"),
+    fields("CONTACTFILE"),
+    fields("NODEOUTPUT"),
+    fields("ELEMENTOUTPUT"),
+    fields("CONTACTOUTPUT"),
+    fields("OUTPUT"),
+    harmless_card("PREPRINT", VIEW),
+    harmless_card("PRINT", VIEW),
+    harmless_card("MONITOR", VIEW),
+    harmless_card("DIAGNOSTICS", VIEW),
+    harmless_card("FILTER", VIEW),
+    harmless_card("FILEFORMAT", VIEW),
+    harmless_card("FILEOUTPUT", VIEW),
+    harmless_card("INCREMENTATIONOUTPUT", VIEW),
+    harmless_card("MODALOUTPUT", VIEW),
+    harmless_card("ENERGYFILE", "energies are in history.csv"),
+    harmless_card("ENERGYPRINT", "energies are in history.csv"),
+    harmless_card("ENERGYOUTPUT", "energies are in history.csv"),
+    harmless_card(
+        "INTEGRATEDOUTPUT",
+        "resultants of interfaces and supports are in history.csv",
+    ),
+    harmless_card(
+        "INTEGRATEDOUTPUTSECTION",
+        "resultants of interfaces and supports are in history.csv",
+    ),
+    harmless_card(
+        "SECTIONPRINT",
+        "sections are not printed; resultants of interfaces and supports are in history.csv",
+    ),
+    harmless_card(
+        "SECTIONFILE",
+        "sections are not printed; resultants of interfaces and supports are in history.csv",
+    ),
+    harmless_card(
+        "NOANALYSIS",
+        "`stickslip check` reads a deck without running it",
+    ),
+];

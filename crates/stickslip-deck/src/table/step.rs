@@ -1,0 +1,217 @@
+//! Steps, loads and supports.
+
+use super::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
+
+const FLUID: &str = "it is about fluids, and bodies are solid";
+const SUBMODEL: &str =
+    "results of other runs are not read: prescribe the displacements of the cut by *BOUNDARY";
+const CYCLIC: &str = "cyclic symmetry is not computed: model the whole body";
+const FREQUENCY: &str = "loads of steady vibrations are not computed";
+const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
+const ZERO: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
+const ACCURACY: &str = "it controls the lengths of increments; those are stickslip's own, in the bounds of the data line";
+
+pub(super) const ROWS: &[Row] = &[
+    card(
+        "STEP",
+        Data::Any,
+        &[
+            read("NLGEOM"),
+            read("AMPLITUDE"),
+            idle(
+                "INC",
+                "it bounds the number of increments; a step runs to its end or fails",
+            ),
+            harmless("INCF", FLUID),
+            harmless("TURBULENCEMODEL", FLUID),
+            harmless("SHOCKSMOOTHING", FLUID),
+            idle("NAME", "steps are known by their number"),
+            harmless("UNSYMM", NUMERICS),
+            harmless("EXTRAPOLATION", NUMERICS),
+            idle("SOLVER", NUMERICS),
+            harmless("CONVERTSDI", NUMERICS),
+            refused(
+                "PERTURBATION",
+                "take PERTURBATION out: a static step from the deformed state is computed",
+            ),
+        ],
+    ),
+    card("ENDSTEP", Data::Nothing, &[]),
+    card(
+        "STATIC",
+        Data::Line("first increment, period, smallest increment, largest increment"),
+        &[
+            read("DIRECT"),
+            idle("SOLVER", NUMERICS),
+            harmless(
+                "NLGEOM",
+                "it belongs to *STEP; CalculiX leaves it out here, too",
+            ),
+            harmless(
+                "STABILIZE",
+                "it is meant not to change the answer; bodies that are free to move are said by name",
+            ),
+            harmless("ALLSDTOL", "it goes with STABILIZE"),
+            harmless("FACTOR", "it goes with STABILIZE"),
+            harmless("CONTINUE", "it goes with STABILIZE"),
+            harmless(
+                "LONGTERM",
+                "without *VISCOELASTIC, which is refused, moduli are those of any time",
+            ),
+            refused("FULLYPLASTIC", "bodies are linear elastic"),
+            refused(
+                "RIKS",
+                "loads are prescribed: prescribe a displacement where a load would fall",
+            ),
+            refused("TIMERESET", ZERO),
+            refused("TOTALTIMEATSTART", ZERO),
+        ],
+    ),
+    card(
+        "DYNAMIC",
+        Data::Line("first increment, period, smallest increment, largest increment"),
+        &[
+            read("DIRECT"),
+            read("EXPLICIT"),
+            read("ALPHA"),
+            read("APPLICATION"),
+            read("INITIAL"),
+            idle("SOLVER", NUMERICS),
+            harmless(
+                "NLGEOM",
+                "it belongs to *STEP; CalculiX leaves it out here, too",
+            ),
+            harmless("NOHAF", ACCURACY),
+            harmless("HALFINCSCALEFACTOR", ACCURACY),
+            harmless("HAFTOL", ACCURACY),
+            harmless("SCALEFACTOR", ACCURACY),
+            harmless("IMPROVEDDTMETHOD", ACCURACY),
+            refused(
+                "RELATIVETOABSOLUTE",
+                "displacements are absolute throughout: write the step with absolute ones",
+            ),
+            refused("TIMERESET", ZERO),
+            refused("TOTALTIMEATSTART", ZERO),
+            refused("SUBSPACE", "modal dynamics is not computed"),
+            refused("ADIABATIC", "temperatures are not computed"),
+        ],
+    ),
+    card(
+        "BOUNDARY",
+        Data::Lines("node or set of nodes, first direction, last direction, value"),
+        &[
+            read("OP"),
+            read("AMPLITUDE"),
+            read("TIMEDELAY"),
+            read("FIXED"),
+            read("TYPE"),
+            refused("LOADCASE", FREQUENCY),
+            refused("SUBMODEL", SUBMODEL),
+            refused("STEP", SUBMODEL),
+            refused("DATASET", SUBMODEL),
+            refused("MASSFLOW", "flows are not computed"),
+            refused("REGIONTYPE", "the mesh moves with the material"),
+            refused("USER", SUBROUTINE),
+            refused("OMEGA0", CYCLIC),
+        ],
+    ),
+    card(
+        "CLOAD",
+        Data::Lines("node or set of nodes, direction, force"),
+        &[
+            read("OP"),
+            read("AMPLITUDE"),
+            read("TIMEDELAY"),
+            refused("LOADCASE", FREQUENCY),
+            refused("SUBMODEL", SUBMODEL),
+            refused("STEP", SUBMODEL),
+            refused("DATASET", SUBMODEL),
+            refused("SECTOR", CYCLIC),
+            refused("OMEGA0", CYCLIC),
+            refused("CYCLICMODE", CYCLIC),
+            refused("FOLLOWER", FOLLOWER),
+            refused("REAL", FREQUENCY),
+            refused("IMAGINARY", FREQUENCY),
+            refused("USER", SUBROUTINE),
+        ],
+    ),
+    card(
+        "DLOAD",
+        Data::Lines("elements, kind, value, x, y, z, dx, dy, dz"),
+        &[
+            read("OP"),
+            read("AMPLITUDE"),
+            read("TIMEDELAY"),
+            refused("LOADCASE", FREQUENCY),
+            refused("SUBMODEL", SUBMODEL),
+            refused("STEP", SUBMODEL),
+            refused("DATASET", SUBMODEL),
+            refused("SECTOR", CYCLIC),
+            refused("CYCLICMODE", CYCLIC),
+            refused("FOLLOWER", FOLLOWER),
+            refused("ORIENTATION", "give components along the global axes"),
+            refused("REAL", FREQUENCY),
+            refused("IMAGINARY", FREQUENCY),
+            harmless(
+                "CONSTANTRESULTANT",
+                "pressures act on the faces as they were at first, which keeps their resultant",
+            ),
+        ],
+    ),
+    card(
+        "DSLOAD",
+        Data::Lines("surface, kind, value"),
+        &[
+            read("OP"),
+            read("AMPLITUDE"),
+            read("TIMEDELAY"),
+            refused("LOADCASE", FREQUENCY),
+            refused("SUBMODEL", SUBMODEL),
+            refused("STEP", SUBMODEL),
+            refused("DATASET", SUBMODEL),
+            refused("FOLLOWER", FOLLOWER),
+            refused("ORIENTATION", "give components along the global axes"),
+            refused("REAL", FREQUENCY),
+            refused("IMAGINARY", FREQUENCY),
+            harmless(
+                "CONSTANTRESULTANT",
+                "pressures act on the faces as they were at first, which keeps their resultant",
+            ),
+        ],
+    ),
+    card(
+        "RESTART",
+        Data::Any,
+        &[
+            harmless(
+                "WRITE",
+                "restart files are not written; `stickslip run` keeps its own",
+            ),
+            idle("FREQUENCY", "restart files are not written"),
+            harmless("NUMBERINTERVAL", "restart files are not written"),
+            harmless("OVERLAY", "restart files are not written"),
+            harmless("TIMEMARKS", "restart files are not written"),
+            refused(
+                "READ",
+                "restart files of other programs are not read: write all steps into one deck",
+            ),
+            refused(
+                "STEP",
+                "restart files of other programs are not read: write all steps into one deck",
+            ),
+            refused(
+                "INC",
+                "restart files of other programs are not read: write all steps into one deck",
+            ),
+            refused(
+                "ENDSTEP",
+                "restart files of other programs are not read: write all steps into one deck",
+            ),
+        ],
+    ),
+    harmless_card(
+        "CONTROLS",
+        "tolerances and cut-backs are stickslip's own, see [solver] and [quality]: they say how exactly and by which increments the answer is found",
+    ),
+    harmless_card("SOLUTIONTECHNIQUE", NUMERICS),
+];
