@@ -363,3 +363,55 @@ solver.linear.tolerance = 1e-12
         assert!(judged > 0, "nothing judged");
     }
 }
+
+/// A quarter of a ball of radius 10 pressed by 1000 on an obstacle whose surface has this curvature, positive if hollow: the worst deviation from Hertz's
+/// pressure within 0.8 of his radius of contact, relative to its peak, and the force in the quarter.
+fn ball_on_obstacle(element: &str, obstacle: &str, curvature: f64) -> (f64, f64) {
+    let text = format!(
+        r#"format = 1
+model.space = "solid"
+body.ball = {{ generate.half-ball = {{ radius = 10, sector = "quarter", size = 4, element = "{element}", refine = {{ finest = 0.1, width = 0.45, growth = 1.8 }} }}, material = "m" }}
+material.m.isotropic = {{ young = 1e5, poisson = 0.3 }}
+obstacle.floor.{obstacle}
+interface.contact = {{ secondary = "ball.arc", primary = "floor" }}
+support.sx = {{ set = "ball.symmetry-x", x = 0 }}
+support.sy = {{ set = "ball.symmetry-y", y = 0 }}
+load.f = {{ set = "ball.flat", pressure.value = 3.183098861837907 }}
+step = [{{ increments = {{ fixed = 2 }} }}]
+"#
+    );
+    let problem = support::problem(&text);
+    let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    // E* = E / (1 - ν²) on what is rigid, 1/R = 1/10 - curvature; a³ = 3 F R / 4 E*, p₀ = 3 F / 2 π a².
+    let (force, radius) = (1000.0, 1.0 / (0.1 - curvature));
+    let a = f64::cbrt(0.75 * force * radius / (1e5 / (1.0 - 0.09)));
+    let peak = 1.5 * force / (std::f64::consts::PI * a * a);
+    let interface = &simulation.model.interfaces[0];
+    let (names, columns) = interface.table(&simulation.state.u);
+    let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
+    let mut worst: f64 = 0.0;
+    let mut points = 0;
+    for ((x, y), p) in column("x").iter().zip(column("y")).zip(column("CPRESS")) {
+        let r = x.hypot(*y) / a;
+        if r < 0.8 {
+            points += 1;
+            worst = worst.max((p - peak * (1.0 - r * r).sqrt()).abs() / peak);
+        }
+    }
+    assert!(points > 20, "{element}: {points}");
+    assert!(simulation.summary.quality.met);
+    (worst, interface.resultant(&simulation.state.u).total)
+}
+
+/// Quadratic faces carry pressure on obstacles as they do on bodies: not at points within faces, whose pressures are noise.
+#[test]
+fn quadratic_faces_on_obstacles_have_the_pressure_of_hertz() {
+    let plane = "plane = { point = [0, 0, -10], normal = [0, 0, 1] }";
+    let hollow = "sphere = { centre = [0, 0, 15], radius = 25, inside = true }";
+    for (element, obstacle, curvature) in [("hex20", plane, 0.0), ("tet10", hollow, 0.04)] {
+        let (worst, force) = ball_on_obstacle(element, obstacle, curvature);
+        assert!(worst < 0.05, "{element} on {obstacle}: {worst}");
+        assert!((force / 250.0 - 1.0).abs() < 1e-3, "{element}: {force}");
+    }
+}

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use crate::math::Vec3;
 use crate::shape::ElementKind;
 
-/// A point of the secondary surface at which contact is checked: a node, or a quadrature point of a face.
+/// A point of the secondary surface at which contact is checked: a node, a quadrature point of a face, or on an obstacle the mean over a quadratic
+/// face that belongs to one of its nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPoint {
     /// Mesh points it hangs on: one, or those of a face, so at most eight.
@@ -23,6 +24,20 @@ pub struct ContactPoint {
 }
 
 impl ContactPoint {
+    /// The node that it belongs to: the only one, or the first if it outweighs the others; none of a place within a face.
+    pub fn node(&self) -> Option<usize> {
+        match (self.nodes.as_slice(), self.weights.first()) {
+            (&[one], _) => Some(one),
+            (&[first, ..], Some(&w)) if w >= 1.0 => Some(first),
+            _ => None,
+        }
+    }
+
+    /// Where results at it are shown: at its node, or at its position.
+    pub fn place(&self, x: &[Vec3]) -> Vec3 {
+        self.node().map_or_else(|| self.position(x), |node| x[node])
+    }
+
     /// Its position, given those of all mesh points.
     pub fn position(&self, x: &[Vec3]) -> Vec3 {
         let mut p = [0.0; 3];

@@ -393,11 +393,8 @@ fn inspect(interface: &Interface, gaps: &[f64]) -> InterfaceReport {
         smallest: gap(finite.first(), f64::INFINITY),
         median: gap(finite.get(finite.len() / 2), f64::INFINITY),
         largest: gap(finite.last(), f64::NEG_INFINITY),
-        nearest_node: nearest.and_then(|p| match p.nodes.as_slice() {
-            [one] => Some(interface.node_ids[*one]),
-            _ => None,
-        }),
-        nearest_at: nearest.map(|p| p.position(&interface.reference)),
+        nearest_node: nearest.and_then(|p| Some(interface.node_ids[p.node()?])),
+        nearest_at: nearest.map(|p| p.place(&interface.reference)),
         overlapping: finite.iter().filter(|(gap, _)| *gap < 0.0).count(),
         laws: interface.laws.describe(),
     }

@@ -2,7 +2,9 @@
 
 use super::{Interface, Primary};
 use crate::contact::enforcement::Multipliers;
-use crate::contact::kinematics::{Pair, Stencil, add_rigid_hessian, rigid_stencil, tangents};
+use crate::contact::kinematics::{
+    Pair, Stencil, add_average_hessian, add_rigid_hessian, average, rigid_stencil, tangents,
+};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::mortar::FaceIntegral;
 use crate::contact::obstacle::Pose;
@@ -539,6 +541,22 @@ impl Interface {
         ) else {
             return Evaluation::open(f64::INFINITY);
         };
+        // One with several nodes has the mean of their gaps.
+        let mean = point.nodes.len() > 1;
+        let shape_now = (shape.as_dyn(), &poses.0);
+        if mean
+            && average(
+                shape_now.0,
+                shape_now.1,
+                point,
+                scene.x,
+                dim,
+                &mut batch.stencil,
+            )
+            .is_none()
+        {
+            return Evaluation::open(f64::INFINITY);
+        }
         // A curved obstacle measures the gap from its centre.
         let curvature = feet[0].curvature.iter().flatten();
         let curvature = curvature.fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -557,7 +575,14 @@ impl Interface {
         batch.sides.extend(own);
         let mut e = self.respond(i, point.area, sides, scene, batch);
         self.finish(scene, &mut e, batch, |_, weights, out| {
-            add_rigid_hessian(shape.as_dyn(), &poses.0, point, x, &feet, dim, weights, out)
+            let [normal, t1, t2] = weights;
+            let (shape, pose) = shape_now;
+            if !mean {
+                return add_rigid_hessian(shape, pose, point, x, &feet, dim, weights, out);
+            }
+            let along = [0.0, t1, t2];
+            let slips = add_rigid_hessian(shape, pose, point, x, &feet, dim, along, out);
+            add_average_hessian(shape, pose, point, scene.x, dim, normal, out) || slips
         });
         e
     }

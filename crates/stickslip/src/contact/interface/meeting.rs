@@ -2,6 +2,7 @@
 
 use super::evaluate::TOUCHING;
 use super::{Interface, Primary};
+use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
 use crate::contact::surface::{Facet, triangulate};
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -102,7 +103,8 @@ impl Interface {
             if closing <= SLIDING * largest {
                 continue;
             }
-            let gap = foot.gap - self.initial.offset(i, t);
+            let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
+            let gap = gap - self.initial.offset(i, t);
             if gap <= CLOSE * TOUCHING * point.size {
                 meeting.touching.push((self.nodes[point.nodes[0]], None));
                 continue;

@@ -266,7 +266,8 @@ impl Interface {
             let nodes = p.nodes.iter().zip(&p.weights);
             nodes
                 .map(|(&node, w)| w * by_point.get(self.nodes[node]).copied().unwrap_or(0.0))
-                .sum()
+                .sum::<f64>()
+                .max(0.0)
         };
         self.memory.inertia = self.points.iter().map(|p| mass(p) / p.area).collect();
     }
@@ -517,7 +518,7 @@ impl Interface {
             return;
         }
         for (i, point) in self.points.iter().enumerate() {
-            let &[node] = point.nodes.as_slice() else {
+            let Some(node) = point.node() else {
                 continue;
             };
             let e = evaluations.points.get(i);

@@ -18,11 +18,11 @@ pub fn neighbours(points: &[ContactPoint], facets: &[Facet], x: &[Vec3]) -> Vec<
     let mut at_node: BTreeMap<usize, usize> = BTreeMap::new();
     let mut faces: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
     for (i, point) in points.iter().enumerate() {
-        match point.nodes.as_slice() {
-            [one] => {
-                at_node.insert(*one, i);
+        match point.node() {
+            Some(one) => {
+                at_node.insert(one, i);
             }
-            many => faces.entry(many).or_default().push(i),
+            None => faces.entry(&point.nodes).or_default().push(i),
         }
     }
     for facet in facets {

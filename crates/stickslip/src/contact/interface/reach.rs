@@ -1,8 +1,10 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
 use super::{Interface, Memory, Primary};
+use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
 use crate::contact::search::{Box3, Tree};
+use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, distance};
 
 /// How far contact may come before somebody has to look again.
@@ -171,13 +173,13 @@ impl Interface {
                 let poses: Vec<_> = (0..POSES)
                     .map(|k| motion.pose(from + (to - from) * k as f64 / (POSES - 1) as f64))
                     .collect();
-                let gap = |p: Vec3| {
-                    let feet = poses
+                let gap = |p: &ContactPoint| {
+                    let gaps = poses
                         .iter()
-                        .filter_map(|pose| shape.as_dyn().foot(pose.inward(p)));
-                    feet.map(|foot| foot.gap).fold(f64::INFINITY, f64::min)
+                        .filter_map(|pose| mean_gap(shape.as_dyn(), pose, p, x));
+                    gaps.fold(f64::INFINITY, f64::min)
                 };
-                self.points.iter().map(|p| gap(p.position(x))).collect()
+                self.points.iter().map(gap).collect()
             }
             Primary::Facets(_) => {
                 self.search(x);

@@ -282,8 +282,8 @@ impl Interface {
             .enumerate()
             .map(|(i, (p, h))| {
                 let area = self.area_of(i);
-                let x = p.position(&self.reference);
-                let now = p.position(&moved);
+                let x = p.place(&self.reference);
+                let now = p.place(&moved);
                 let normal = if h.normal == [0.0; 3] {
                     scale(-1.0, p.normal)
                 } else {
@@ -291,10 +291,7 @@ impl Interface {
                 };
                 let frame = output_frame(normal, dim);
                 let shear = [dot(h.shear, frame[0]), dot(h.shear, frame[1])];
-                let id = match p.nodes.as_slice() {
-                    [one] => self.node_ids[*one] as f64,
-                    _ => f64::NAN,
-                };
+                let id = p.node().map_or(f64::NAN, |n| self.node_ids[n] as f64);
                 vec![
                     id,
                     x[0],

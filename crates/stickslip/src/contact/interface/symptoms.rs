@@ -36,10 +36,7 @@ impl Interface {
         let memory = &self.memory;
         let mut evidence = Evidence {
             interface: self.name.clone(),
-            node: match point.nodes.as_slice() {
-                [one] => Some(self.node_ids[*one]),
-                _ => None,
-            },
+            node: point.node().map(|one| self.node_ids[one]),
             points: point.nodes.iter().map(|&n| self.nodes[n]).collect(),
             position: point.position(&self.reference),
             normal: point.normal.map(|c| -c),

@@ -4,6 +4,7 @@
 //! response of the interface is written in its frame, so that force and tangent are
 //! `Bᵀ t` and `Bᵀ D B + Σ tᵢ kᵢ` whatever law made `t` and `D`.
 
+mod average;
 mod convective;
 mod facet;
 mod pop;
@@ -13,6 +14,7 @@ mod small_sliding;
 #[cfg(test)]
 mod tests;
 
+pub use average::{add_average_hessian, average, mean_gap};
 pub use convective::Convective;
 pub use pop::Pop1995;
 pub use rigid::{add_rigid_hessian, rigid_stencil, tangents};

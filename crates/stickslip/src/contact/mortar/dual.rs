@@ -35,6 +35,27 @@ pub fn positive(kind: ElementKind, n: &mut [f64; FACE_NODES]) {
     }
 }
 
+/// The mean over the faces around the node `k` of a face, weighted by its dual function: nodes, its own first, and their weights.
+///
+/// `∫ Φ_k N_i` over `∫ Φ_k`, where Φ is dual to [`positive`] functions `N̂`: with `N` written in `N̂`, `N_middle = N̂_middle / (1 - 2α)` and `N_corner = N̂_corner
+/// - α / (1 - 2α) Σ N̂_middle`, only the node itself and, of one in the middle of an edge, the corners of that edge take part, whatever the shape of the
+/// faces.
+pub fn mean_weights(kind: ElementKind, k: usize) -> (Vec<usize>, Vec<f64>) {
+    let corners = kind.corner_count();
+    if k < corners {
+        return (vec![k], vec![1.0]);
+    }
+    let ends = match kind.dim() {
+        1 => [0, 1],
+        _ => [k - corners, (k - corners + 1) % corners],
+    };
+    let rest = 1.0 - 2.0 * SHARE;
+    (
+        vec![k, ends[0], ends[1]],
+        vec![1.0 / rest, -SHARE / rest, -SHARE / rest],
+    )
+}
+
 /// The area that the point at each node stands for, of a face with nodes at `x` and this extent out of the plane by place.
 pub fn positive_areas(kind: ElementKind, x: &[Vec3], extent: impl Fn(Vec3) -> f64) -> Vec<f64> {
     let n = kind.node_count();

@@ -20,7 +20,7 @@ mod integrate;
 mod rules;
 
 pub use correct::correct;
-pub use dual::positive_areas;
+pub use dual::{mean_weights, positive_areas};
 pub use integrate::{FaceIntegral, Scratch, Sides, integrate};
 
 use crate::math::Vec3;

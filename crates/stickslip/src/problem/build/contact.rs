@@ -10,7 +10,7 @@ use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
 use crate::contact::interface::{Initial, Interface, Memory, Primary, neighbours};
-use crate::contact::mortar::{Face, Mortar, positive_areas};
+use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, triangulate};
@@ -162,7 +162,11 @@ impl Make<'_> {
                     surfaces.mortar(&facets, modulus, angle.to_radians(), &mut numbering);
                 (points, Some(mortar))
             }
-            None => (surfaces.points(&facets, modulus, &mut numbering), None),
+            None => {
+                let obstacle = matches!(opposite, Primary::Rigid(..));
+                let points = surfaces.points(&facets, (modulus, obstacle), &mut numbering);
+                (points, None)
+            }
         };
         let points: Vec<ContactPoint> = match &only {
             Some(only) => {
@@ -314,12 +318,12 @@ impl Surfaces<'_> {
             .collect()
     }
 
-    /// Contact points: the nodes, each with its share of the area; on quadratic faces in space, whose corners have no share or
-    /// a negative one, quadrature points instead.
+    /// Contact points: the nodes, each with its share of the area. Corners of quadratic faces in space have no share or a negative one: there they
+    /// are means over the faces around each node on an `obstacle`, and quadrature points on facets.
     fn points(
         &self,
         facets: &[FacetRef],
-        primary: f64,
+        (primary, obstacle): (f64, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
         let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) = facets.iter().partition(|&&f| {
@@ -329,7 +333,54 @@ impl Surfaces<'_> {
             )
         });
         let mut out = self.nodal_points(&plain, primary, numbering);
-        out.extend(self.quadrature_points(&curved, primary, numbering));
+        out.extend(match obstacle {
+            true => self.mean_points(&curved, primary, numbering),
+            false => self.quadrature_points(&curved, primary, numbering),
+        });
+        out
+    }
+
+    /// One point a node, the mean over the quadratic faces around it weighted by its dual function: as many points as a body can follow, with
+    /// positive areas that make a uniform pressure exact. See [`mean_weights`].
+    fn mean_points(
+        &self,
+        facets: &[FacetRef],
+        primary: f64,
+        numbering: &mut Numbering,
+    ) -> Vec<ContactPoint> {
+        let mut at: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut out: Vec<ContactPoint> = Vec::new();
+        for &facet in facets {
+            let b = self.beneath(facet);
+            let (kind, nodes) = self.mesh.facet_points(facet);
+            let x = self.coordinates(&nodes);
+            let areas = positive_areas(kind, &x, |at| self.space.extent(at));
+            let stiffness = b.modulus.min(primary) / b.height;
+            for (k, &node) in nodes.iter().enumerate() {
+                let i = *at.entry(node).or_insert_with(|| {
+                    let (hung, weights) = mean_weights(kind, k);
+                    out.push(ContactPoint {
+                        nodes: hung.iter().map(|&k| numbering.of(nodes[k])).collect(),
+                        weights,
+                        area: 0.0,
+                        stiffness: 0.0,
+                        normal: [0.0; 3],
+                        size: 0.0,
+                    });
+                    out.len() - 1
+                });
+                let point = &mut out[i];
+                point.area += areas[k];
+                point.stiffness += areas[k] * stiffness;
+                point.size += areas[k] * b.height;
+                point.normal = add_scaled(point.normal, areas[k] / b.measure, b.normal);
+            }
+        }
+        for point in &mut out {
+            point.stiffness /= point.area;
+            point.size /= point.area;
+            point.normal = normalize(point.normal).unwrap_or_default();
+        }
         out
     }
 

@@ -97,7 +97,7 @@ fn coupling(
 ) -> Option<(f64, usize)> {
     let mut limits: Vec<(usize, f64)> = Vec::new();
     for (i, beside) in measured.nearest.iter().enumerate() {
-        let &[node] = interface.points[i].nodes.as_slice() else {
+        let Some(node) = interface.points[i].node() else {
             continue;
         };
         let Some(beside) = beside else {

@@ -148,10 +148,7 @@ fn secondary(interface: &Interface, i: usize, remark: String) -> Guilty {
     Guilty {
         what: What::Node,
         name: interface.name.clone(),
-        id: match point.nodes.as_slice() {
-            [one] => Some(interface.node_ids[*one]),
-            _ => None,
-        },
+        id: point.node().map(|one| interface.node_ids[one]),
         interface: Some(interface.name.clone()),
         remark,
         ..Guilty::default()
