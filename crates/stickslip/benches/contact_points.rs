@@ -146,6 +146,7 @@ fn interface(
         node_ids: (0..reference.len() as u64).collect(),
         reference,
         neighbours: Vec::new(),
+        skin: Vec::new(),
         primary_nodes: 0,
         points,
         mortar: None,

@@ -2,6 +2,7 @@
 
 mod support;
 
+use stickslip::simulation::doctor::DoctorCause;
 use stickslip::simulation::{Figure, GateMode, Simulation};
 
 /// Two blocks with meshes that do not match; the top is moved down and aside.
@@ -53,6 +54,8 @@ fn a_good_solution_passes_and_every_figure_is_listed() {
         "penetration-to-approach",
         "false-slip",
         "complementarity",
+        "unseen-to-size",
+        "unseen-to-approach",
         "oscillation",
         "excess-shear",
         "action-reaction",
@@ -240,4 +243,181 @@ fn what_the_numerical_stiffness_does_is_estimated_within_a_factor_of_two() {
     }
     let exact = with("").summary.interfaces[0].numerical_stiffness;
     assert!(exact.is_some_and(|n| n.independent_to < 1e-4), "{exact:?}");
+}
+
+/// A half-disc of small cells pressed into a block of so many cells across.
+fn disc(cells: usize, secondary: &str, primary: &str, more: &str) -> Simulation {
+    run(&format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.disc = {{ generate.half-disc = {{ centre = [0.05, 0.09], radius = 0.04, size = 0.004 }}, material = "steel" }}
+body.block = {{ generate.rectangle = {{ to = [0.1, 0.05], cells = [{cells}, 3] }}, material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+interface.joint = {{ secondary = "{secondary}", primary = "{primary}", friction.coulomb = {{ mu = 0.3 }}{more} }}
+support.base = {{ set = "block.bottom", x = 0, y = 0 }}
+support.press = {{ set = "disc.flat", x = 0, y = -2e-4 }}
+step = [{{ name = "press", increments = {{ fixed = 2 }} }}]"#
+    ))
+}
+
+fn force(simulation: &Simulation) -> f64 {
+    let interface = &simulation.model.interfaces[0];
+    interface.resultant(&simulation.state.u).total
+}
+
+#[test]
+fn contact_that_a_coarse_secondary_misses_is_found_or_said() {
+    let sides = ("disc.arc", "block.top");
+    // With the finer side as secondary the force comes down to its limit as the block gets finer, and nothing goes unseen.
+    let fine = [5, 6, 8, 12, 20].map(|cells| {
+        let run = disc(cells, sides.0, sides.1, "");
+        assert!(run.summary.quality.met, "{:#?}", violated(&run));
+        force(&run)
+    });
+    assert!(fine.windows(2).all(|f| f[1] < f[0]), "{fine:?}");
+    assert!(fine[4] > 0.75 * fine[0], "{fine:?}");
+    // The other way round forces are right within a part, or the gate says so: where nothing is found, and where a mean over large faces finds
+    // too much.
+    for cells in [5, 6, 7, 8, 10, 12, 16, 20] {
+        for more in ["", ", discretisation.node-to-facet = {}"] {
+            let simulation = disc(cells, sides.1, sides.0, more);
+            if simulation.summary.quality.met {
+                let error = force(&simulation) / fine[4] - 1.0;
+                assert!(error.abs() < 0.25, "{cells}{more}: {error}");
+            } else {
+                trips(&simulation, "unseen-to-approach");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_interface_that_never_carried_is_named() {
+    let simulation = disc(5, "block.top", "disc.arc", "");
+    assert_eq!(force(&simulation), 0.0);
+    let causes: Vec<DoctorCause> = (simulation.summary.findings.iter())
+        .map(|f| f.cause)
+        .collect();
+    assert_eq!(causes, [DoctorCause::NeverCarried]);
+}
+
+#[test]
+fn contact_at_one_point_is_called_coarse() {
+    let simulation = disc(20, "disc.arc", "block.top", "");
+    let found = simulation.summary.findings.iter();
+    let mut found = found.filter(|f| f.cause == DoctorCause::CoarseContact);
+    let finding = found.next().expect("a finding");
+    assert!(finding.message.contains("1 point of 33"), "{finding}");
+    // Blocks in contact all over are resolved by any mesh.
+    assert!(with("").summary.findings.is_empty());
+}
+
+/// A block on the floor or on another body that is narrower than one of its faces.
+fn narrow(below: &str, secondary: &str, primary: &str) -> Simulation {
+    run(&format!(
+        r#"format = 1
+model.space = "solid"
+body.upper = {{ generate.box = {{ from = [0, 0, 1], to = [2, 2, 2], cells = [1, 1, 2] }}, material = "soft" }}
+material.soft.isotropic = {{ young = 1e3, poisson = 0.3 }}
+{below}
+interface.joint = {{ secondary = "{secondary}", primary = "{primary}", discretisation.node-to-facet = {{}} }}
+support.top = {{ set = "upper.top", x = 0, y = 0, z = -2e-2 }}
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}]"#
+    ))
+}
+
+#[test]
+fn what_pokes_between_points_is_seen() {
+    let body = |element: &str| {
+        format!(
+            r#"body.lower = {{ generate.box = {{ from = [0.7, 0.7, 0], to = [1.2, 1.2, 1], cells = [2, 2, 2], element = "{element}" }}, material = "soft" }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
+        )
+    };
+    for element in ["hex8", "tet4", "hex20"] {
+        let simulation = narrow(&body(element), "upper.bottom", "lower.top");
+        assert_eq!(force(&simulation), 0.0);
+        trips(&simulation, "unseen-to-approach");
+        // With the narrow body as secondary nothing is missed.
+        let simulation = narrow(&body(element), "lower.top", "upper.bottom");
+        assert!(force(&simulation) > 0.0);
+        assert!(
+            simulation.summary.quality.met,
+            "{:#?}",
+            violated(&simulation)
+        );
+    }
+    // A ball smaller than the face above it.
+    let ball = "obstacle.ball.sphere = { centre = [1, 1, 0.7], radius = 0.3 }";
+    let simulation = narrow(ball, "upper.bottom", "ball");
+    assert_eq!(force(&simulation), 0.0);
+    trips(&simulation, "unseen-to-approach");
+}
+
+/// Two half-discs pressed together and pulled aside.
+fn discs(more: &str) -> Simulation {
+    run(&format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.half-disc = {{ centre = [0, -8], radius = 8, direction = [0, 1], size = 2, refine = {{ finest = 0.08, width = 0.8, growth = 1.7 }} }}, material = "m" }}
+body.upper = {{ generate.half-disc = {{ centre = [0, 8], radius = 8, direction = [0, -1], size = 2, refine = {{ finest = 0.08, width = 0.8, growth = 1.7 }} }}, material = "m" }}
+material.m.isotropic = {{ young = 200, poisson = 0.3 }}
+interface.contact = {{ secondary = "upper.arc", primary = "lower.arc", friction.coulomb.mu = 0.2{more} }}
+support.base = {{ set = "lower.flat", x = 0, y = 0 }}
+support.press = {{ set = "upper.flat", x = 0.005, y = -0.1 }}
+step = [{{ increments = {{ fixed = 2 }} }}]"#
+    ))
+}
+
+#[test]
+fn small_sliding_says_by_how_much_surfaces_have_turned() {
+    let turned = |simulation: &Simulation| {
+        let findings = simulation.summary.findings.iter();
+        let mut findings = findings.filter(|f| f.cause == DoctorCause::TurnedNormals);
+        findings.next().cloned()
+    };
+    let simulation = discs(", kinematics.small-sliding = {}");
+    let finding = turned(&simulation).expect("a finding");
+    // Round surfaces become flat where they press: at x the normal of the start is off by x over R, up to the last points that press by a tenth.
+    let interface = &simulation.model.interfaces[0];
+    let (names, columns) = interface.table(&simulation.state.u);
+    let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
+    let peak = column("CPRESS").iter().fold(0.0, |m: f64, p| m.max(*p));
+    let pressed = column("x").iter().zip(column("CPRESS"));
+    let widest = pressed.filter(|(_, p)| **p > 0.1 * peak);
+    let widest = widest.fold(0.0, |m: f64, (x, _)| m.max(x.abs()));
+    let said = finding.message.split("up to ").nth(1);
+    let said = said.and_then(|s| s.split(' ').next()?.parse::<f64>().ok());
+    let said = said.expect("an angle");
+    assert!(
+        (said / (widest / 8.0) - 1.0).abs() < 0.15,
+        "{finding} {widest}"
+    );
+    assert!(turned(&discs("")).is_none());
+}
+
+#[test]
+fn facets_that_are_off_by_a_part_of_the_fit_are_named() {
+    let fit = |size: f64, element: &str| {
+        let text = format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.disc = {{ generate.half-disc = {{ centre = [0, 0], radius = 1, size = {size}, element = "{element}" }}, material = "m" }}
+material.m.isotropic = {{ young = 200, poisson = 0.3 }}
+obstacle.hole.cylinder = {{ centre = [0, 0], radius = 0.999, inside = true }}
+interface.fit = {{ secondary = "disc.arc", primary = "hole", initial = "ramp" }}
+support.flat = {{ set = "disc.flat", y = 0 }}
+step = [{{}}]"#
+        );
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let findings = simulation.check().findings;
+        findings
+            .iter()
+            .any(|f| f.cause == DoctorCause::CoarseFacets)
+    };
+    // An eighth of the square of a facet over the radius, beside an overlap of a thousandth.
+    assert!(fit(0.1, "quad4"));
+    assert!(!fit(0.02, "quad4"));
+    assert!(!fit(0.1, "quad8"));
 }

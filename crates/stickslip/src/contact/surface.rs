@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::math::Vec3;
+use crate::contact::pairing::evaluate;
+use crate::math::{Vec3, angle, distance};
 use crate::shape::ElementKind;
 
 /// A point of the secondary surface at which contact is checked: a node, a quadrature point of a face, or on an obstacle the mean over a quadratic
@@ -63,6 +64,40 @@ pub struct Facet {
     pub cell: u64,
 }
 
+/// A face of the secondary as it lies there, whatever contact is checked at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Skin {
+    /// The face; the normal points out of the body.
+    pub facet: Facet,
+    /// Its contact points.
+    pub points: Vec<usize>,
+}
+
+/// The faces of a secondary with these points, of which single nodes may lie on several smooth parts of the surface: then `own` has those of
+/// each face. A face without points is left out.
+pub fn skin(facets: Vec<Facet>, points: &[ContactPoint], own: Option<&[Vec<usize>]>) -> Vec<Skin> {
+    let mut at_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut within: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
+    for (i, point) in points.iter().enumerate() {
+        match point.node() {
+            Some(node) => at_node.entry(node).or_default().push(i),
+            None => within.entry(&point.nodes).or_default().push(i),
+        }
+    }
+    let of = |facet: &Facet| -> Vec<usize> {
+        let nodes = facet.nodes.iter().filter_map(|n| at_node.get(n));
+        let inner = within.get(facet.nodes.as_slice());
+        nodes.chain(inner).flatten().copied().collect()
+    };
+    (facets.into_iter().enumerate())
+        .map(|(k, facet)| Skin {
+            points: own.map_or_else(|| of(&facet), |own| own[k].clone()),
+            facet,
+        })
+        .filter(|skin| !skin.points.is_empty())
+        .collect()
+}
+
 /// Corner indices of the edges (3D) or ends (2D) of a facet kind, in the order of [`Facet::continues`].
 pub fn edges(kind: ElementKind) -> &'static [&'static [usize]] {
     match kind {
@@ -91,6 +126,37 @@ pub fn connect(facets: &mut [Facet]) {
             .map(|edge| count[&key(facet, edge)] > 1)
             .collect();
     }
+}
+
+/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`.
+const SHARP: f64 = 0.5;
+
+/// How a smooth surface turns from facet to facet: for each edge that two facets share, the angle between their normals `[rad]` and the distance of
+/// their centres. Edges of the body are left out.
+pub fn turns(facets: &[&Facet], x: &[Vec3]) -> Vec<[f64; 2]> {
+    let mut sides: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+    for (f, facet) in facets.iter().enumerate() {
+        for edge in edges(facet.kind) {
+            let mut key: Vec<usize> = edge.iter().map(|&i| facet.nodes[i]).collect();
+            key.sort_unstable();
+            sides.entry(key).or_default().push(f);
+        }
+    }
+    let centre = |f: usize| {
+        let facet = facets[f];
+        let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| x[n]).collect();
+        let [s, t, _] = facet.kind.centre();
+        evaluate(facet.kind, &nodes, [s, t])
+    };
+    let pair = |sides: &Vec<usize>| match sides.as_slice() {
+        &[a, b] => {
+            let (a, b) = (centre(a), centre(b));
+            let angle = angle(a.normal, b.normal);
+            (angle < SHARP).then(|| [angle, distance(a.x, b.x)])
+        }
+        _ => None,
+    };
+    sides.values().filter_map(pair).collect()
 }
 
 /// Splits quadrilaterals into triangles along their first diagonal, for the paper's 3 + 1 node element.

@@ -6,7 +6,7 @@ mod vec3;
 
 pub use eigen::symmetric_eigen;
 pub use mat3::{Mat3, determinant, identity, inverse, mat_vec, outer, rotation, transpose_vec};
-pub use vec3::{Vec3, add, add_scaled, cross, distance, dot, norm, normalize, scale, sub};
+pub use vec3::{Vec3, add, add_scaled, angle, cross, distance, dot, norm, normalize, scale, sub};
 
 /// A value and its derivative with respect to the one argument of the function it came from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

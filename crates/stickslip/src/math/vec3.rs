@@ -31,6 +31,11 @@ pub fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The angle between two directions `[rad]`; exact for small ones as well.
+pub fn angle(a: Vec3, b: Vec3) -> f64 {
+    norm(cross(a, b)).atan2(dot(a, b))
+}
+
 /// Vector product.
 #[inline]
 pub fn cross(a: Vec3, b: Vec3) -> Vec3 {

@@ -60,6 +60,23 @@ pub(super) static COMPLEMENTARITY: Kind = Kind {
     help: "lower `solver.tolerance` or the `error` of the enforcement",
 };
 
+// Of lengths. In every analysis the largest of the run are compared: while forces are small so is the contact, and any mesh is too coarse for it.
+pub(super) static UNSEEN_TO_SIZE: Kind = Kind {
+    name: "unseen-to-size",
+    own: 0.0,
+    model: 0.0,
+    what: "between contact points the surfaces enter each other by this part of the cell beneath",
+    help: "choose the finer surface as secondary, or refine the secondary where it is touched",
+};
+
+pub(super) static UNSEEN_TO_APPROACH: Kind = Kind {
+    name: "unseen-to-approach",
+    own: 0.0,
+    model: 0.0,
+    what: "contact points miss this part of the way by which the bodies approach, and forces are wrong by about as much",
+    help: "choose the finer surface as secondary, or refine both where they touch",
+};
+
 pub(super) static OSCILLATION: Kind = Kind {
     name: "oscillation",
     own: LEAST,

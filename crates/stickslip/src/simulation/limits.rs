@@ -39,6 +39,15 @@ pub struct Limits {
     /// Complementarity: mean gap that pressure bridges, `Σ A p max(0, g - h(p)) / Σ A p height`. Not judged in an explicit step.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     pub complementarity: f64,
+    /// Depth by which the surfaces enter each other between contact points, beyond what the points say, over the height of the cell beneath: nodes of
+    /// the primary in faces of the secondary, and places all over these faces in the primary. Measured from the geometry alone.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub unseen_to_size: f64,
+    /// The same depth, or the distance by which the surfaces stand apart all around a point that carries pressure, over itself plus the elastic
+    /// approach: the part of the approach that contact points do not see. 1 where surfaces enter each other and nothing presses them
+    /// apart. The largest so far of both are compared.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub unseen_to_approach: f64,
     /// Oscillation index of the pressure: the part of it that goes up and down from each point of the secondary to the next, over its mean;
     /// 1 for a checkerboard of zero and twice the mean.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
@@ -74,6 +83,8 @@ impl Default for Limits {
             penetration_to_approach: 0.01,
             false_slip: 0.01,
             complementarity: 1e-3,
+            unseen_to_size: 0.02,
+            unseen_to_approach: 0.15,
             oscillation: 0.25,
             excess_shear: 1e-3,
             action_reaction: 1e-9,

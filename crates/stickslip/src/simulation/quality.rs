@@ -4,12 +4,13 @@ use serde::Serialize;
 
 use super::figures::{
     ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP, Kind, MOMENT,
-    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
+    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track, UNSEEN_TO_APPROACH,
+    UNSEEN_TO_SIZE,
 };
 use super::limits::{GateMode, Limits};
 use super::run::Simulation;
 use super::summary::{InterfaceSummary, NumericalStiffness};
-use crate::contact::interface::Interface;
+use crate::contact::interface::{Between, Interface};
 use crate::math::norm;
 
 /// The outcome of the quality gate.
@@ -181,6 +182,10 @@ impl Simulation {
 
     /// Judges the last accepted state.
     pub(super) fn judge_quality(&mut self, limits: &Limits) {
+        let (u, t) = (&self.state.u, self.state.t);
+        for (watch, interface) in self.watches.iter_mut().zip(&self.model.interfaces) {
+            watch.note(interface, interface.resultant(u).carried, (u, t));
+        }
         let mut gate = std::mem::take(&mut self.summary.quality);
         gate.gate = limits.gate;
         if limits.gate != GateMode::Off {
@@ -199,10 +204,17 @@ impl Simulation {
         for interface in &self.model.interfaces {
             let q = interface.quality();
             let r = interface.resultant(&self.state.u);
+            let place = format!("interface {}", interface.name);
+            let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
+            let approach = match r.carried > 0.0 {
+                true => whole.max(q.layer),
+                false => 0.0,
+            };
+            let between = interface.between(&self.state.u, t);
+            judge_between(interface, (between, approach), limits, (gate, &place, t));
             if r.carried <= 0.0 {
                 continue;
             }
-            let place = format!("interface {}", interface.name);
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
             if !interface.on_springs() {
                 let size = [q.relative_to_size, 1.0];
@@ -251,6 +263,27 @@ impl Simulation {
         let t = self.state.t;
         self.summary.quality.note(&ENERGY, "model", pair, limit, t);
         self.summary.quality.settle();
+    }
+}
+
+/// Judges what lies between the points of an interface whose bodies have come nearer elastically by `approach`.
+fn judge_between(
+    interface: &Interface,
+    (between, approach): (Between, f64),
+    limits: &Limits,
+    (gate, place, t): (&mut Gate, &str, f64),
+) {
+    let mut missed = between.penetration.max(between.apart);
+    if approach == 0.0 && missed > 0.0 {
+        // Facets of curved surfaces may overlap in the meshes where nothing presses.
+        missed = (missed - interface.overlap_between(t)).max(0.0);
+    }
+    if missed > 0.0 || approach > 0.0 {
+        let size = [between.relative_to_size, 1.0];
+        gate.note(&UNSEEN_TO_SIZE, place, size, limits.unseen_to_size, t);
+        let part = [missed, missed + approach];
+        let limit = limits.unseen_to_approach;
+        gate.note_in_motion(&UNSEEN_TO_APPROACH, place, part, limit, t);
     }
 }
 

@@ -64,6 +64,8 @@ pub struct Simulation {
     /// By probe; `None` at rigid bodies.
     pub(super) around: Vec<Option<Around>>,
     pub(super) step: usize,
+    /// What interfaces did so far.
+    pub(super) watches: Vec<doctor::Watch>,
     /// Bodies that only contact can hold.
     pub(super) loose: Loose,
     pub(super) started: Instant,
@@ -188,6 +190,7 @@ impl Simulation {
             held: BTreeMap::new(),
             released: Vec::new(),
             step: 0,
+            watches: vec![doctor::Watch::default(); model.interfaces.len()],
             loose: Loose::default(),
             started,
             model,
@@ -233,6 +236,11 @@ impl Simulation {
         );
         self.summary.artificial_energy = self.artificial_energy();
         self.summary.interfaces = quality::interfaces(self);
+        if self.summary.completed {
+            for finding in doctor::watched(self) {
+                doctor::note(&mut self.summary.findings, finding);
+            }
+        }
         let limits = self.model.quality;
         self.judge_energy(&limits);
         for observer in observers.iter_mut() {

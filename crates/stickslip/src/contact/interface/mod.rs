@@ -1,5 +1,6 @@
 //! The interface as a force: the only place that scatters contact into residual and tangent.
 
+mod between;
 mod change;
 mod curvature;
 mod evaluate;
@@ -10,23 +11,27 @@ mod own;
 mod quality;
 mod reach;
 mod report;
+mod resolution;
 mod sides;
 mod springs;
 mod start;
 mod steady;
 mod symptoms;
+mod turned;
 
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 
+pub use between::Between;
 pub use change::Change;
 pub use meeting::Meeting;
 pub use oscillation::neighbours;
 pub use quality::{Balance, Quality};
 pub use reach::Reach;
 pub use report::Resultant;
+pub use resolution::Resolution;
 pub use sides::WearReport;
 pub use start::{CLOSE, GLUE, Initial, Start, Within};
 
@@ -37,7 +42,7 @@ use super::obstacle::{Motion, ObstacleShape, Pose};
 use super::pairing::FacetPoint;
 use super::response::{Laws, Status};
 use super::search::{Box3, Tree};
-use super::surface::{ContactPoint, Facet};
+use super::surface::{ContactPoint, Facet, Skin};
 use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
 use crate::system::{
     Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
@@ -74,7 +79,9 @@ pub struct Interface {
     pub points: Vec<ContactPoint>,
     /// The secondary as faces, where gaps are weighted over them; `None` where they are those of the points themselves.
     pub mortar: Option<Mortar>,
-    /// For each of them the others beside it, see [`neighbours`]; empty where nobody asks how smooth the pressure is.
+    /// The faces of the secondary, to be looked at between points; empty where nobody asks.
+    pub skin: Vec<Skin>,
+    /// For each of the points the others beside it, see [`neighbours`]; empty where nobody asks how smooth the pressure is.
     pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,

@@ -75,6 +75,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         points,
         mortar: None,
         neighbours: Vec::new(),
+        skin: Vec::new(),
         primary: Primary::Facets(facets),
         share: 1.0,
         laws: Laws {

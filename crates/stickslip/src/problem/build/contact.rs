@@ -13,7 +13,7 @@ use crate::contact::interface::{Initial, Interface, Memory, Primary, neighbours}
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
-use crate::contact::surface::{ContactPoint, Facet, connect, triangulate};
+use crate::contact::surface::{ContactPoint, Facet, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add_scaled, cross, norm, normalize};
 use crate::mesh::{FacetRef, Mesh};
@@ -188,6 +188,10 @@ impl Make<'_> {
         let beneath = surfaces.facets(&facets, &mut numbering);
         let nodes = numbering.nodes;
         let reference: Vec<Vec3> = nodes.iter().map(|&n| mesh.points[n]).collect();
+        let faces = mortar
+            .as_ref()
+            .map(|m| m.faces.iter().map(|f| f.points.clone()));
+        let own: Option<Vec<Vec<usize>>> = faces.map(Iterator::collect);
         Ok(Interface {
             name,
             dofs: Dofs {
@@ -196,6 +200,11 @@ impl Make<'_> {
             },
             node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
             neighbours: neighbours(&points, &beneath, &reference),
+            // A few points chosen from a body make no surface.
+            skin: match only {
+                Some(_) => Vec::new(),
+                None => skin(beneath, &points, own.as_deref()),
+            },
             reference,
             nodes,
             primary_nodes,

@@ -84,11 +84,19 @@ pub enum DoctorCause {
     MovesApart,
     /// A velocity comes near the speed of sound.
     TooFast,
+    /// An interface carried nothing in the whole run.
+    NeverCarried,
+    /// Fewer than three points across are in contact.
+    CoarseContact,
+    /// Straight facets stand off curved surfaces by a good part of their overlap.
+    CoarseFacets,
+    /// Surfaces have turned since the start, and small sliding does not know of it.
+    TurnedNormals,
 }
 
 impl DoctorCause {
     /// All causes, in the order of [`code`](DoctorCause::code).
-    pub const ALL: [DoctorCause; 37] = [
+    pub const ALL: [DoctorCause; 41] = [
         DoctorCause::FreeRigidMode,
         DoctorCause::Chatter,
         DoctorCause::LostProjection,
@@ -126,6 +134,10 @@ impl DoctorCause {
         DoctorCause::LargeStrain,
         DoctorCause::MovesApart,
         DoctorCause::TooFast,
+        DoctorCause::NeverCarried,
+        DoctorCause::CoarseContact,
+        DoctorCause::CoarseFacets,
+        DoctorCause::TurnedNormals,
     ];
 
     /// Whether it is a mistake in the model, so that advice about how it is solved does not help.

@@ -16,12 +16,14 @@ mod finding;
 mod motions;
 mod signs;
 mod surfaces;
+mod watch;
 
 pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
 
 pub(super) use check::examine;
 pub(super) use culprits::write as write_culprits;
 pub(super) use diagnose::{MORE_MEMORY, diagnose, stopped};
+pub(super) use watch::{Watch, watched};
 
 use crate::error::RunError;
 use crate::newton::Statistics;

@@ -3,13 +3,17 @@
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::driven::flight;
 use super::{Measured, forced_by_loads, secondary, travel};
-use crate::contact::interface::Interface;
-use crate::contact::interface::Start;
+use crate::contact::interface::{Interface, Primary, Start};
+use crate::contact::surface::{Facet, turns};
 use crate::simulation::run::Simulation;
 
 /// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
 const DEEP: f64 = 0.5;
 const SHALLOW: f64 = 0.01;
+
+/// How far facets may stand off, relative to the overlap, and the overlap of surfaces that only touch, relative to the cell beneath.
+const FACETED: f64 = 0.1;
+const ROUNDING: f64 = 1e-9;
 
 /// By how much prescribed motion may be amplified by the bodies on its way to an interface.
 const LEVER: f64 = 10.0;
@@ -62,6 +66,7 @@ pub(super) fn check(
                 .advise("if the overlap is an interference fit, resolve it over the first step (`initial = \"ramp\"`)"),
         });
     }
+    out.extend(faceted(interface, &gaps));
     let reach = travel(model) + flight(model);
     if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(model) {
         out.push(
@@ -79,6 +84,51 @@ pub(super) fn check(
         );
     }
     out
+}
+
+/// How far straight facets stand off the smooth surface that they stand for, on average `[m]`: an eighth of their length times the angle between
+/// them. Quadratic ones follow it.
+fn standing_off(facets: &[&Facet], interface: &Interface) -> f64 {
+    let straight: Vec<&Facet> = facets
+        .iter()
+        .copied()
+        .filter(|f| f.kind.order() == 1)
+        .collect();
+    let turns = turns(&straight, &interface.reference);
+    let count = turns.len().max(1) as f64;
+    let depths = turns.iter().map(|[angle, length]| angle * length / 8.0);
+    depths.sum::<f64>() / count
+}
+
+/// An overlap that is not much deeper than the facets of a curved surface are off it: the meshes have another fit than the bodies.
+fn faceted(interface: &Interface, gaps: &[(usize, f64)]) -> Option<Finding> {
+    let overlaps: Vec<f64> = gaps.iter().map(|g| -g.1).take_while(|&g| g > 0.0).collect();
+    let typical = overlaps[..].get(overlaps.len() / 2).copied()?;
+    let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
+    let theirs: Vec<&Facet> = match &interface.primary {
+        Primary::Facets(facets) => facets.iter().collect(),
+        Primary::Rigid(..) => Vec::new(),
+    };
+    let off = standing_off(&ours, interface) + standing_off(&theirs, interface);
+    let size = interface.points[gaps[0].0].size;
+    // Surfaces that only touch overlap by rounding.
+    if off <= FACETED * typical || typical <= ROUNDING * size || 2 * overlaps.len() < gaps.len() {
+        return None;
+    }
+    let name = &interface.name;
+    let part = 100.0 * off / typical;
+    Some(
+        Finding::new(
+            DoctorCause::CoarseFacets,
+            Severity::Warning,
+            format!(
+                "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
+            ),
+        )
+        .blame(Guilty::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
+        .advise("refine both surfaces, or use quadratic cells, until the facets are off by a twentieth of the overlap")
+        .advise("divide both surfaces alike: then the facets are off by the same"),
+    )
 }
 
 fn nothing_opposite(interface: &Interface, measured: &Measured) -> Finding {

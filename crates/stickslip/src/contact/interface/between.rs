@@ -1,0 +1,318 @@
+//! What lies between contact points: how far the surfaces enter each other, or stand apart under pressure, where contact is not checked.
+//!
+//! Points of the secondary see what lies opposite them. A fine primary may enter a coarse face between its points, a corner of a face may enter
+//! between quadrature points, and a mean gap may be zero where surfaces are apart. All of that is measured here from the geometry alone, whatever
+//! is active: places all over both surfaces are projected on the other side.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::{Interface, Primary};
+use crate::contact::pairing::{beyond, evaluate, facet_distance, project};
+use crate::contact::search::Tree;
+use crate::contact::surface::{Facet, Skin};
+use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
+use crate::shape::ElementKind;
+
+/// What the contact points of an interface do not see.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Between {
+    /// Largest depth by which the surfaces enter each other beyond what the contact points nearby say `[m]`.
+    pub penetration: f64,
+    /// The same relative to the height of the cell beneath `[-]`.
+    pub relative_to_size: f64,
+    /// Largest distance by which the surfaces stand apart, everywhere around a point, beyond what the point says; times its pressure
+    /// over the largest `[m]`.
+    pub apart: f64,
+}
+
+/// How far beyond the edge of a facet, relative to its size, a place is opposite it.
+const EDGE: f64 = 1e-6;
+
+/// Part of a cell by which surfaces may overlap without having moved.
+const START: f64 = 0.5;
+
+/// Faces looked at by one task.
+const CHUNK: usize = 16;
+
+/// A place on a surface.
+struct Place {
+    x: Vec3,
+    /// In the reference configuration.
+    from: Vec3,
+    /// Outward normal.
+    normal: Vec3,
+}
+
+/// Places all over a facet in reference coordinates: nodes, middles of edges and quarters of lines.
+fn grid(kind: ElementKind) -> &'static [[f64; 2]] {
+    match kind {
+        ElementKind::Line2 | ElementKind::Line3 => {
+            &[[-1.0, 0.0], [-0.5, 0.0], [0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]
+        }
+        ElementKind::Tri3 | ElementKind::Tri6 => &[
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [0.0, 1.0],
+            [0.5, 0.0],
+            [0.5, 0.5],
+            [0.0, 0.5],
+            [1.0 / 3.0, 1.0 / 3.0],
+        ],
+        _ => &[
+            [-1.0, -1.0],
+            [1.0, -1.0],
+            [1.0, 1.0],
+            [-1.0, 1.0],
+            [0.0, -1.0],
+            [1.0, 0.0],
+            [0.0, 1.0],
+            [-1.0, 0.0],
+            [0.0, 0.0],
+        ],
+    }
+}
+
+fn gather(facet: &Facet, x: &[Vec3]) -> Vec<Vec3> {
+    facet.nodes.iter().map(|&n| x[n]).collect()
+}
+
+/// One side, to be asked for the gap of a place on the other.
+struct Side<'a> {
+    facets: Vec<&'a Facet>,
+    /// Heights of the cells beneath, where they are known.
+    sizes: Vec<f64>,
+    tree: Tree,
+    margin: f64,
+    /// Depth that contact points know of `[m]`.
+    deep: f64,
+    x: &'a [Vec3],
+    reference: &'a [Vec3],
+}
+
+impl<'a> Side<'a> {
+    fn new(
+        facets: Vec<&'a Facet>,
+        (sizes, deep): (Vec<f64>, f64),
+        x: &'a [Vec3],
+        reference: &'a [Vec3],
+    ) -> Self {
+        let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
+        // Curved facets leave the boxes of their nodes by a part of their size.
+        let curved = facets.iter().filter(|f| f.kind.order() > 1);
+        let longest = curved.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
+        Side {
+            margin: 0.25 * longest.fold(0.0, f64::max),
+            facets,
+            sizes,
+            deep,
+            tree,
+            x,
+            reference,
+        }
+    }
+
+    /// The nearest facet that faces a place, and the gap; `None` where there is none, or where the place lies beneath facets but beside all of
+    /// them.
+    fn gap(&self, place: &Place, found: &mut Vec<usize>) -> Option<(usize, f64)> {
+        self.tree.near(place.x, self.margin, found);
+        // Outside an edge the nearest facet may have no foot, and the next one that has is no measure.
+        let mut aside: Option<(f64, usize)> = None;
+        let mut best: Option<(f64, usize, Option<f64>)> = None;
+        for &f in found.iter() {
+            let facet = self.facets[f];
+            let nodes = gather(facet, self.x);
+            let Some(p) = project(facet.kind, &nodes, place.x) else {
+                continue;
+            };
+            if dot(p.normal, place.normal) >= 0.0 {
+                continue;
+            }
+            let over = beyond(facet.kind, &nodes, &p);
+            let away = facet_distance(place.x, &p, over);
+            let gap = dot(sub(place.x, p.x), p.normal);
+            if over.distance > EDGE * distance(nodes[0], nodes[1]) {
+                if gap > 0.0 && aside.is_none_or(|a| away < a.0) {
+                    aside = Some((away, f));
+                }
+                continue;
+            }
+            if best.is_some_and(|b| b.0 <= away) {
+                continue;
+            }
+            // No place lies deeper beneath a surface than it has come, or than a soft law lets it: what does belongs to the other side of a
+            // thin body.
+            let rest = facet.nodes.iter().zip(&p.n);
+            let rest = rest.fold([0.0; 3], |s, (&n, &w)| add_scaled(s, w, self.reference[n]));
+            let came = dot(sub(sub(place.x, place.from), sub(p.x, rest)), p.normal);
+            let size = self.sizes.get(f).copied().unwrap_or(0.0);
+            let size = size.max(distance(nodes[0], nodes[1]));
+            let deepest = self.deep + START * size + came.abs();
+            best = Some((away, f, (gap >= -deepest).then_some(gap)));
+        }
+        match (best, aside) {
+            (Some((away, ..)), Some((beside, f))) if beside < away => Some((f, beside)),
+            (Some((_, f, gap)), _) => gap.map(|gap| (f, gap)),
+            (None, aside) => aside.map(|(beside, f)| (f, beside)),
+        }
+    }
+}
+
+/// Places all over a facet.
+fn places<'a>(
+    facet: &'a Facet,
+    x: &'a [Vec3],
+    reference: &'a [Vec3],
+) -> impl Iterator<Item = Place> + 'a {
+    let (now, then) = (gather(facet, x), gather(facet, reference));
+    grid(facet.kind).iter().map(move |&xi| {
+        let p = evaluate(facet.kind, &now, xi);
+        let from = then.iter().zip(&p.n);
+        Place {
+            x: p.x,
+            from: from.fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x)),
+            normal: p.normal,
+        }
+    })
+}
+
+impl Interface {
+    /// What lies between contact points at the last accepted state, with displacements `u` of the mesh points, at time `t`. Nothing of tied
+    /// surfaces, which stay as they are.
+    pub fn between(&self, u: &[f64], t: f64) -> Between {
+        if self.laws.tied || self.skin.is_empty() || !self.schedule.active(t) {
+            return Between::default();
+        }
+        let x = self.coordinates(u);
+        let lowest = self.lowest(&x, t);
+        self.compare(&lowest, t)
+    }
+
+    /// The same of the meshes, before anything has moved: depth of what overlaps.
+    pub fn overlap_between(&self, t: f64) -> f64 {
+        let lowest = self.lowest(&self.reference, t);
+        lowest.iter().fold(0.0, |m, g| m.max(-g))
+    }
+
+    /// The smallest gap found anywhere on each face of the secondary; infinite where nothing lies opposite.
+    fn lowest(&self, x: &[Vec3], t: f64) -> Vec<f64> {
+        let mut lowest = vec![f64::INFINITY; self.skin.len()];
+        match &self.primary {
+            Primary::Rigid(shape, motion) => {
+                let pose = motion.pose(t);
+                for (lowest, skin) in lowest.iter_mut().zip(&self.skin) {
+                    for place in places(&skin.facet, x, &self.reference) {
+                        let foot = shape.as_dyn().foot(pose.inward(place.x));
+                        *lowest = foot.map_or(*lowest, |foot| lowest.min(foot.gap));
+                    }
+                }
+            }
+            Primary::Facets(facets) => self.lowest_of_facets(facets, x, &mut lowest),
+        }
+        lowest
+    }
+
+    fn lowest_of_facets(&self, facets: &[Facet], x: &[Vec3], lowest: &mut [f64]) {
+        let committed = self.memory.committed.iter();
+        let deep = committed.fold(0.0_f64, |m, h| m.max(-h.gap));
+        let theirs = Side::new(
+            facets.iter().collect(),
+            (Vec::new(), deep),
+            x,
+            &self.reference,
+        );
+        lowest
+            .par_chunks_mut(CHUNK)
+            .zip(self.skin.par_chunks(CHUNK))
+            .for_each(|(lowest, skins)| {
+                let mut found = Vec::new();
+                for (lowest, skin) in lowest.iter_mut().zip(skins) {
+                    for place in places(&skin.facet, x, &self.reference) {
+                        if let Some((_, gap)) = theirs.gap(&place, &mut found) {
+                            *lowest = lowest.min(gap);
+                        }
+                    }
+                }
+            });
+        let sizes = self.skin.iter().map(|s| self.size_of(s)).collect();
+        let ours = self.skin.iter().map(|s| &s.facet).collect();
+        let ours = Side::new(ours, (sizes, deep), x, &self.reference);
+        let corners = corners(facets, x, &self.reference);
+        let gaps: Vec<Option<(usize, f64)>> = corners
+            .par_chunks(CHUNK)
+            .flat_map_iter(|corners| {
+                let mut found = Vec::new();
+                let gaps: Vec<_> = corners.iter().map(|c| ours.gap(c, &mut found)).collect();
+                gaps
+            })
+            .collect();
+        for (face, gap) in gaps.into_iter().flatten() {
+            lowest[face] = lowest[face].min(gap);
+        }
+    }
+
+    /// Height of the cell beneath a face.
+    fn size_of(&self, skin: &Skin) -> f64 {
+        let sizes = skin.points.iter().map(|&p| self.points[p].size);
+        sizes.fold(f64::INFINITY, f64::min)
+    }
+
+    /// What was found, beside what the contact points say.
+    fn compare(&self, lowest: &[f64], t: f64) -> Between {
+        let mut out = Between::default();
+        let committed = &self.memory.committed;
+        if committed.len() != self.points.len() {
+            return out;
+        }
+        let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
+        let rounding = 64.0 * f64::EPSILON * reach;
+        // Gaps of the meshes, with what the start of the interface takes off; a point that has nothing opposite says nothing.
+        let said = |i: usize| match committed[i].normal == [0.0; 3] {
+            true => f64::INFINITY,
+            false => committed[i].gap + self.initial.offset(i, t),
+        };
+        let mut around = vec![f64::INFINITY; self.points.len()];
+        for (skin, &least) in self.skin.iter().zip(lowest) {
+            let wanted = skin.points.iter().map(|&p| said(p)).fold(0.0, f64::min);
+            let deep = wanted - least - rounding;
+            if deep > 0.0 {
+                out.penetration = out.penetration.max(deep);
+                out.relative_to_size = out.relative_to_size.max(deep / self.size_of(skin));
+            }
+            for &p in &skin.points {
+                around[p] = around[p].min(least);
+            }
+        }
+        let most = committed.iter().map(|h| h.pressure).fold(0.0, f64::max);
+        // Each of two halves presses where the other one finds contact.
+        if most > 0.0 && self.share == 1.0 {
+            for (i, h) in committed.iter().enumerate() {
+                let apart = around[i] - said(i) - rounding;
+                if h.pressure > 0.0 && apart.is_finite() && apart > 0.0 {
+                    out.apart = out.apart.max(apart * h.pressure / most);
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The nodes of facets, each once, with normals that are means over the facets around it.
+fn corners(facets: &[Facet], x: &[Vec3], reference: &[Vec3]) -> Vec<Place> {
+    let mut normals: BTreeMap<usize, Vec3> = BTreeMap::new();
+    for facet in facets {
+        let [s, t, _] = facet.kind.centre();
+        let normal = evaluate(facet.kind, &gather(facet, x), [s, t]).normal;
+        for &n in &facet.nodes {
+            let sum = normals.entry(n).or_default();
+            *sum = add_scaled(*sum, 1.0, normal);
+        }
+    }
+    let place = |(n, normal): (usize, Vec3)| Place {
+        x: x[n],
+        from: reference[n],
+        normal: normalize(normal).unwrap_or_default(),
+    };
+    normals.into_iter().map(place).collect()
+}
