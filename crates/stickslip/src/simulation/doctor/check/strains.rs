@@ -102,15 +102,15 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
                 force[c] += factor * f;
             }
         }
-        for c in 0..model.dofs.dim {
-            let strain = force[c].abs() / (modulus * section(c));
+        for (c, force) in force.iter().enumerate().take(model.dofs.dim) {
+            let strain = force.abs() / (modulus * section(c));
             if strain > LARGE && strain.is_finite() {
                 return Some(
                     finding(format!(
                         "load {} strains body {} by about {strain:.2}: {:.3e} on a section of {:.3e} with a modulus of {modulus:.3e}",
                         load.name,
                         body.name,
-                        force[c].abs(),
+                        force.abs(),
                         section(c)
                     ))
                     .blame(super::body(model, &body.name, format!("strain {strain:.2}")))

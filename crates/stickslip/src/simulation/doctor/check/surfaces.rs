@@ -154,7 +154,7 @@ fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Fin
 
 /// Two interfaces between the same surfaces that act at the same time.
 pub(in crate::simulation::doctor) fn doubled(model: &Model) -> Option<Finding> {
-    let sets: Vec<[BTreeSet<usize>; 2]> = model.interfaces.iter().map(|i| nodes(i)).collect();
+    let sets: Vec<[BTreeSet<usize>; 2]> = model.interfaces.iter().map(nodes).collect();
     for (b, second) in model.interfaces.iter().enumerate() {
         for (a, first) in model.interfaces.iter().enumerate().take(b) {
             // The two halves of two-sided contact are one interface of the problem.
