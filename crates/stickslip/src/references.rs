@@ -33,6 +33,7 @@ references! {
     flanagan_1981: "D. P. Flanagan, T. Belytschko, A uniform strain hexahedron and quadrilateral with orthogonal hourglass control, International Journal for Numerical Methods in Engineering 17 (1981) 679-706.",
     taylor_1976: "R. L. Taylor, P. J. Beresford, E. L. Wilson, A non-conforming element for stress analysis, International Journal for Numerical Methods in Engineering 10 (1976) 1211-1219.",
     ibrahimbegovic_1991: "A. Ibrahimbegović, E. L. Wilson, A modified method of incompatible modes, Communications in Applied Numerical Methods 7 (1991) 187-194.",
+    higham_1986: "N. J. Higham, Computing the polar decomposition - with applications, SIAM Journal on Scientific and Statistical Computing 7 (1986) 1160-1174.",
     hughes_1980: "T. J. R. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, International Journal for Numerical Methods in Engineering 15 (1980) 1413-1418.",
     karypis_kumar_1998: "G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM Journal on Scientific Computing 20 (1998) 359-392.",
     duff_reid_1983: "I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Transactions on Mathematical Software 9 (1983) 302-325.",

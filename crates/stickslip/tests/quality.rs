@@ -61,6 +61,9 @@ fn a_good_solution_passes_and_every_figure_is_listed() {
         "action-reaction",
         "moment",
         "equilibrium",
+        "rotation",
+        "local-rotation",
+        "displacement",
         "energy",
     ] {
         let f = gate.figures.iter().find(|f| f.figure == figure);
@@ -298,7 +301,7 @@ fn an_interface_that_never_carried_is_named() {
     let causes: Vec<DoctorCause> = (simulation.summary.findings.iter())
         .map(|f| f.cause)
         .collect();
-    assert_eq!(causes, [DoctorCause::NeverCarried]);
+    assert!(causes.contains(&DoctorCause::NeverCarried), "{causes:?}");
 }
 
 #[test]
@@ -420,4 +423,108 @@ step = [{{}}]"#
     assert!(fit(0.1, "quad4"));
     assert!(!fit(0.02, "quad4"));
     assert!(!fit(0.1, "quad8"));
+
+/// A block that is held at its left end and pushed up at the other.
+const BEAM: &str = r#"format = 1
+model.space = "plane-strain"
+body.beam = { generate.rectangle = { to = [8, 1], cells = [16, 2] }, material = "soft", formulation = "incompatible-modes" }
+material.soft.isotropic = { young = 1e3, poisson = 0.3 }
+support.base = { set = "beam.left", x = 0.0, y = 0.0 }
+load.tip = { set = "beam.right", traction.value = [0, 1] }
+step = [{ name = "bend", increments = { fixed = 1 } }]
+"#;
+
+/// The figure of this name at its worst.
+fn figure<'a>(simulation: &'a Simulation, name: &str) -> &'a Figure {
+    let mut all = simulation.summary.quality.figures.iter();
+    let found = all.find(|f| f.figure == name);
+    found.unwrap_or_else(|| panic!("{name} is missing"))
+}
+
+#[test]
+fn a_beam_that_bends_far_is_beyond_small_rotations() {
+    let simulation = run(BEAM);
+    trips(&simulation, "rotation");
+    trips(&simulation, "local-rotation");
+    // Euler and Bernoulli: the end turns by F L² / 2 E' I, the beam by two thirds of it; shear adds a little of its own.
+    let bending = 1.0 * 8.0_f64.powi(2) / (2.0 * 1e3 / 0.91 / 12.0);
+    let (mean, end) = (
+        figure(&simulation, "rotation").value,
+        figure(&simulation, "local-rotation").value,
+    );
+    assert!((mean / (bending * 2.0 / 3.0) - 1.0).abs() < 0.05, "{mean}");
+    assert!((end / bending - 1.0).abs() < 0.08, "{end} of {bending}");
+    assert_eq!(simulation.summary.largest_rotation, mean);
+    let gently = run(&BEAM.replace("[0, 1] }", "[0, 0.1] }"));
+    let turned = gently.summary.largest_rotation;
+    assert!(gently.summary.quality.met && turned > 0.005, "{turned}");
+}
+
+#[test]
+fn a_body_that_spins_by_more_than_the_theory_knows_is_not_a_good_result() {
+    for rigid in [false, true] {
+        let text = format!(
+            r#"format = 1
+model.space = "plane-stress"
+body.disc = {{ generate.rectangle = {{ to = [1, 1], cells = [2, 2] }}, material = "m", rigid = {rigid} }}
+material.m.isotropic = {{ young = 1e9, poisson = 0.3, density = 1000 }}
+initial.spin = {{ set = "disc", spin = [5] }}
+step = [{{ name = "spin", duration = 0.1, dynamic = {{}}, increments = {{ fixed = 20 }} }}]
+"#
+        );
+        let simulation = run(&text);
+        trips(&simulation, "rotation");
+        let turned = simulation.summary.largest_rotation;
+        assert!((turned / 0.5 - 1.0).abs() < 0.05, "{rigid}: {turned}");
+    }
+}
+
+#[test]
+fn a_body_on_a_spring_too_soft_has_left_the_model() {
+    let text = |stiffness: f64| {
+        format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.block = {{ generate.rectangle = {{ to = [1, 1], cells = [2, 2] }}, material = "m" }}
+material.m.isotropic = {{ young = 1e9, poisson = 0.3 }}
+support.rail = {{ set = "block.bottom", y = 0 }}
+load.spring = {{ set = "block.left", spring.stiffness = [{stiffness}, 0] }}
+load.pull = {{ set = "block.right", traction.value = [30, 0] }}
+step = [{{ name = "pull", increments = {{ fixed = 1 }} }}]
+"#
+        )
+    };
+    trips(&run(&text(1.0)), "displacement");
+    let held = run(&text(1e3));
+    assert!(held.summary.quality.met, "{:#?}", violated(&held));
+    // What is prescribed is no loss.
+    let moved = BLOCKS
+        .replace("x = 0.0, y = 0.0 }", "x = 9.0, y = 0.0 }")
+        .replace("x = 1e-4", "x = 9.0");
+    let moved = run(&moved);
+    assert!(figure(&moved, "displacement").met && figure(&moved, "displacement").value > 0.5);
+}
+
+#[test]
+fn a_body_that_flies_off_in_motion_is_a_finding() {
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [1, 1], cells = [2, 2] }, material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3, density = 1000 }
+initial.throw = { set = "block", velocity = [0, 5] }
+step = [{ name = "fly", duration = 1, dynamic = {}, increments = { fixed = 4 } }]
+"#;
+    let simulation = run(text);
+    assert!(
+        simulation.summary.quality.met,
+        "{:#?}",
+        violated(&simulation)
+    );
+    let findings = &simulation.summary.findings;
+    let far: Vec<_> = findings
+        .iter()
+        .filter(|f| f.cause == DoctorCause::FarAway)
+        .collect();
+    assert_eq!(far.len(), 1, "{findings:#?}");
+    assert!(far[0].message.contains("body block"), "{far:?}");
 }

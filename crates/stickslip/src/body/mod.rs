@@ -26,6 +26,7 @@ mod redistribution;
 mod rigid;
 mod scheme;
 mod space;
+mod turning;
 mod waves;
 
 pub use anchors::{Anchors, Hold, spread};
@@ -38,6 +39,7 @@ pub use moments::MassMoments;
 pub use recover::StressPoint;
 pub use rigid::{RigidMode, rigid_modes};
 pub use space::{Formulation, Space};
+pub use turning::Turning;
 
 #[cfg(test)]
 mod testing;

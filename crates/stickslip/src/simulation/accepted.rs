@@ -98,6 +98,7 @@ impl Simulation {
         summary.increments += 1;
         summary.iterations += effort.iterations;
         let turned = self.model.links.largest_rotation(&self.state.u);
+        // Elastic bodies are looked at where there is a row of the history.
         summary.largest_rotation = summary.largest_rotation.max(turned);
         if let (Some(motion), Some(internal)) = (&mut self.motion, accepted.internal) {
             motion.internal = internal;

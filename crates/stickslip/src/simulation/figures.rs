@@ -21,6 +21,25 @@ pub(super) struct Kind {
     pub help: &'static str,
 }
 
+/// All figures.
+pub(super) static ALL: [&Kind; 15] = [
+    &PENETRATION_TO_SIZE,
+    &UNSEEN_TO_SIZE,
+    &UNSEEN_TO_APPROACH,
+    &PENETRATION_TO_APPROACH,
+    &FALSE_SLIP,
+    &COMPLEMENTARITY,
+    &OSCILLATION,
+    &EXCESS_SHEAR,
+    &ACTION_REACTION,
+    &MOMENT,
+    &EQUILIBRIUM,
+    &ROTATION,
+    &LOCAL_ROTATION,
+    &DISPLACEMENT,
+    &ENERGY,
+];
+
 /// Forces below this part of the largest of their interface or body are as good as none: figures judge down to a thousandth of the load.
 const LEAST: f64 = 1e-3;
 
@@ -116,6 +135,31 @@ pub(super) static EQUILIBRIUM: Kind = Kind {
     model: LEAST,
     what: "forces and moments on the body are out of balance by this part",
     help: "lower `solver.tolerance`",
+};
+
+// Angles and ways are what they are, however small the forces.
+pub(super) static ROTATION: Kind = Kind {
+    name: "rotation",
+    own: 0.0,
+    model: 0.0,
+    what: "the body has turned by this angle in radians, and strains and rotations are taken as small",
+    help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far is beyond this program",
+};
+
+pub(super) static LOCAL_ROTATION: Kind = Kind {
+    name: "local-rotation",
+    own: 0.0,
+    model: 0.0,
+    what: "a cell has turned by this angle in radians, and strains and rotations are taken as small",
+    help: "look for cells that hang together at a node or an edge only, or for a load or a stiffness in the wrong unit",
+};
+
+pub(super) static DISPLACEMENT: Kind = Kind {
+    name: "displacement",
+    own: 1.0,
+    model: 0.0,
+    what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
+    help: "nothing holds it back: support it, or lower what drives it; if it is meant to go there, raise `quality.displacement`",
 };
 
 pub(super) static ENERGY: Kind = Kind {

@@ -67,6 +67,19 @@ pub struct Limits {
     /// explicit step, where accelerations are made to balance.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     pub equilibrium: f64,
+    /// Rotation of each body in radians, an elastic one by its mean displacement gradient. Strains and rotations are taken as small: a body that
+    /// turns by `θ` grows by `θ²/2`, and forces are balanced as if it had not turned, an error of a part in a thousand to one in a hundred
+    /// at 0.05.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub rotation: f64,
+    /// Rotation of the cell of each body that turns most, in radians: parts of a body may turn where it does not as a whole. The false strain there is
+    /// half the square. The limit is wider, as cells at corners turn far and carry little.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub local_rotation: f64,
+    /// Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
+    /// motion bodies may fly as far as they like: there it is a finding.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub displacement: f64,
     /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit` where bodies are in motion; not
     /// judged in quasi-static analyses, where work is summed by the trapezoidal rule and one large increment says nothing of the solution
     /// at its end.
@@ -90,6 +103,9 @@ impl Default for Limits {
             action_reaction: 1e-9,
             moment: 1e-2,
             equilibrium: 1e-4,
+            rotation: 0.05,
+            local_rotation: 0.2,
+            displacement: 1.0,
             energy: None,
         }
     }

@@ -30,6 +30,7 @@ mod run;
 mod spin;
 mod statics;
 mod summary;
+mod travel;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::figures::{
-    ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP, Kind, MOMENT,
+    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP, Kind, MOMENT,
     OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track, UNSEEN_TO_APPROACH,
     UNSEEN_TO_SIZE,
 };
@@ -68,6 +68,14 @@ impl Figure {
             self.brief(),
             self.time
         )
+    }
+}
+
+impl Figure {
+    /// What it means that a figure is above its limit, and what may help, by its name; `None` of one that is not known.
+    pub fn meaning(figure: &str) -> Option<(&'static str, &'static str)> {
+        let kind = figures::ALL.iter().find(|kind| kind.name == figure)?;
+        Some((kind.what, kind.help))
     }
 }
 
@@ -194,6 +202,7 @@ impl Simulation {
                 self.judge_bodies(limits, &mut gate);
             }
         }
+        self.judge_travel(limits, &mut gate);
         gate.settle();
         self.summary.quality = gate;
     }

@@ -49,8 +49,8 @@ pub struct Summary {
     pub stable_increment: f64,
     /// Mass added by mass scaling, relative to the mass there is.
     pub mass_added: f64,
-    /// Largest rotation of a rigid body so far `[rad]`; 0 without one. Rotations are linearised about the start: above about 0.1 it
-    /// shows, as the body grows by the half of its square.
+    /// Largest rotation of a body so far `[rad]`, an elastic one by its mean displacement gradient at the rows of the history. Rotations are
+    /// linearised about the start: above about 0.1 it shows, as the body grows by the half of its square.
     pub largest_rotation: f64,
     /// Increments in which bodies that only contact can hold were moved or anchored.
     pub followed: usize,

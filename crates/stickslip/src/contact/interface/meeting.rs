@@ -60,6 +60,19 @@ impl Interface {
         committed.into_iter().any(|h| h.status != Status::Open)
     }
 
+    /// How far the obstacle moves between two times where points of the secondary are `[m]`; zero without one.
+    pub fn obstacle_way(&self, from: f64, to: f64) -> f64 {
+        let Primary::Rigid(_, motion) = &self.primary else {
+            return 0.0;
+        };
+        let (first, last) = (motion.pose(from), motion.pose(to));
+        let ways = self.points.iter().map(|p| {
+            let x = p.position(&self.reference);
+            norm(sub(last.outward(first.inward(x)), x))
+        });
+        ways.fold(0.0, f64::max)
+    }
+
     /// Points of the mesh and outward normals of both surfaces there, facet by facet of the primary.
     pub fn normals(&self) -> Vec<(usize, Vec3)> {
         let mut out = Vec::new();

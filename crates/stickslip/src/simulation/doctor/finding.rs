@@ -92,11 +92,15 @@ pub enum DoctorCause {
     CoarseFacets,
     /// Surfaces have turned since the start, and small sliding does not know of it.
     TurnedNormals,
+    /// A body has moved by more than the size of the model.
+    FarAway,
+    /// A nearly incompressible body of cells that lock.
+    Locking,
 }
 
 impl DoctorCause {
     /// All causes, in the order of [`code`](DoctorCause::code).
-    pub const ALL: [DoctorCause; 41] = [
+    pub const ALL: [DoctorCause; 43] = [
         DoctorCause::FreeRigidMode,
         DoctorCause::Chatter,
         DoctorCause::LostProjection,
@@ -138,6 +142,8 @@ impl DoctorCause {
         DoctorCause::CoarseContact,
         DoctorCause::CoarseFacets,
         DoctorCause::TurnedNormals,
+        DoctorCause::FarAway,
+        DoctorCause::Locking,
     ];
 
     /// Whether it is a mistake in the model, so that advice about how it is solved does not help.
