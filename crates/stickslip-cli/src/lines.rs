@@ -6,7 +6,7 @@ use stickslip::simulation::{Event, Observer, Simulation};
 
 use crate::print;
 
-/// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `note`, `end`.
+/// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `finding`, `note`, `end`.
 #[derive(Debug, Default)]
 pub struct Lines {}
 
@@ -24,6 +24,7 @@ impl Observer for Lines {
                 "event": "cutback", "from": trial.from, "to": trial.to,
                 "cause": format!("{:?}", failure.cause), "message": failure.message, "culprits": failure.culprits.iter().map(ToString::to_string).collect::<Vec<_>>(),
             }),
+            Event::Finding(finding) => json!({ "event": "finding", "finding": finding }),
             Event::Note(text) => json!({ "event": "note", "text": text }),
             Event::End => json!({ "event": "end", "summary": simulation.summary }),
             _ => return Ok(()),

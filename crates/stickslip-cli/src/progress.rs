@@ -7,6 +7,7 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::contact::response::Status;
 use stickslip::newton::Course;
+use stickslip::simulation::doctor::{Finding, Severity};
 use stickslip::simulation::{Event, Gate, Observer, Row, Simulation};
 
 /// Prints what happens.
@@ -156,6 +157,9 @@ impl Observer for Progress {
                     }
                 ));
             }
+            Event::Finding(finding) if finding.severity >= Severity::Warning => {
+                self.line(&found(finding));
+            }
             Event::Note(text) => self.line(&format!("  {text}")),
             Event::Cutback(trial, failure) => {
                 self.line(&format!(
@@ -170,6 +174,14 @@ impl Observer for Progress {
         }
         Ok(())
     }
+}
+
+/// A finding of the doctor in a line; `check` and `explain` say all of it.
+pub fn found(finding: &Finding) -> String {
+    format!(
+        "{} ({}): {}",
+        finding.severity, finding.cause, finding.message
+    )
 }
 
 /// Says which figures of the quality gate are above their limits.

@@ -368,7 +368,6 @@ fn explain_tells_how_a_run_went() {
         "body block",
         "translation x",
         "try",
-        "tried",
     ] {
         assert!(said.contains(part), "`{part}` is missing in:\n{said}");
     }
@@ -384,6 +383,72 @@ fn explain_tells_how_a_run_went() {
     assert!(last["guilty"][0]["position"].is_array());
     let places = std::fs::read(Path::new(&out).join("culprits.vtu")).expect("places");
     assert!(String::from_utf8_lossy(&places).contains("Name=\"CAUSE\""));
+}
+
+#[test]
+fn explain_repeats_what_the_gate_said() {
+    let place = Place::new("explain-poor");
+    place.write("case.toml", &soft());
+    let (case, out) = (place.path("case.toml"), place.path("out"));
+    let output = stickslip(&["run", &case, "-o", &out, "--quiet"]);
+    assert_eq!(code(&output), Some(2), "{}", text(&output.stderr));
+    let said = text(&stickslip(&["explain", &out]).stdout);
+    for part in [
+        "exit code 2",
+        "error: quality, penetration-to-approach of interface base",
+        "above its limit 1.0e-2",
+        "augmented-lagrangian",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in:\n{said}");
+    }
+    assert!(!said.contains("Nothing went wrong"), "{said}");
+
+    // What was left by a run that was killed, whatever stands in it.
+    let mut killed: serde_json::Value =
+        serde_json::from_str(&place.read("out/summary.json")).expect("JSON");
+    killed["status"] = "running".into();
+    killed["quality"]["figures"] = serde_json::json!([]);
+    let killed = killed.to_string();
+    place.write("out/summary.json", &killed);
+    let said = text(&stickslip(&["explain", &out]).stdout);
+    assert!(
+        said.contains("killed") && !said.contains("Nothing went wrong"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_run_says_first_what_check_would_warn_of() {
+    let place = Place::new("warned");
+    let rubber = CASE.replace("poisson = 0.3", "poisson = 0.4999");
+    place.write(
+        "case.toml",
+        &rubber.replace("to = [0.04, 0.02]", "to = [40, 20]"),
+    );
+    let (case, out) = (place.path("case.toml"), place.path("out"));
+    let checked: serde_json::Value =
+        serde_json::from_slice(&stickslip(&["check", "--json", &case]).stdout).expect("JSON");
+    let output = stickslip(&["run", &case, "-o", &out]);
+    let said = text(&output.stderr);
+    assert_eq!(code(&output), Some(0), "{said}");
+    let summary: serde_json::Value =
+        serde_json::from_str(&place.read("out/summary.json")).expect("JSON");
+    assert_eq!(summary["findings"], checked["findings"]);
+    let causes: Vec<&str> = ["locking", "mixed-units"].into_iter().collect();
+    for cause in causes {
+        let lines: Vec<&str> = said.lines().filter(|l| l.contains(cause)).collect();
+        assert_eq!(lines.len(), 1, "{cause} in\n{said}");
+        assert!(
+            lines[0].contains("warning") && lines[0].contains("body block"),
+            "{said}"
+        );
+    }
+    let explained = text(&stickslip(&["explain", &out]).stdout);
+    assert!(explained.contains("before the run"), "{explained}");
+    // B-bar cures the one.
+    let cured = "body.block.formulation=\"mean-dilatation\"";
+    let output = stickslip(&["run", &case, "-o", &out, "--set", cured]);
+    assert!(!text(&output.stderr).contains("locking"));
 }
 
 #[test]

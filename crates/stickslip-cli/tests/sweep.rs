@@ -252,7 +252,7 @@ fn a_run_that_fails_has_its_reason_in_the_table_and_the_others_go_on() {
     for (outcome, part) in outcomes.iter().zip([
         "`block.botom` has no points",
         "`block.botom` has no points",
-        "a body is free to move as a rigid body",
+        "is free to move as a rigid body",
         "done",
     ]) {
         assert!(outcome.contains(part), "{part} in {outcome}");

@@ -246,10 +246,11 @@ fn a_body_that_nothing_holds() {
     says(
         &loose,
         &[
-            "a body is free to move as a rigid body",
-            "body loose: translation x is held neither by supports nor by springs",
+            "is free to move as a rigid body",
+            "body loose: translation x is held neither by supports nor by springs nor by contact",
             "body loose: translation y is held",
             "body loose: rotation about z is held",
+            "nothing drives it",
             "support these motions",
         ],
     );

@@ -5,6 +5,7 @@ mod support;
 use std::path::Path;
 
 use stickslip::problem::Problem;
+use stickslip::simulation::doctor::DoctorCause;
 use stickslip::simulation::{Simulation, Summary};
 use support::Record;
 
@@ -296,4 +297,154 @@ fn following_can_be_switched_off() {
         message.contains("free to move as a rigid body"),
         "{message}"
     );
+}
+
+/// A loose block 25 µm from both neighbours, the upper of which is pressed down by more than both gaps. The law presses hard where the gap
+/// has gone, so that one large increment can throw the block.
+const SANDWICH: &str = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.0106, 0.00507], cells = [6, 3], element = "tri6" }, material = "a" }
+body.mid = { generate.rectangle = { from = [0.001, 0.005095], to = [0.0098, 0.00967], cells = [3, 2], element = "tri6" }, material = "b" }
+body.upper = { generate.rectangle = { from = [0.0012, 0.009695], to = [0.0096, 0.0139], cells = [8, 4], element = "tri6" }, material = "a" }
+material.a.isotropic = { young = 170e9, poisson = 0.33 }
+material.b.isotropic = { young = 1268e9, poisson = 0.01 }
+interface.j1 = { secondary = "mid.bottom", primary = "lower.top" }
+interface.j2 = { secondary = "upper.bottom", primary = "mid.top", normal.exponential = { p0 = 44e6, c0 = 1.8e-7 }, friction.coulomb = { mu = 0.7 }, slip.regularised = { epsilon = 8e-7 }, enforcement.penalty = {}, discretisation.node-to-facet = {} }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = -5.7e-5 }
+step = [{ name = "press" }]
+"#;
+
+#[test]
+fn a_body_between_others_is_never_thrown_out_of_the_model() {
+    let mut simulation = simulation(SANDWICH);
+    let outcome = simulation.run(&mut []);
+    let u = &simulation.state.u;
+    let farthest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    match outcome {
+        // The gaps are closed, and both interfaces carry the same.
+        Ok(()) => {
+            let last = &simulation.summary.last;
+            let (lower, upper) = (last["j1.CFN2"].abs(), last["j2.CFN2"].abs());
+            assert!(
+                lower > 0.0 && (lower / upper - 1.0).abs() < 1e-6,
+                "{lower} {upper}"
+            );
+            assert!(farthest < 1e-4, "{farthest:e}");
+        }
+        // Or the run ends, and the body is still there.
+        Err(_) => {
+            assert!(farthest < 1e-2, "{farthest:e}");
+        }
+    }
+}
+
+/// What a run ends with that cannot be done.
+fn refused(text: &str) -> (String, Summary) {
+    let mut simulation = simulation(text);
+    let outcome = simulation.run(&mut []);
+    let said = outcome.expect_err("nothing holds the body").to_string();
+    (said, simulation.summary)
+}
+
+#[test]
+fn what_nothing_can_hold_is_refused_before_the_first_iteration() {
+    // Neither of two blocks is supported, and what pushes them does not balance.
+    let unsupported = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [1, 1], cells = [2, 2] }, material = "m" }
+body.upper = { generate.rectangle = { from = [0.2, 1], to = [0.8, 2], cells = [2, 2] }, material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+load.weight = { set = "upper.top", pressure.value = 1e5 }
+step = [{ name = "press" }]
+"#;
+    let (said, summary) = refused(unsupported);
+    for part in ["step press", "translation y", "load.weight", "6.000e4"] {
+        assert!(said.contains(part), "`{part}` is missing in {said}");
+    }
+    assert_eq!((summary.iterations, summary.increments), (0, 0));
+    assert_eq!(summary.solver.iterations, 0);
+    let last = summary.findings.last().expect("a finding");
+    assert_eq!(last.cause, DoctorCause::FreeRigidMode);
+
+    // A hinge: held at one point, pushed about it.
+    let hinged = r#"format = 1
+model.space = "plane-strain"
+body.bar = { generate.rectangle = { to = [8, 1], cells = [16, 2] }, material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+set.pin = { of = "bar", point = [0, 0] }
+support.pin = { set = "pin", x = 0, y = 0 }
+load.push = { set = "bar.top", pressure.value = 10 }
+step = [{ name = "push" }]
+"#;
+    let (said, _) = refused(hinged);
+    assert!(
+        said.contains("rotation about z") && said.contains("load.push"),
+        "{said}"
+    );
+    // What nothing drives is singular all the same, as nothing says where the body is.
+    let idle = hinged.replace("pressure.value = 10", "pressure.value = 0");
+    assert!(refused(&idle).0.contains("nothing drives it"));
+
+    // Held in the first step, let go in the second.
+    let let_go = hinged.replace("step = [{ name = \"push\" }]\n", "")
+        + r#"support.end = { set = "bar.right", y = 0 }
+[[step]]
+name = "hold"
+[[step]]
+name = "release"
+supports = ["pin"]
+"#;
+    let (said, summary) = refused(&let_go);
+    assert!(
+        said.contains("step release") && said.contains("load.push"),
+        "{said}"
+    );
+    assert!(summary.increments > 0);
+}
+
+#[test]
+fn what_loads_do_not_drive_and_contact_may_hold_is_not_refused() {
+    // No support at all, but the loads balance and contact holds one block against the other.
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [1, 1], cells = [2, 2] }, material = "m" }
+body.upper = { generate.rectangle = { from = [0, 1], to = [1, 2], cells = [3, 3] }, material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top" }
+load.down = { set = "upper.top", pressure.value = 1e5 }
+load.up = { set = "lower.bottom", pressure.value = 1e5 }
+step = [{ name = "press", increments = { fixed = 1 } }]
+"#;
+    let outcome = run("squeezed", text);
+    assert!((outcome.last("joint.CFN2") / 1e5 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_error_for_a_body_in_contact_says_that_it_slides_and_what_pushes_it() {
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [2, 1], cells = [4, 2] }, material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.2 } }
+load.weight = { set = "block.top", pressure.value = 1e5 }
+load.wind = { set = "block.left", traction.value = [5e4, 0], amplitude = "later" }
+amplitude.later.table = [[0, 0], [1, 0], [2, 1]]
+step = [{ name = "settle" }, { name = "blow" }]
+"#;
+    let (said, summary) = refused(text);
+    for part in [
+        "step blow",
+        "slides, rolls or lifts off",
+        "load.wind",
+        "dynamic",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in {said}");
+    }
+    assert!(!said.contains("until they touch"), "{said}");
+    let last = summary.findings.last().expect("a finding");
+    assert_eq!(last.cause, DoctorCause::SlidesAway, "{last}");
+    assert!(last.guilty.iter().any(|g| g.name == "load.wind"), "{last}");
 }

@@ -423,6 +423,7 @@ step = [{{}}]"#
     assert!(fit(0.1, "quad4"));
     assert!(!fit(0.02, "quad4"));
     assert!(!fit(0.1, "quad8"));
+}
 
 /// A block that is held at its left end and pushed up at the other.
 const BEAM: &str = r#"format = 1

@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
+use stickslip::simulation::Figure;
 use stickslip::simulation::doctor::{DoctorCause, Finding, Guilty, Severity};
 
 use super::{Failure, Outcome};
@@ -88,9 +89,10 @@ fn explain(summary: &Value, findings: &[Finding]) -> String {
         }
     }
     causes.sort_by_key(|c| std::cmp::Reverse(c.0));
-    if causes.is_empty() {
+    if causes.is_empty() && sound(summary) {
         text += "Nothing went wrong.\n";
     }
+    text += &gate(summary);
     for (severity, cause) in causes {
         let all: Vec<&Finding> = findings.iter().filter(|f| f.cause == cause).collect();
         text += "\n";
@@ -105,10 +107,75 @@ fn explain(summary: &Value, findings: &[Finding]) -> String {
     text
 }
 
+/// Whether the run reached its end with a good result.
+fn sound(summary: &Value) -> bool {
+    summary["completed"].as_bool() == Some(true) && poor(summary).is_empty() && !running(summary)
+}
+
+/// Whether the summary is that of a run that never came to write its last one.
+fn running(summary: &Value) -> bool {
+    summary["status"].as_str() == Some("running")
+}
+
+/// The figures of the quality gate above their limits.
+fn poor(summary: &Value) -> Vec<&Value> {
+    let figures = summary["quality"]["figures"].as_array();
+    let figures = figures.into_iter().flatten();
+    figures
+        .filter(|f| f["met"].as_bool() == Some(false))
+        .collect()
+}
+
+/// What the quality gate said.
+fn gate(summary: &Value) -> String {
+    let mut text = String::new();
+    let severity = match summary["quality"]["gate"].as_str() {
+        Some("warn") => Severity::Warning,
+        _ => Severity::Error,
+    };
+    for figure in poor(summary) {
+        let name = figure["figure"].as_str().unwrap_or_default();
+        let place = figure["place"].as_str().unwrap_or_default();
+        // JSON has no NaN: what is no number is null.
+        let number = |key: &str| figure[key].as_f64();
+        let value = number("value").map_or("not a number".into(), |v| format!("{v:.2e}"));
+        let limit = number("limit").unwrap_or(f64::INFINITY);
+        let when = number("time").map_or(String::new(), |t| format!(", at time {t:.6e}"));
+        let (what, help) = Figure::meaning(name).unwrap_or((
+            "it is not known to this version",
+            "see the version that ran it",
+        ));
+        text += &format!("\n{severity}: quality, {name} of {place}{when}\n");
+        text += &print::wrap(
+            &format!("{value}, above its limit {limit:.1e}: {what}."),
+            2,
+            WIDTH,
+        );
+        text += &item("try", help);
+    }
+    text
+}
+
 fn course(summary: &Value) -> String {
     let outcome = summary["outcome"].as_str().unwrap_or("unknown");
+    if running(summary) {
+        return "The run has not ended: it is still going on, or it was killed before it could say how it ended. \
+            What follows is the state when this summary was written."
+            .into();
+    }
     if summary["completed"].as_bool() == Some(true) {
-        return "The run finished.".into();
+        let failed = summary["quality"]["gate"].as_str() != Some("warn");
+        return match (poor(summary).is_empty(), failed) {
+            (true, _) => "The run finished.".into(),
+            (false, true) => {
+                "The run finished, but its result is not good enough: figures of the quality gate are above their limits (exit code 2)."
+                    .into()
+            }
+            (false, false) => {
+                "The run finished. Figures of the quality gate are above their limits, and `quality.gate = \"warn\"` lets that pass."
+                    .into()
+            }
+        };
     }
     // Places and help follow below, in order.
     let first = outcome.lines().next().unwrap_or_default();
@@ -175,7 +242,10 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
         1 => "once".to_string(),
         n => format!("{n} times"),
     };
-    let mut when = String::new();
+    let mut when = match one.step {
+        None => ", before the run".to_string(),
+        Some(_) => String::new(),
+    };
     let times: Vec<f64> = all.iter().filter_map(|f| f.time).collect();
     if let (Some(first), Some(last)) = (times.first(), times.last()) {
         when = match first == last {

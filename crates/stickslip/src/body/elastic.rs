@@ -152,6 +152,11 @@ impl Elastic {
         Some(constrained_modulus(&self.acting[i]))
     }
 
+    /// How its elements make strains of displacements.
+    pub fn formulation(&self) -> Formulation {
+        self.formulation
+    }
+
     /// Hands out the stiffness matrix of every cell, shape `(n dim, n dim)` row by row, with the cell's points; parts
     /// and cells in order.
     pub fn element_matrices(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {

@@ -34,7 +34,7 @@ pub(super) struct Condensed {
     gaps: Gaps,
     shapes: Shapes,
     /// The last accepted state: displacements are known at candidates and where prescribed.
-    state: State,
+    pub(super) state: State,
     /// Forces with which the candidates yield to where they are.
     carried: Vec<f64>,
     /// The increment before: its length, displacements of the candidates and forces.

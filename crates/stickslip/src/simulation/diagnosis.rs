@@ -237,81 +237,39 @@ pub(super) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
         .collect()
 }
 
-/// The error for a singular system: names the body and the motions that nothing holds.
-pub(super) fn explain_singular(
-    simulation: &Simulation,
-    failure: &StepFailure,
-    free: &[FreeMode],
-) -> RunError {
+/// The error for a singular system in which every body is held: something inside a body is not.
+pub(super) fn explain_singular(simulation: &Simulation, failure: &StepFailure) -> RunError {
     let model = &simulation.model;
-    // A hidden point has no number, and the motions say all there is to say.
+    // A hidden point has no number.
     let meshed = |dof: &usize| model.dofs.locate(*dof).0 < model.mesh.points.len();
     let place = failure.dof.filter(meshed).map(|dof| {
         let (point, component) = model.dofs.locate(dof);
-        let body = model
-            .bodies
-            .iter()
-            .find(|b| b.points.contains(&point))
-            .map_or("?", |b| b.name.as_str());
-        (
-            body,
-            format!(
-                "found at node {} of body {body}, direction {}",
-                model.mesh.point_ids[point],
-                ["x", "y", "z"][component]
-            ),
+        let body = model.bodies.iter().find(|b| b.points.contains(&point));
+        format!(
+            "found at node {} of body {}, direction {}",
+            model.mesh.point_ids[point],
+            body.map_or("?", |b| b.name.as_str()),
+            ["x", "y", "z"][component]
         )
     });
-    let mut culprits: Vec<String> = free
-        .iter()
-        .map(|m| {
-            format!(
-                "body {}: {} is held neither by supports nor by springs",
-                m.body, m.motion
-            )
-        })
-        .collect();
-    culprits.extend(place.map(|(_, text)| text));
-    let message = if free.is_empty() {
-        "the system is singular although supports hold every body".to_string()
-    } else {
-        "a body is free to move as a rigid body: no contact holds it yet".to_string()
-    };
-    let gaps: Vec<String> = model
-        .interfaces
-        .iter()
-        .map(|i| {
-            let smallest = i.initial_gaps().into_iter().fold(f64::INFINITY, f64::min);
-            format!("{}: {smallest:.3e}", i.name)
-        })
-        .collect();
     RunError {
-        message,
+        message: "the system is singular although supports hold every body".to_string(),
         time: simulation.state.t,
-        culprits,
-        help: Some(format!(
-            "support these motions, hold them by weak springs (`[load.NAME] spring = {{ stiffness = [...] }}`), move the bodies \
-             until they touch, or prescribe a displacement instead of a force (smallest gaps at the last state: {})",
-            if gaps.is_empty() {
-                "no interfaces".into()
-            } else {
-                gaps.join(", ")
-            }
-        )),
+        culprits: place.into_iter().collect(),
+        help: Some(
+            "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness"
+                .into(),
+        ),
     }
 }
 
 impl Simulation {
-    /// Looks at the model without running it.
-    pub fn check(&mut self) -> CheckReport {
+    /// What the doctor finds in the model at its start, and the gaps by interface.
+    pub(super) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
         let start = self.state.clone();
+        let steps = self.model.steps.first();
         let end = State {
-            t: start.t
-                + self
-                    .model
-                    .steps
-                    .first()
-                    .map_or(1.0, |s| 1e-9 * (s.end - s.start)),
+            t: start.t + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start)),
             ..start.clone()
         };
         let stage = Stage {
@@ -323,6 +281,15 @@ impl Simulation {
         let interfaces = self.model.interfaces.iter_mut();
         let gaps: Vec<Vec<f64>> = interfaces.map(|i| i.gaps_at(&stage)).collect();
         let findings = doctor::examine(self, &gaps);
+        (gaps, findings)
+    }
+
+    /// Looks at the model without running it.
+    pub fn check(&mut self) -> CheckReport {
+        let (gaps, findings) = self.look();
+        let start = self.state.t;
+        let steps = self.model.steps.first();
+        let end = start + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start));
         let interfaces = self.model.interfaces.iter().zip(&gaps);
         let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
         let mesh = &self.model.mesh;
@@ -367,7 +334,7 @@ impl Simulation {
         CheckReport {
             bodies,
             interfaces,
-            free: free_modes(self, end.t),
+            free: free_modes(self, end),
             steps: self
                 .model
                 .steps

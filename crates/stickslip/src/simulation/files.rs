@@ -164,7 +164,11 @@ impl Observer for ResultFiles {
                 self.folder.release();
                 ended?;
             }
-            Event::Iteration(_) | Event::Accepted(_) | Event::Cutback(..) | Event::Note(_) => {}
+            Event::Iteration(_)
+            | Event::Accepted(_)
+            | Event::Cutback(..)
+            | Event::Note(_)
+            | Event::Finding(_) => {}
         }
         Ok(())
     }

@@ -2,13 +2,14 @@
 
 use super::accepted::Accepted;
 use super::diagnosis::{FreeBody, free_bodies};
+use super::drivers::named;
 use super::model::Step;
 use super::run::{Observer, Simulation};
 use crate::body::{Anchors, Hold, spread};
 use crate::contact::interface::Interface;
 use crate::error::Error;
-use crate::math::{dot, norm};
-use crate::system::{Cause, Force, StepFailure};
+use crate::math::{Vec3, add_scaled, dot, norm};
+use crate::system::{Cause, Culprit, Force, Stage, State, StepFailure};
 use crate::time::Trial;
 
 /// What is known of bodies that only contact can hold.
@@ -33,6 +34,19 @@ pub(super) struct Loose {
     fresh: bool,
     /// Energy left in the anchors.
     left: f64,
+    /// A body went astray in the last attempt.
+    astray: bool,
+    /// Where the increment at hand began, before bodies were moved.
+    origin: Option<Origin>,
+}
+
+/// Where an increment began in which bodies are moved or followed.
+struct Origin {
+    u: Vec<f64>,
+    /// Gaps that bodies may have to close `[m]`: the largest of each interface, all together, and how far obstacles move in the increment.
+    gaps: f64,
+    /// Height of the cells at the surfaces that may touch, the largest mean of an interface `[m]`.
+    size: f64,
 }
 
 /// Way in rounds of the anchors that is made without strain before the increment is computed once more.
@@ -47,10 +61,19 @@ const MOST_FIRMER: usize = 2;
 /// Part of a cell that a body may move in a round.
 const REACH: f64 = 0.25;
 
+/// How much further a loose body may go than the gaps it has to close and what moves it do: it may turn about a point near what pushes it.
+const LEVER: f64 = 10.0;
+
 /// Component of a motion along a normal from which on contact may resist it.
 const RESISTED: f64 = 1e-6;
 
 impl Loose {
+    /// Whether a body is among those that contact may hold in the step at hand.
+    pub fn knows(&self, body: usize) -> bool {
+        let known = self.known.iter().flat_map(|(_, bodies)| bodies);
+        known.into_iter().any(|free| free.body == body)
+    }
+
     /// The forces with the anchors among them.
     pub fn with<'a>(&'a mut self, mut forces: Vec<&'a mut dyn Force>) -> Vec<&'a mut dyn Force> {
         if let Some(anchors) = &mut self.anchors {
@@ -147,7 +170,7 @@ impl Simulation {
     pub(super) fn may_follow(&self, step: &Step, failure: &StepFailure) -> bool {
         let known = self.loose.known.as_ref();
         step.dynamic.is_none()
-            && matches!(failure.cause, Cause::Singular | Cause::LinearSolver)
+            && (self.loose.astray || matches!(failure.cause, Cause::Singular | Cause::LinearSolver))
             && self.loose.anchors.is_none()
             && !self.loose.vain
             && known.is_some_and(|(_, bodies)| !bodies.is_empty())
@@ -174,11 +197,16 @@ impl Simulation {
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
         self.flush(observers)?;
+        self.set_out(trial);
         let Some((step, bodies)) = self.loose.known.take() else {
             return Ok(false);
         };
         let external = self.external(trial.to);
         let found = self.approach(&bodies, &external, trial);
+        if let Some(origin) = &mut self.loose.origin {
+            // As far as there is room.
+            origin.gaps += found.moved.iter().copied().fold(0.0, f64::max);
+        }
         let mut names = Vec::new();
         for (free, &moved) in bodies.iter().zip(&found.moved) {
             if moved > 0.0 {
@@ -224,6 +252,7 @@ impl Simulation {
     /// Lays anchors.
     fn anchor(&mut self, trial: Trial, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         self.flush(observers)?;
+        self.set_out(trial);
         let external = self.external(trial.to);
         let pushes = self.pushes(&external).into_iter();
         let force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
@@ -261,11 +290,112 @@ impl Simulation {
         self.provide(observers, false)
     }
 
-    /// What an attempt with anchors says of the bodies: those that are still on their way are held by nothing.
+    /// Takes note of where the increment at hand began, and of the gaps there, if bodies are loose in it.
+    pub(super) fn set_out(&mut self, trial: Trial) {
+        let known = self.loose.known.as_ref();
+        let none = known.is_none_or(|(_, bodies)| bodies.is_empty());
+        if none || self.loose.origin.is_some() {
+            return;
+        }
+        // Of condensed bodies the points that may touch, and those that are anchored, are known at once.
+        let here = match &self.condensed {
+            Some(condensed) => condensed.state.clone(),
+            None => self.state.clone(),
+        };
+        let at = State {
+            t: trial.to,
+            ..here.clone()
+        };
+        let stage = Stage {
+            from: &here,
+            at: &at,
+            dt: trial.to - trial.from,
+            rate: None,
+        };
+        let (mut gaps, mut size) = (0.0, 0.0_f64);
+        let pending = !self.pending.is_empty();
+        let interfaces = self.model.interfaces.iter_mut();
+        for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
+            // While increments are pending the interfaces know more of the last state than displacements do.
+            let own = match pending {
+                true => interface.initial_gaps(),
+                false => interface.gaps_at(&stage),
+            };
+            let own = own.into_iter().filter(|gap| gap.is_finite());
+            gaps += own.map(f64::abs).fold(0.0, f64::max);
+            gaps += interface.obstacle_way(trial.from, trial.to);
+            size = size.max(interface.typical().1);
+        }
+        self.loose.origin = Some(Origin {
+            u: here.u,
+            gaps,
+            size,
+        });
+    }
+
+    /// A loose body that has gone further since the increment began than there is reason to: its index, how far it went, and how far it might.
+    fn astray(&self, accepted: &Accepted) -> Option<(usize, f64, f64)> {
+        let (dofs, model) = (self.model.dofs, &self.model);
+        let origin = self.loose.origin.as_ref()?;
+        let bodies = self.loose.known.as_ref().map(|(_, bodies)| bodies)?;
+        let change = |p: usize| {
+            let u = dofs.vector(&accepted.state.u, p);
+            add_scaled(u, -1.0, dofs.vector(&origin.u, p))
+        };
+        // What the bodies that are held do, they may hand on; inside condensed ones it is not known yet.
+        let constraints = self.constraints(accepted.state.t);
+        let prescribed = constraints
+            .fixed
+            .iter()
+            .zip(&constraints.values)
+            .zip(&origin.u);
+        let prescribed = prescribed.filter(|((fixed, _), _)| **fixed);
+        let moved = prescribed.map(|((_, to), from)| (to - from).abs());
+        let prescribed = moved.fold(0.0, f64::max);
+        // Whatever bends and pushes, nothing is flung through the whole model.
+        let utmost = model.mesh.diameter() + origin.gaps + prescribed;
+        let mut moved = prescribed;
+        let held = model.bodies.iter().enumerate();
+        let held = held.filter(|(b, _)| bodies.iter().all(|free| free.body != *b));
+        for (_, body) in held {
+            moved = body
+                .points
+                .clone()
+                .map(|p| norm(change(p)))
+                .fold(moved, f64::max);
+        }
+        for (free, places) in bodies.iter().zip(&self.loose.places) {
+            let points: Vec<_> = places.iter().map(|&p| (p, change(p))).collect();
+            let mut rigid = vec![0.0; accepted.state.u.len()];
+            rigid_part(free, &points, dofs, &mut rigid);
+            let strained = points
+                .iter()
+                .map(|&(p, moved)| norm(add_scaled(moved, -1.0, dofs.vector(&rigid, p))));
+            let strained = strained.fold(0.0, f64::max);
+            let ways = points.iter().map(|&(_, moved)| norm(moved));
+            let way = ways.fold(0.0, |m, way| if way > m || way.is_nan() { way } else { m });
+            let most = (LEVER * (origin.gaps + moved + strained) + origin.size).min(utmost);
+            if way > most || way.is_nan() {
+                return Some((free.body, way, most));
+            }
+        }
+        None
+    }
+
+    /// What an attempt with anchors says of the bodies: those that are still on their way are held by nothing, and those that have gone further than
+    /// they had to have been thrown.
     pub(super) fn judge_loose(
         &mut self,
         outcome: Result<Accepted, StepFailure>,
+        trial: Trial,
     ) -> Result<Accepted, StepFailure> {
+        let astray = outcome.as_ref().ok().and_then(|a| self.astray(a));
+        self.loose.astray = astray.is_some();
+        if let Some(astray) = astray {
+            // The anchors stay where they were: without them nothing would hold the body at all.
+            self.forget_direction();
+            return Err(self.thrown(astray, trial));
+        }
         let Some(anchors) = &self.loose.anchors else {
             return outcome;
         };
@@ -287,9 +417,10 @@ impl Simulation {
                     return Err(StepFailure { cause, ..failure });
                 }
                 self.loose.vain = true;
+                let far = self.followed_body(trial);
                 Err(StepFailure {
                     cause: Cause::Singular,
-                    message: "a body has been followed, but contact does not hold it".into(),
+                    message: format!("{far} has been followed, but contact does not hold it"),
                     ..failure
                 })
             }
@@ -297,6 +428,46 @@ impl Simulation {
                 followed: self.loose.fresh,
                 ..accepted
             }),
+        }
+    }
+
+    /// The failure of an increment in which a body went astray.
+    fn thrown(&self, (body, way, most): (usize, f64, f64), trial: Trial) -> StepFailure {
+        let name = &self.model.bodies[body].name;
+        let drivers = self.drivers(body, trial.to);
+        let by = match drivers.is_empty() {
+            true => String::new(),
+            false => format!(", {} it", named(&drivers, "drives", "drive")),
+        };
+        let mut failure = StepFailure::new(
+            Cause::TooFar,
+            format!(
+                "body {name}, which only contact can hold, was thrown by {way:.3e}: what it has to follow and to close allows {most:.3e}{by}"
+            ),
+        );
+        for driver in drivers {
+            failure.culprits.push(Culprit {
+                place: driver.key,
+                what: driver.what,
+                evidence: None,
+            });
+        }
+        failure.help(
+            "smaller increments; a law that presses across the gap, or points that are pressed in far by one increment, can throw a body that nothing else holds: support it, or hold it by weak springs (`[load.NAME] spring`)",
+        )
+    }
+
+    /// The first of the bodies that were followed and what drives it, for a sentence.
+    fn followed_body(&self, trial: Trial) -> String {
+        let bodies = self.loose.known.iter().flat_map(|(_, bodies)| bodies);
+        let Some(first) = bodies.into_iter().next() else {
+            return "a body".into();
+        };
+        let drivers = self.drivers(first.body, trial.to);
+        let name = &self.model.bodies[first.body].name;
+        match drivers.is_empty() {
+            true => format!("body {name}"),
+            false => format!("body {name}, which {},", named(&drivers, "drives", "drive")),
         }
     }
 
@@ -326,10 +497,12 @@ impl Simulation {
     ) -> Result<bool, Error> {
         let Some(anchors) = self.loose.anchors.take() else {
             self.loose.put = 0;
+            self.loose.origin = None;
             return Ok(false);
         };
         if anchors.travel() <= LONG || self.loose.put >= MOST_PUT {
             self.loose.put = 0;
+            self.loose.origin = None;
             self.loose.left = anchors.left();
             self.loose.fresh = false;
             self.summary.followed += 1;
@@ -346,7 +519,7 @@ impl Simulation {
         let mut names = Vec::new();
         let bodies = self.loose.known.iter().flat_map(|(_, bodies)| bodies);
         for (k, free) in bodies.enumerate() {
-            let way = rigid_part(free, &anchors, k, self.model.dofs, &mut u);
+            let way = rigid_part(free, &anchors.moved(k), self.model.dofs, &mut u);
             names.push(format!(
                 "{} by {way:.3e}",
                 self.model.bodies[free.body].name
@@ -372,15 +545,13 @@ impl Simulation {
     }
 }
 
-/// Adds to `u` the free motion that comes nearest to that of the anchored points of the `k`-th body; its largest displacement.
+/// Adds to `u` the free motion of a body that comes nearest to what some of its points have `moved`; its largest displacement there.
 fn rigid_part(
     free: &FreeBody,
-    anchors: &Anchors,
-    k: usize,
+    moved: &[(usize, Vec3)],
     dofs: crate::system::Dofs,
     u: &mut [f64],
 ) -> f64 {
-    let moved = anchors.moved(k);
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let over = |a: &[f64], b: &dyn Fn(usize, usize) -> f64| -> f64 {
         let mut sum = 0.0;

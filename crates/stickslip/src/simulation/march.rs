@@ -60,6 +60,7 @@ impl Simulation {
         if !self.march.begun {
             self.march.begun = true;
             self.started = Instant::now();
+            self.ask_first(observers)?;
         }
         let outcome = self.go(observers);
         if matches!(outcome, Ok(true)) {
@@ -67,6 +68,18 @@ impl Simulation {
         }
         self.march.over = !matches!(outcome, Err(Error::Interrupted(_)));
         self.close(outcome, observers)
+    }
+
+    /// Looks at the model before the first step: what the doctor finds in it does not stop the run, but is told and kept.
+    fn ask_first(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let (_, findings) = self.look();
+        for finding in findings {
+            for observer in observers.iter_mut() {
+                observer.see(self, Event::Finding(&finding))?;
+            }
+            doctor::note(&mut self.summary.findings, finding);
+        }
+        Ok(())
     }
 
     fn go(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
@@ -127,6 +140,7 @@ impl Simulation {
             None => {
                 self.rest();
                 self.know();
+                self.refuse_unheld()?;
                 self.choose_candidates();
                 self.condense()?;
             }
@@ -168,6 +182,7 @@ impl Simulation {
         };
         if step.dynamic.is_none() {
             self.meet(trial, observers)?;
+            self.set_out(trial);
         }
         let chart = doctor::Chart::of(&self.newton.statistics);
         let outcome = match step.dynamic {
@@ -183,7 +198,7 @@ impl Simulation {
         self.notes.extend(self.factors.notes());
         self.note_fallbacks(step, &trial);
         self.tell_notes(observers)?;
-        let outcome = self.judge_loose(outcome);
+        let outcome = self.judge_loose(outcome, trial);
         match outcome {
             Ok(_) if self.carried_on(trial, observers)? => {}
             Ok(accepted) => self.proceed(&mut running, trial, accepted, observers)?,
@@ -196,7 +211,7 @@ impl Simulation {
             Err(failure) if failure.cause == Cause::Memory => {
                 self.flush(observers)?;
                 self.examine(&trial, (running.attempt, chart), &failure);
-                return Err(self.give_up(failure).into());
+                return Err(self.give_up(failure, &trial).into());
             }
             Err(failure) if failure.cause == Cause::Reach => self.widen(observers)?,
             Err(failure) if self.firmer(trial, &failure, observers)? => {}
@@ -269,7 +284,7 @@ impl Simulation {
         running.attempt += 1;
         self.reject(&running.step, &trial, &failure);
         if !running.stepper.reject(trial) {
-            return Err(self.give_up(failure).into());
+            return Err(self.give_up(failure, &trial).into());
         }
         for observer in observers.iter_mut() {
             observer.see(self, Event::Cutback(&trial, &failure))?;

@@ -8,6 +8,7 @@ mod condense;
 mod conditions;
 mod diagnosis;
 pub mod doctor;
+mod drivers;
 mod dynamic;
 mod equilibrium;
 mod explicit;
@@ -31,6 +32,7 @@ mod spin;
 mod statics;
 mod summary;
 mod travel;
+mod unheld;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};

@@ -3,6 +3,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::condense::Condensed;
+use super::doctor::Finding;
 use super::dynamic::Motion;
 use super::explicit::Explicit;
 use super::inertia::strain_energy;
@@ -81,6 +82,8 @@ pub enum Event<'a> {
     Increment(&'a history::Row),
     /// Something a user should know.
     Note(&'a str),
+    /// What the doctor found in the model before the first step.
+    Finding(&'a Finding),
     /// Fields are due at the state of the simulation.
     Output,
     /// An increment failed and will be tried again, smaller.
@@ -341,7 +344,7 @@ impl Simulation {
         }
     }
 
-    pub(super) fn give_up(&mut self, failure: StepFailure) -> RunError {
+    pub(super) fn give_up(&mut self, failure: StepFailure, trial: &Trial) -> RunError {
         if let Some(finding) = self.summary.findings.last_mut() {
             finding.severity = doctor::Severity::Error;
             if finding.cause.is_mistake() {
@@ -349,16 +352,17 @@ impl Simulation {
             }
         }
         if failure.cause == Cause::Singular {
-            let modes = diagnosis::free_modes(self, self.model.steps[self.step].end);
-            return diagnosis::explain_singular(self, &failure, &modes);
+            let free = self.explain_free(&failure, trial);
+            return free.unwrap_or_else(|| diagnosis::explain_singular(self, &failure));
         }
         if failure.cause == Cause::Memory {
             let help = Some(doctor::MORE_MEMORY.to_string());
             return StepFailure { help, ..failure }.at(self.state.t);
         }
         let message = format!(
-            "step {}: {}; the increment cannot be made smaller",
-            self.model.steps[self.step].name, failure.message
+            "{}: {}; the increment cannot be made smaller",
+            self.called(),
+            failure.message
         );
         StepFailure { message, ..failure }.at(self.state.t)
     }

@@ -54,7 +54,11 @@ impl Observer for Record {
                 self.cutbacks += 1;
                 self.current.clear();
             }
-            Event::Accepted(_) | Event::Note(_) | Event::Output | Event::End => {}
+            Event::Accepted(_)
+            | Event::Note(_)
+            | Event::Finding(_)
+            | Event::Output
+            | Event::End => {}
         }
         Ok(())
     }

@@ -13,10 +13,11 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
+use stickslip::simulation::doctor::Severity;
 use stickslip::simulation::{Claim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary};
 
 use super::{Failure, Outcome, library, located, spare, use_threads};
-use crate::progress::say;
+use crate::progress::{found, say};
 use columns::Columns;
 use plan::Plan;
 use table::{Row, Table};
@@ -97,6 +98,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
     let (mut failed, mut poor) = (0, 0);
+    let mut told: Vec<String> = Vec::new();
     for run in 0..plan.count() {
         let begun = Instant::now();
         let directory = arguments.results.as_ref();
@@ -135,6 +137,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
             values.join("  "),
             width = plan.count().to_string().len()
         ));
+        for finding in ended.summary.iter().flat_map(|s| &s.findings) {
+            // What is wrong with the model is mostly wrong with it in every run.
+            let line = found(finding);
+            let before_the_run = finding.step.is_none() && finding.severity >= Severity::Warning;
+            if before_the_run && !told.contains(&line) {
+                tell(&format!("  {line}"));
+                told.push(line);
+            }
+        }
         for note in ended.summary.iter().flat_map(|s| &s.notes) {
             tell(&format!("  {note}"));
         }

@@ -48,6 +48,7 @@ pub(in crate::simulation) fn diagnose(
         }
         Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
     });
+    finding = with_drivers(finding, simulation, trial);
     if finding.message.is_empty() {
         finding.message = failure.message.clone();
     } else {
@@ -229,8 +230,14 @@ fn node(simulation: &Simulation, point: usize, remark: String) -> Guilty {
     .at(model.mesh.points[point])
 }
 
-/// Bodies that move as a whole, and how far they are from what might hold them.
+/// Bodies that move as a whole, what drives them, and how far they are from what might hold them.
 fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) -> Finding {
+    let model = &simulation.model;
+    let index = |l: &Loose| model.bodies.iter().position(|b| b.name == l.body);
+    let touching = free.iter().filter_map(index);
+    if let Some(body) = touching.into_iter().find(|&b| simulation.touches(b)) {
+        return lost(simulation, free, body);
+    }
     let mut finding = Finding::new(
         DoctorCause::FreeRigidMode,
         Severity::Warning,
@@ -238,9 +245,9 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
     );
     for l in free {
         let remark = format!("{} {how}", l.motion);
-        finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+        finding = finding.blame(check::body(model, &l.body, remark));
     }
-    for interface in &simulation.model.interfaces {
+    for interface in &model.interfaces {
         let Some((i, gap)) = smallest_gap(interface, trial.from) else {
             continue;
         };
@@ -255,6 +262,53 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
     finding
         .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)")
         .advise("move the bodies until they touch, or prescribe a displacement instead of a force")
+}
+
+/// Bodies that were in contact and move as a whole all the same.
+fn lost(simulation: &Simulation, free: &[Loose], body: usize) -> Finding {
+    let model = &simulation.model;
+    let name = &model.bodies[body].name;
+    let own = free.iter().find(|l| l.body == *name);
+    let motion = own.map_or("", |l| l.motion.as_str());
+    let mut finding = Finding::new(
+        DoctorCause::SlidesAway,
+        Severity::Warning,
+        format!(
+            "body {name} slides, rolls or lifts off as a whole ({motion}): contact and friction do not hold it"
+        ),
+    );
+    for l in free {
+        let remark = format!("{} is not resisted any more", l.motion);
+        finding = finding.blame(check::body(model, &l.body, remark));
+    }
+    finding
+        .advise("no equilibrium was found: lower what drives the body, raise friction or support the motion")
+        .advise("make the step dynamic if the body is meant to slide or take off")
+}
+
+/// A finding about a body that moves as a whole with what drives it, if it is not there yet.
+fn with_drivers(finding: Finding, simulation: &Simulation, trial: &Trial) -> Finding {
+    let moves = matches!(
+        finding.cause,
+        DoctorCause::SlidesAway | DoctorCause::FreeRigidMode
+    );
+    let mut guilty = finding.guilty.iter();
+    if !moves || guilty.any(|g| g.what == What::Key) {
+        return finding;
+    }
+    let mut guilty = finding.guilty.iter();
+    let named = guilty.find(|g| g.what == What::Body).map(|g| &g.name);
+    let mut bodies = simulation.model.bodies.iter();
+    match named.and_then(|name| bodies.position(|b| b.name == *name)) {
+        Some(body) => driven(finding, simulation, body, trial),
+        None => finding,
+    }
+}
+
+/// With the loads, supports and obstacles that drive a body.
+fn driven(finding: Finding, simulation: &Simulation, body: usize, trial: &Trial) -> Finding {
+    let drivers = simulation.drivers(body, trial.to).into_iter();
+    drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)))
 }
 
 /// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.

@@ -20,7 +20,7 @@ mod watch;
 
 pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
 
-pub(super) use check::examine;
+pub(super) use check::{body as body_at, examine};
 pub(super) use culprits::write as write_culprits;
 pub(super) use diagnose::{MORE_MEMORY, diagnose, stopped};
 pub(super) use watch::{Watch, watched};

@@ -1,13 +1,12 @@
 //! Motions of bodies as a whole that nothing holds, whatever is meant to hold them.
 
 use super::surfaces::Opposite;
-use crate::body::rigid_modes;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
-use crate::simulation::diagnosis;
 use crate::simulation::run::Simulation;
+use crate::simulation::unheld::{self, Mode};
 
 /// Something that resists a motion: a linear function of the displacements by dof.
 pub(super) type Row = Vec<(usize, f64)>;
@@ -27,7 +26,7 @@ pub(super) struct Loose {
     pub motion: String,
 }
 
-/// Motions that neither the supports and springs at `t` nor `rows` hold.
+/// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
 pub(super) fn loose(simulation: &Simulation, t: f64, rows: &[Row]) -> Vec<Loose> {
     let model = &simulation.model;
     let mut held = simulation.constraints(t).fixed;
@@ -39,39 +38,34 @@ pub(super) fn loose(simulation: &Simulation, t: f64, rows: &[Row]) -> Vec<Loose>
             held[dof] |= stiffness > 0.0;
         }
     }
-    let mut modes: Vec<(usize, String, Vec<f64>)> = Vec::new();
-    for (b, body) in model.bodies.iter().enumerate() {
-        let own = match body.rigid {
-            None => {
-                let points: Vec<usize> = body.points.clone().collect();
-                rigid_modes(&model.mesh, &points, model.space)
-            }
-            Some(rigid) => diagnosis::motions(model, rigid.link),
-        };
-        for mode in own {
-            let largest = mode.vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-            let factor = 1.0 / largest.max(f64::MIN_POSITIVE);
-            let vector = mode.vector.iter().map(|v| factor * v).collect();
-            modes.push((b, mode.name, vector));
-        }
-    }
+    let modes = unheld::modes(model);
     if modes.len() > MOST_MODES {
         return Vec::new();
     }
-    let at_rows: Vec<Vec<f64>> = modes
-        .iter()
-        .map(|(_, _, v)| {
-            let along = |row: &Row| row.iter().map(|&(dof, w)| w * v[dof]).sum();
-            rows.iter().map(along).collect()
+    let along = |mode: &Mode, row: &Row| -> f64 {
+        row.iter().map(|&(dof, w)| w * mode.at(model, dof)).sum()
+    };
+    let coupled: Vec<Row> = model
+        .couplings
+        .acting(t)
+        .map(|row| {
+            row.dofs
+                .iter()
+                .copied()
+                .zip(row.factors.iter().copied())
+                .collect()
         })
         .collect();
-    let at_held: Vec<Vec<f64>> = modes
+    let at_rows = modes.iter().map(|m| {
+        let all = rows.iter().chain(&coupled);
+        all.map(|row| along(m, row)).collect::<Vec<f64>>()
+    });
+    let at_rows: Vec<Vec<f64>> = at_rows.collect();
+    let kept: Vec<usize> = (0..held.len()).filter(|&dof| held[dof]).collect();
+    let at_held = modes
         .iter()
-        .map(|(_, _, v)| {
-            let kept = v.iter().zip(&held).filter(|(_, held)| **held);
-            kept.map(|(v, _)| *v).collect()
-        })
-        .collect();
+        .map(|m| kept.iter().map(|&dof| m.at(model, dof)).collect());
+    let at_held: Vec<Vec<f64>> = at_held.collect();
     let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let count = modes.len();
     let gram: Vec<Vec<f64>> = (0..count)
@@ -93,10 +87,10 @@ pub(super) fn loose(simulation: &Simulation, t: f64, rows: &[Row]) -> Vec<Loose>
         let Some(first) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else {
             continue;
         };
-        let body = modes[first].0;
+        let body = modes[first].body;
         let parts: Vec<&str> = (0..count)
-            .filter(|&i| modes[i].0 == body && share(i) > 0.1)
-            .map(|i| modes[i].1.as_str())
+            .filter(|&i| modes[i].body == body && share(i) > 0.1)
+            .map(|i| modes[i].name.as_str())
             .collect();
         out.push(Loose {
             body: model.bodies[body].name.clone(),

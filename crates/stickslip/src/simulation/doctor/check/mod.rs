@@ -6,6 +6,7 @@ mod driven;
 mod friction;
 mod gaps;
 mod laws;
+mod locking;
 mod meshes;
 mod motions;
 mod normals;
@@ -76,6 +77,7 @@ pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>])
     out.extend(conditions::check(simulation, &measured));
     out.extend(schedules::check(model));
     out.extend(strains::check(model));
+    out.extend(locking::check(model));
     out.extend(units::check(model));
     out.sort_by_key(|f| std::cmp::Reverse(f.severity));
     out
@@ -131,7 +133,7 @@ fn measure(interface: &Interface, gaps: &[f64], t: f64) -> Measured {
 }
 
 /// A body as a place: the centre of its box.
-pub(super) fn body(model: &Model, name: &str, remark: String) -> Guilty {
+pub(in crate::simulation) fn body(model: &Model, name: &str, remark: String) -> Guilty {
     let guilty = Guilty::body(name, remark);
     match model.bodies.iter().find(|b| b.name == name) {
         Some(body) => {
