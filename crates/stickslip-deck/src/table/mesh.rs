@@ -33,6 +33,10 @@ pub(super) const ROWS: &[Row] = &[
             read("NSET"),
             read("GENERATE"),
             read("ELSET"),
+            harmless(
+                "FREQUENCY",
+                "it belongs to *NODE PRINT; CalculiX leaves it out here, too",
+            ),
             idle("UNSORTED", "sets keep the order of the deck"),
             idle("INTERNAL", "it hides the set in a viewer"),
             refused("INSTANCE", INSTANCE),
