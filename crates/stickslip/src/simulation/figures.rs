@@ -211,9 +211,9 @@ fn ratio(amount: f64, scale: f64) -> f64 {
     }
 }
 
-/// What is not a number is larger than everything.
+/// What is not a number is larger than everything, and so is what is compared with an infinity: beside that all would be nothing.
 fn largest_if_not_a_number(amount: f64, scale: f64) -> [f64; 2] {
-    match amount.is_nan() || scale.is_nan() {
+    match amount.is_nan() || !scale.is_finite() {
         true => [f64::INFINITY, 1.0],
         false => [amount, scale],
     }
@@ -313,6 +313,10 @@ mod tests {
         assert!(track.worst(1e-3).0 < 1e-16);
         track.add(f64::NAN, 1.0, 3.0);
         assert_eq!(track.worst(1e-3), (f64::INFINITY, 3.0));
+        // Forces beyond all numbers do not make their errors small.
+        let mut track = Track::default();
+        track.add(2e225, f64::INFINITY, 4.0);
+        assert_eq!(track.worst(0.0), (f64::INFINITY, 4.0));
     }
 
     #[test]
