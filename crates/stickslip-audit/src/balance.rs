@@ -32,7 +32,7 @@ pub fn largest_force(results: &Results, bulk: &Bulk, external: &External) -> f64
 }
 
 /// Forces below this part of stiffness times displacement, and energies below its square, are rounding.
-pub const ROUNDING: f64 = 1e-8;
+pub const ROUNDING: f64 = 1e-6;
 
 /// Balance of all states.
 pub fn check(results: &Results, bulk: &Bulk, external: &External, report: &mut Report) {

@@ -212,10 +212,10 @@ fn one(
     }
     let p = point.pressure.max(0.0);
     report.note("tension", name, -point.pressure / scale.pressure, t);
-    let open = if point.gap.is_finite() {
-        point.gap
-    } else {
-        0.0
+    // Over nothing a point has no gap, and must not carry anything.
+    let open = match point.gap.is_finite() {
+        true => point.gap,
+        false => f64::MAX,
     };
     if laws.normal.0 == "unilateral" {
         // A dashpot may press before surfaces touch.
@@ -223,12 +223,11 @@ fn one(
         if !pair.damped && !pair.two_sided {
             report.note("complementarity", name, product, t);
         }
-    } else if let (Some(law), false) = (pressure(laws.normal, open), pair.damped) {
-        let law = if pair.two_sided {
-            law * point.pressure / law.max(f64::MIN_POSITIVE)
-        } else {
-            law
-        };
+    } else if let (Some(law), false) = (
+        pressure(laws.normal, open),
+        // Each of two sides has a half of the pressure.
+        pair.damped || pair.two_sided,
+    ) {
         report.note("law", name, (p - law).abs() / scale.pressure, t);
     }
     let moved = last.map(|l| (point.slip[0] - l.slip[0]).hypot(point.slip[1] - l.slip[1]));

@@ -113,12 +113,9 @@ fn tied(results: &Results, pair: &Pair, report: &mut Report) {
         .iter()
         .filter_map(|p| Some((*p, foot(mesh, facets, &x, x[*p])?)))
         .collect();
+    let moved = results.states.iter().flat_map(|s| &s.u).map(|u| norm(*u));
+    let largest = moved.fold(f64::MIN_POSITIVE, f64::max);
     for state in &results.states {
-        let largest = state
-            .u
-            .iter()
-            .map(|u| norm(*u))
-            .fold(f64::MIN_POSITIVE, f64::max);
         let (mut sum, mut count) = (0.0, 0.0);
         for (node, foot) in &feet {
             let mean = foot
@@ -150,6 +147,7 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
         };
         let (now, then) = (at(state), at(old));
         let (x1, x0) = (state.places(), old.places());
+        let (mut mean, mut count) = ([0.0; 2], 0.0);
         let frictionless = now
             .iter()
             .all(|p| p.carried() == 0.0 || p.carried().is_nan());
@@ -179,8 +177,18 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
             let frame = frame(normal, dim);
             let own = frame.map(|e| dot(own, e));
             let said = [0, 1].map(|k| now[*node].slip[k] - then[*node].slip[k]);
-            let off = (own[0] - said[0]).hypot(own[1] - said[1]);
-            report.note("slip", &pair.name, off / sizes.slip, state.t);
+            let off = [own[0] - said[0], own[1] - said[1]];
+            mean = [mean[0] + off[0], mean[1] + off[1]];
+            count += 1.0;
+            // The slip of a mortar point is a mean over the faces around it: only the mean over all is that of the places.
+            if !pair.mortar {
+                report.note(
+                    "slip",
+                    &pair.name,
+                    off[0].hypot(off[1]) / sizes.slip,
+                    state.t,
+                );
+            }
             let (length, carried) = (own[0].hypot(own[1]), now[*node].carried());
             let slides = now[*node].status == 2.0 && then[*node].status == 2.0;
             if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
@@ -189,6 +197,10 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                 let cosine = (shear[0] * own[0] + shear[1] * own[1]) / (length * carried);
                 report.note("direction", &pair.name, 1.0 + cosine, state.t);
             }
+        }
+        if pair.mortar && count > 0.0 {
+            let off = mean[0].hypot(mean[1]) / count;
+            report.note("slip", &pair.name, off / sizes.slip, state.t);
         }
     }
 }
