@@ -179,7 +179,12 @@ pub fn judged(
     if !said.findings().any(found) {
         return Some(format!("{cause} of {entity} is not found"));
     }
-    let serious = || said.findings().filter(|f| f.severity >= Severity::Warning);
+    // What came of the defect by the end of the run is no other cause.
+    const OUTCOME: [DoctorCause; 2] = [DoctorCause::NeverCarried, DoctorCause::CoarseContact];
+    let serious = || {
+        let findings = said.findings().filter(|f| !OUTCOME.contains(&f.cause));
+        findings.filter(|f| f.severity >= Severity::Warning)
+    };
     if let Some(f) = serious().find(|f| f.cause != cause && !also.contains(&f.cause)) {
         return Some(format!("{} is not the cause", f.cause));
     }
