@@ -349,3 +349,87 @@ fn contact_forces_at_nodes_are_those_that_bodies_resist() {
         }
     }
 }
+
+/// Largest distance of |q| / p from μ over the points that slip, and how many slip.
+fn ratio(simulation: &Simulation, mu: f64) -> (f64, usize) {
+    let interface = &simulation.model.interfaces[0];
+    let (names, columns) = interface.table(&simulation.state.u);
+    let column = |name: &str| {
+        let k = names.iter().position(|n| n == name).expect(name);
+        &columns[k]
+    };
+    let [p, a, b, status] = ["CPRESS", "CSHEAR1", "CSHEAR2", "CSTATUS"].map(column);
+    let slipping = (0..p.len()).filter(|&i| status[i] == 2.0);
+    slipping.fold((0.0, 0), |(worst, count), i| {
+        let ratio = a[i].hypot(b[i]) / p[i];
+        (f64::max(worst, (ratio - mu).abs()), count + 1)
+    })
+}
+
+/// A pad on a drum, and on a ball, that turn by `angle` an increment.
+fn pads(angle: f64, more: &str) -> [String; 2] {
+    let turned = 2.0 * angle;
+    let pad = format!(
+        r#"
+format = 1
+material.m.isotropic = {{ young = 1e4, poisson = 0.3 }}
+step = [{{ increments.fixed = 2 }}, {{ increments.fixed = 2 }}]
+interface.sole = {{ secondary = "pad.bottom", primary = "turning", friction.coulomb.mu = 0.3 }}
+{more}
+"#
+    );
+    let motion = format!("angle = [[0, 0], [1, 0], [2, {turned:?}]] }}");
+    let drum = format!(
+        r#"{pad}
+model.space = "plane-strain"
+body.pad = {{ generate.rectangle = {{ from = [-0.4, 0], to = [0.4, 0.3], cells = [12, 3] }}, material = "m" }}
+obstacle.turning = {{ cylinder = {{ centre = [0, -1], radius = 1.0 }}, motion.rotation = {{ centre = [0, -1], {motion} }}
+support.back = {{ set = "pad.top", x = 0, y = -0.06 }}
+"#
+    );
+    let ball = format!(
+        r#"{pad}
+model.space = "solid"
+body.pad = {{ generate.box = {{ from = [-0.4, -0.4, 0], to = [0.4, 0.4, 0.3], cells = [4, 4, 2] }}, material = "m" }}
+obstacle.turning = {{ sphere = {{ centre = [0, 0, -1], radius = 1.0 }}, motion.rotation = {{ centre = [0, 0, -1], axis = [0.4, 1, 0.2], {motion} }}
+support.back = {{ set = "pad.top", x = 0, y = 0, z = -0.06 }}
+"#
+    );
+    [drum, ball]
+}
+
+#[test]
+fn what_slips_on_a_drum_or_a_ball_carries_its_limit_for_turns_of_any_size() {
+    for angle in [0.01, 0.1, 0.5, 1.0] {
+        for text in pads(angle, "") {
+            let (record, simulation) = run(&support::problem(&text));
+            let (worst, slipping) = ratio(&simulation, 0.3);
+            assert!(slipping >= 4, "{angle}: {slipping} slip");
+            assert!(worst < 3e-11, "{angle}: {worst:e}\n{text}");
+            let gate = &simulation.summary.quality;
+            let figure = gate.figures.iter().find(|f| f.figure == "friction-law");
+            assert!(figure.expect("judged").value < 1e-9, "{gate:#?}");
+            // The last increment went on as the one before: by what the surface has gone by, the arc.
+            let (_, row) = record.increments.last().expect("a row");
+            let [shear, work] = ["sole.CFS1", "sole.ALLFD"].map(|c| row.get(c).expect(c));
+            let (_, before) = &record.increments[record.increments.len() - 2];
+            let work = work - before.get("sole.ALLFD").expect("work");
+            // With the smallest turn the pad has not yet given way as far as it will.
+            if text.contains("plane-strain") && angle >= 0.5 {
+                // All of the shear acts at the radius of the drum, across the direction to its centre.
+                let interface = &simulation.model.interfaces[0];
+                let force = interface.resultant(&simulation.state.u);
+                let torque = (force.moment[2] - force.shear[0] - force.normal[0]).abs();
+                assert!(
+                    (torque - 0.3 * force.total).abs() < 2e-3 * torque,
+                    "{torque}"
+                );
+                assert!(
+                    (work - torque * angle).abs() < 2e-3 * work,
+                    "{angle}: {work} {torque}"
+                );
+                assert!(shear < 0.0);
+            }
+        }
+    }
+}

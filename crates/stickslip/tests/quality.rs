@@ -58,6 +58,7 @@ fn a_good_solution_passes_and_every_figure_is_listed() {
         "unseen-to-approach",
         "oscillation",
         "excess-shear",
+        "friction-law",
         "action-reaction",
         "moment",
         "equilibrium",

@@ -112,6 +112,14 @@ pub(super) static EXCESS_SHEAR: Kind = Kind {
     help: "lower `solver.tolerance`",
 };
 
+pub(super) static FRICTION_LAW: Kind = Kind {
+    name: "friction-law",
+    own: LEAST,
+    model: TRACE,
+    what: "points that slip carry another shear than their limit, or one along their slip, by this part of it",
+    help: "take smaller increments; if that does not help please report it",
+};
+
 pub(super) static ACTION_REACTION: Kind = Kind {
     name: "action-reaction",
     own: LEAST,

@@ -55,6 +55,10 @@ pub struct Limits {
     /// Shear beyond the limit of friction, over the largest limit of the interface.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     pub excess_shear: f64,
+    /// Friction obeyed: by how much the shear of points that slip is not their limit or acts along their slip, and that of points that stick is above it,
+    /// over the largest limit of the interface. Found from the tractions that are reported and from how the points have moved.
+    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    pub friction_law: f64,
     /// Action against reaction: sum of the forces on both sides, over the sum of the magnitudes of those on one.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     pub action_reaction: f64,
@@ -100,6 +104,7 @@ impl Default for Limits {
             unseen_to_approach: 0.15,
             oscillation: 0.25,
             excess_shear: 1e-3,
+            friction_law: 1e-3,
             action_reaction: 1e-9,
             moment: 1e-2,
             equilibrium: 1e-4,

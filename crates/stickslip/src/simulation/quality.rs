@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::figures::{
-    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP, Kind,
-    MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track, UNSEEN_TO_APPROACH,
-    UNSEEN_TO_SIZE,
+    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
+    FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
+    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::limits::{GateMode, Limits};
 use super::run::Simulation;
@@ -247,6 +247,8 @@ impl Simulation {
             note(&OSCILLATION, uneven, limits.oscillation);
             let excess = [q.excess_shear * q.limit, q.limit];
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
+            let wrong = [q.friction_law * q.limit, q.limit];
+            note(&FRICTION_LAW, wrong, limits.friction_law);
             let b = interface.balance(&self.state.u);
             if b.scale > 0.0 {
                 let force = [norm(b.force), b.scale];

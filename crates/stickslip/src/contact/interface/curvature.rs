@@ -153,6 +153,7 @@ impl Interface {
                             foot: &foot,
                             anchor: &foot,
                             point_before: point,
+                            belt: [0.0; 3],
                         };
                         room.clear();
                         room.resize(pair.dofs() * pair.dofs(), 0.0);

@@ -1,9 +1,10 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
-use super::{Interface, Primary};
+use super::{Interface, Primary, turning};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{
-    Pair, Stencil, add_average_hessian, add_rigid_hessian, average, rigid_stencil, tangents,
+    Pair, Stencil, add_average_hessian, add_rigid_hessian, average, carried_over, rigid_stencil,
+    tangents,
 };
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::mortar::FaceIntegral;
@@ -15,7 +16,8 @@ use crate::contact::response::{Circumstances, Response, Status, Told};
 use crate::contact::search::Box3;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{
-    Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, norm, normalize, scale, sub,
+    Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, mat_vec, norm, normalize, scale,
+    sub,
 };
 use crate::system::{Rate, Tangent};
 
@@ -81,6 +83,16 @@ pub(super) struct Scene<'a> {
     pub asking: Asking,
 }
 
+impl Scene<'_> {
+    /// Way of the belt as friction sees it.
+    fn belt_seen(&self) -> Vec3 {
+        match self.rate {
+            Some(_) => self.belt_end,
+            None => self.belt,
+        }
+    }
+}
+
 /// The outcome at one point. What has a size of its own lies in a [`Batch`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Evaluation {
@@ -102,7 +114,9 @@ pub(super) struct Evaluation {
     /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
     pub frame: [Vec3; 2],
     pub frame_before: [Vec3; 2],
-    /// Relative slip since the last accepted state, in space, belt included.
+    /// Unit normal to the directions at the last accepted state.
+    pub normal_before: Vec3,
+    /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,
     pub facet: Option<usize>,
     /// It stays off the outer edge of the primary, but lies beneath its surface.
@@ -498,6 +512,7 @@ impl Interface {
             foot: &foot,
             anchor,
             point_before: position_before,
+            belt: scene.belt_seen(),
         };
         let kinematics = self.kinematics.as_dyn();
         kinematics.stencil(&pair, &mut batch.stencil);
@@ -536,6 +551,7 @@ impl Interface {
             (&poses.0, &poses.1),
             point,
             (x, before),
+            scene.belt_seen(),
             dim,
             &mut batch.stencil,
         ) else {
@@ -558,14 +574,7 @@ impl Interface {
             return Evaluation::open(f64::INFINITY);
         }
         // A curved obstacle measures the gap from its centre.
-        let curvature = feet[0].curvature.iter().flatten();
-        let curvature = curvature.fold(0.0_f64, |m, c| m.max(c.abs()));
-        let radius = if curvature > 0.0 {
-            1.0 / curvature
-        } else {
-            0.0
-        };
-        batch.stencil.reach = norm(x) + 2.0 * radius;
+        batch.stencil.reach = norm(x) + 2.0 * shape.as_dyn().radius().abs();
         let sides = batch.sides.len();
         let own = point
             .nodes
@@ -578,10 +587,10 @@ impl Interface {
             let [normal, t1, t2] = weights;
             let (shape, pose) = shape_now;
             if !mean {
-                return add_rigid_hessian(shape, pose, point, x, &feet, dim, weights, out);
+                return add_rigid_hessian(pose, point, &feet, dim, weights, out);
             }
             let along = [0.0, t1, t2];
-            let slips = add_rigid_hessian(shape, pose, point, x, &feet, dim, along, out);
+            let slips = add_rigid_hessian(pose, point, &feet, dim, along, out);
             add_average_hessian(shape, pose, point, scene.x, dim, normal, out) || slips
         });
         e
@@ -662,14 +671,28 @@ impl Interface {
         let frozen = self.kinematics.as_dyn().frozen();
         let normal = normalize(normal).unwrap_or(normal);
         let frame = tangents(normal, dim);
+        let (own, other) = if frozen {
+            (identity(), identity())
+        } else {
+            self.turned(i, scene)
+        };
+        // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
+        let before = &self.memory.committed[i];
+        let normal_before = match frozen || before.normal == [0.0; 3] {
+            true => turning::back(&own, normal),
+            false => before.normal,
+        };
+        let carried = mat_vec(&own, normal_before);
         let stencil = &mut batch.stencil;
+        let (mut moved, mut arm) = ([0.0; 3], [0.0; 3]);
         for (k, (&(node, w), gradient)) in batch.sides[sides..]
             .iter()
             .zip(&batch.gradients)
             .enumerate()
         {
             let x = scene.x[node];
-            let moved = sub(x, scene.before[node]);
+            moved = add_scaled(moved, w, sub(x, scene.before[node]));
+            arm = add_scaled(arm, w, scene.before[node]);
             reach = reach.max(dot(x, x));
             if frozen {
                 gap += dot(*gradient, sub(x, self.reference[node]));
@@ -680,10 +703,15 @@ impl Interface {
                     stencil.rows[t + 1][k * dim + c] = w * e[c];
                 }
             }
-            for (t, e) in frame.iter().enumerate() {
-                stencil.slip[t] = if k == 0 { 0.0 } else { stencil.slip[t] } + w * dot(*e, moved);
-            }
         }
+        if !frozen {
+            // The distance of the two sides turns with them, but for that which is no gap.
+            let glued = self.memory.glued.get(i).copied().unwrap_or(0.0);
+            let apart = glued + self.initial.offset(i, scene.t);
+            let arm = add_scaled(arm, -apart, normal_before);
+            moved = turning::slid(sub(moved, turning::swung(&own, arm)), &own, &other);
+        }
+        stencil.slip = frame.map(|e| dot(e, moved));
         if dim == 2 {
             stencil.slip[1] = 0.0;
         }
@@ -695,11 +723,35 @@ impl Interface {
         stencil.gap = gap;
         stencil.normal = normal;
         stencil.frame = frame;
-        stencil.frame_before = frame;
+        stencil.frame_before = frame.map(|e| turning::back(&own, carried_over(e, normal, carried)));
+        stencil.normal_before = normal_before;
         stencil.reach = reach.sqrt();
         let mut e = self.respond(i, self.share * area, sides, scene, batch);
         self.finish(scene, &mut e, batch, |_, _, _| false);
         e
+    }
+
+    /// How the surfaces have turned since the last accepted state: the faces around a point of a mortar, and what lies opposite.
+    fn turned(&self, i: usize, scene: &Scene) -> (Mat3, Mat3) {
+        let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
+            return (identity(), identity());
+        };
+        let (at, dim) = ((scene.x, scene.before), self.dofs.dim);
+        let around = mortar.around[i].iter().map(|&(f, _)| f);
+        let own = around.clone().map(|f| {
+            let face = &mortar.faces[f];
+            (&face.nodes[..face.kind.corner_count()], 1.0)
+        });
+        let other = around
+            .flat_map(|f| &scene.integrals[f].pieces)
+            .map(|piece| {
+                let facet = &facets[piece.facet];
+                (&facet.nodes[..facet.kind.corner_count()], piece.area)
+            });
+        (
+            turning::rotation_of(own, at, dim),
+            turning::rotation_of(other, at, dim),
+        )
     }
 
     /// Closing velocity over the increment; zero for a point that had no gap before.
@@ -755,16 +807,25 @@ impl Interface {
         // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
         let soft = self.memory.softening.map(|factor| factor * own);
         let tangential_stiffness = tangential_stiffness.min(soft.unwrap_or(f64::INFINITY));
-        let shear = components(multiplier.shear, &stencil.frame_before, dim);
-        let carried = components(self.memory.committed[i].shear, &stencil.frame_before, dim);
+        // Where the surface was met before it may have had another normal.
+        let in_frame = |shear: Vec3, normal: Vec3| {
+            let there = match normal == [0.0; 3] {
+                true => shear,
+                false => carried_over(shear, normal, stencil.normal_before),
+            };
+            components(there, &stencil.frame_before, dim)
+        };
+        let before = &self.memory.committed[i];
+        let shear = in_frame(multiplier.shear, multiplier.normal);
+        let carried = in_frame(before.shear, before.normal);
         let centre = match enforcement.multipliers() {
             Multipliers::Augmented { .. } => {
-                let t = components(multiplier.centre_shear, &stencil.frame_before, dim);
+                let t = in_frame(multiplier.centre_shear, multiplier.centre_normal);
                 [multiplier.centre_pressure, t[0], t[1]]
             }
             _ => [0.0, carried[0], carried[1]],
         };
-        let belt = stencil.frame_before.map(|e| dot(e, scene.belt));
+        let belt = stencil.frame.map(|e| dot(e, scene.belt));
         let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
         let at = Circumstances {
             dt: scene.dt,
@@ -803,7 +864,7 @@ impl Interface {
                 let nodes = batch.sides[sides..].iter().map(|(node, _)| node);
                 let dofs = &batch.dofs[first..];
                 let seen = rate_slip(stencil, nodes, dofs, scene, rate, dim, &mut batch.rated);
-                let belt = stencil.frame_before.map(|e| dot(e, scene.belt_end));
+                let belt = stencil.frame.map(|e| dot(e, scene.belt_end));
                 Circumstances {
                     slip: [seen[0] - belt[0], seen[1] - belt[1]],
                     path: Some(slid),
@@ -834,6 +895,7 @@ impl Interface {
             normal: stencil.normal,
             frame: stencil.frame,
             frame_before: stencil.frame_before,
+            normal_before: stencil.normal_before,
             moved: add_scaled(
                 scale(slid[0], stencil.frame_before[0]),
                 slid[1],
@@ -901,10 +963,16 @@ impl Interface {
             batch.rows.extend_from_slice(row);
         }
         // -d_gap · B (- the skew), shape (3, n); with multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
-        let seen: [&[f64]; 3] = if batch.rated[0].is_empty() {
-            rows
-        } else {
+        let seen: [&[f64]; 3] = if !batch.rated[0].is_empty() {
             [rows[0], &batch.rated[0][..n], &batch.rated[1][..n]]
+        } else if !stencil.slip_rows[0].is_empty() {
+            [
+                rows[0],
+                &stencil.slip_rows[0][..n],
+                &stencil.slip_rows[1][..n],
+            ]
+        } else {
+            rows
         };
         let (d, d_skew) = match &k_ll_inverse {
             Some(k) => (condensed_slope(k, &r.d_gap), k.map(|k| dot(k, r.d_skew))),
@@ -980,7 +1048,8 @@ fn rate_slip<'a>(
             for i in 0..2 {
                 let r = stencil.rows[i + 1][k];
                 slip[i] += r * ((rate.gain[dof] - 1.0) * (x - before) + rate.shift[dof]);
-                rows[i].push(r * rate.gain[dof]);
+                let own = stencil.slip_rows[i].get(k).copied().unwrap_or(r);
+                rows[i].push(own + r * (rate.gain[dof] - 1.0));
             }
             k += 1;
         }

@@ -2,6 +2,7 @@
 
 mod between;
 mod change;
+mod cone;
 mod curvature;
 mod evaluate;
 mod faces;
@@ -18,7 +19,10 @@ mod start;
 mod steady;
 mod symptoms;
 mod turned;
+mod turning;
 
+#[cfg(test)]
+mod objective;
 #[cfg(test)]
 mod tests;
 
@@ -36,7 +40,7 @@ pub use sides::WearReport;
 pub use start::{CLOSE, GLUE, Initial, Start, Within};
 
 use super::enforcement::Multipliers;
-use super::kinematics::KinematicsModel;
+use super::kinematics::{KinematicsModel, carried_over};
 use super::mortar::{FaceIntegral, Mortar};
 use super::obstacle::{Motion, ObstacleShape, Pose};
 use super::pairing::FacetPoint;
@@ -48,7 +52,7 @@ use crate::system::{
     Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
     Stage, State, StepFailure, Tally,
 };
-use evaluate::{Anchor, Batch, Evaluation};
+use evaluate::{Anchor, Batch, Evaluation, components};
 use steady::Steady;
 
 /// What the secondary touches.
@@ -138,6 +142,8 @@ pub struct Memory {
     damped: f64,
     /// Largest velocity of slip below the limit over the last increment.
     creep: f64,
+    /// Whether the shear is what friction says.
+    cone: cone::Cone,
     changed: usize,
     /// The last evaluation, a tentative one, may become the next iterate.
     pending: bool,
@@ -212,12 +218,16 @@ struct History {
 struct Multiplier {
     pressure: f64,
     shear: Vec3,
+    /// The normal it is perpendicular to; zero where that is not known.
+    normal: Vec3,
     /// What an augmented Lagrangian pulls them to: the estimate of the last round.
     centre_pressure: f64,
     centre_shear: Vec3,
+    centre_normal: Vec3,
     /// The same as components, at the last tangent: Newton steps from here.
     base: [f64; 3],
     frame: [Vec3; 2],
+    frame_normal: Vec3,
 }
 
 /// Status changes of a point over the iterations of an attempt.
@@ -565,6 +575,7 @@ impl Interface {
             for (m, e) in memory.multipliers.iter_mut().zip(last) {
                 m.base = e.multiplier;
                 m.frame = e.frame_before;
+                m.frame_normal = e.normal_before;
             }
         }
     }
@@ -599,8 +610,10 @@ impl Force for Interface {
             *m = Multiplier {
                 pressure: h.pressure,
                 shear: h.shear,
+                normal: h.normal,
                 centre_pressure: h.pressure,
                 centre_shear: h.shear,
+                centre_normal: h.normal,
                 ..Multiplier::default()
             };
         }
@@ -725,6 +738,7 @@ impl Force for Interface {
             });
             m.pressure = now[0];
             m.shear = add_scaled(scale(now[1], m.frame[0]), now[2], m.frame[1]);
+            m.normal = m.frame_normal;
         }
     }
 
@@ -760,6 +774,7 @@ impl Force for Interface {
             }
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;
+            m.centre_normal = e.normal_before;
         }
         let reach = memory.searched_at.iter().chain(&self.reference);
         let reach = reach.map(|&x| crate::math::norm(x)).fold(0.0, f64::max);
@@ -789,7 +804,9 @@ impl Force for Interface {
         let active = self.schedule.active(stage.at.t);
         let belt = self.belt_path(stage);
         let nodal = self.nodal_forces(active);
+        self.memory.cone = self.judge_friction(stage);
         let (initial, times) = (&self.initial, [stage.from.t, stage.at.t]);
+        let dim = self.dofs.dim;
         let memory = &mut self.memory;
         memory.nodal = nodal;
         if !active || memory.last.points.is_empty() {
@@ -841,15 +858,16 @@ impl Force for Interface {
                 let work = 0.5 * (h.damping + r.damping) * closed;
                 memory.damped += (work * area).max(0.0);
             }
-            let slid = if r.status == Status::Open {
-                [0.0; 3]
-            } else {
-                e.moved
+            // Slip so far goes along with the surface, as tractions do.
+            let so_far = e.forward(h.slip, h.normal, dim);
+            let slid = match r.status {
+                Status::Open => [0.0; 3],
+                _ => e.forward(e.moved, e.normal_before, dim),
             };
             *h = History {
                 pressure: r.traction[0],
                 shear,
-                slip: add(h.slip, slid),
+                slip: add(so_far, slid),
                 gap: e.gap,
                 normal: e.normal,
                 status: r.status,
@@ -901,6 +919,16 @@ impl Evaluation {
     fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
         let t = self.response.traction;
         add_scaled(scale(t[1], frame[0]), t[2], frame[1])
+    }
+
+    /// A tangent vector of the last accepted state, where the normal was `normal`, as it is carried into the tangent plane of now.
+    fn forward(&self, v: Vec3, normal: Vec3, dim: usize) -> Vec3 {
+        if normal == [0.0; 3] || self.normal_before == [0.0; 3] {
+            return v;
+        }
+        let there = carried_over(v, normal, self.normal_before);
+        let [a, b] = components(there, &self.frame_before, dim);
+        add_scaled(scale(a, self.frame[0]), b, self.frame[1])
     }
 
     /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.

@@ -27,6 +27,10 @@ pub struct Quality {
     pub oscillation: f64,
     /// Largest shear beyond the limit of friction, relative to the largest limit of the interface `[-]`.
     pub excess_shear: f64,
+    /// Largest amount by which the shear of a point that slips is not its limit, or by which that of one that sticks is above it, over the last
+    /// increment and relative to the largest limit of the interface `[-]`. Limits follow from the pressure and the law, slip from how the nodes have moved:
+    /// it is judged by what is reported, not by what made it.
+    pub friction_law: f64,
     /// Compression of one layer of cells under the largest pressure `[m]`: the least that the bodies have come nearer.
     pub layer: f64,
     /// What `complementarity` is relative to, `Σ A p height` `[N m]`.
@@ -120,6 +124,10 @@ impl Interface {
         }
         if most > 0.0 {
             q.excess_shear = over_limit / most;
+        }
+        let cone = self.memory.cone;
+        if cone.limit > 0.0 {
+            q.friction_law = cone.worst / cone.limit;
         }
         q
     }

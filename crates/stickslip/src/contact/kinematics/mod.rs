@@ -2,11 +2,17 @@
 //!
 //! The only place where a contact normal is made. A [`Stencil`] says by how much gap and slip change when its dofs move; the
 //! response of the interface is written in its frame, so that force and tangent are
-//! `Bᵀ t` and `Bᵀ D B + Σ tᵢ kᵢ` whatever law made `t` and `D`.
+//! `Bᵀ t` and `Bᵀ D S + Σ tᵢ kᵢ` whatever law made `t` and `D`.
+//!
+//! `B` and `S` differ where surfaces are curved. A traction acts in the tangent plane of now and keeps its size there, so the rows `B` of the shear are
+//! unit vectors of that plane. Slip is a length of way over an increment that may be long, and its gradient `S` is not of length one. A way that began
+//! in another tangent plane, and tractions that were carried in it, are turned into that of now: nothing of them is lost by projection.
 
 mod average;
 mod convective;
+mod dual;
 mod facet;
+mod frame;
 mod pop;
 mod rigid;
 mod small_sliding;
@@ -17,7 +23,7 @@ mod tests;
 pub use average::{add_average_hessian, average, mean_gap};
 pub use convective::Convective;
 pub use pop::Pop1995;
-pub use rigid::{add_rigid_hessian, rigid_stencil, tangents};
+pub use rigid::{RigidFoot, add_rigid_hessian, carried_over, rigid_stencil, tangents};
 pub use small_sliding::SmallSliding;
 
 use super::pairing::FacetPoint;
@@ -37,12 +43,18 @@ pub struct Stencil {
     pub slip: [f64; 2],
     /// The two directions, now: the shear traction on the secondary is `t₁ frame₁ + t₂ frame₂`.
     pub frame: [Vec3; 2],
-    /// The same at the last accepted state, in which tractions carried over are expressed.
+    /// The same at the last accepted state, in which tractions carried over are expressed: what turns them into those of now is the way of the
+    /// point over the surface, and the way of the surface.
     pub frame_before: [Vec3; 2],
+    /// Unit normal to the directions at the last accepted state.
+    pub normal_before: Vec3,
     /// Cosine of the angle between the directions.
     pub skew: f64,
-    /// Gradients of gap and slips, each of length `n`.
+    /// Where pressure and shear tractions act, each of length `n`: `-Σ tᵢ rowᵢ` are the forces of a unit area. Along the normal this is
+    /// the gradient of the gap; the others are what moves the point along the directions of the frame.
     pub rows: [Vec<f64>; 3],
+    /// Gradients of the slips; empty where they are the rows above, as in flat places.
+    pub slip_rows: [Vec<f64>; 2],
     /// Gradient of the skew; empty where it is zero.
     pub skew_row: Vec<f64>,
     /// Size of the coordinates from which the gap is a difference `[m]`: what its rounding is relative to.
@@ -56,6 +68,9 @@ impl Stencil {
         for row in &mut self.rows {
             row.clear();
             row.resize(n, 0.0);
+        }
+        for row in &mut self.slip_rows {
+            row.clear();
         }
         self.skew_row.clear();
         self.skew = 0.0;
@@ -81,6 +96,8 @@ pub struct Pair<'a> {
     pub anchor: &'a FacetPoint,
     /// The point at the last accepted state.
     pub point_before: Vec3,
+    /// Way of the belt that friction sees, over the increment and in space `[m]`: it counts along the directions of the frame, with which it changes.
+    pub belt: Vec3,
 }
 
 impl Pair<'_> {
@@ -110,7 +127,7 @@ pub trait Kinematics: Send + Sync {
     /// Fills `out`.
     fn stencil(&self, pair: &Pair, out: &mut Stencil);
 
-    /// Adds `Σ wᵢ kᵢ` to `out`, shape `(n, n)`: the second derivatives of gap and slips, weighted.
+    /// Adds `Σ wᵢ kᵢ` to `out`, shape `(n, n)`: the derivatives of the rows, weighted. Those of the normal are symmetric.
     fn add_hessian(&self, pair: &Pair, stencil: &Stencil, weights: [f64; 3], out: &mut [f64]);
 }
 

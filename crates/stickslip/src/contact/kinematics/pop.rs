@@ -156,6 +156,7 @@ impl Kinematics for Pop1995 {
         let foot = pair.foot;
         let e = sub(pair.point, pair.facet[0]);
         out.normal = foot.normal;
+        out.normal_before = pair.anchor.normal;
         out.gap = dot(sub(pair.point, foot.x), foot.normal);
         add_relative(pair, foot.normal, 1.0, &mut out.rows[0]);
         out.slip = [0.0; 2];
@@ -194,7 +195,7 @@ impl Kinematics for Pop1995 {
             edge.add_hessian(pair, e, weights[i + 1], out);
         }
         // k_n = -Σ (T^α N_αᵀ + N_α T^αᵀ) - g Σ m^αβ N_α N_βᵀ, the same for every kinematics
-        Projection::new(pair).add_hessian(weights[0], [0.0; 2], out);
+        Projection::new(pair).add_hessian(weights[0], out);
     }
 }
 

@@ -1,8 +1,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::convective::orthonormal;
 use super::facet::add_relative;
+use super::frame::TangentFrame;
 use super::{Kinematics, Pair, Stencil};
 use crate::math::{dot, sub};
 use crate::registry::Samples;
@@ -28,10 +28,11 @@ impl Kinematics for SmallSliding {
     fn stencil(&self, pair: &Pair, out: &mut Stencil) {
         out.reset(pair.dofs());
         let foot = pair.foot;
-        let (frame, _) = orthonormal(foot);
+        let frame = TangentFrame::new(foot, pair.kind.dim()).directions;
         out.frame = frame;
         out.frame_before = frame;
         out.normal = foot.normal;
+        out.normal_before = foot.normal;
         out.gap = dot(sub(pair.point, foot.x), foot.normal);
         let moved = sub(pair.point, pair.point_before);
         add_relative(pair, foot.normal, 1.0, &mut out.rows[0]);

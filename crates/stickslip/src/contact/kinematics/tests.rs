@@ -28,6 +28,9 @@ impl Numbers {
     }
 }
 
+/// Way of a belt.
+const BELT: Vec3 = [0.05, -0.03, 0.02];
+
 struct Case {
     kind: ElementKind,
     dim: usize,
@@ -118,6 +121,7 @@ impl Case {
             foot: &foot,
             anchor: &anchor,
             point_before,
+            belt: BELT,
         };
         let mut stencil = Stencil::default();
         kinematics.stencil(&pair, &mut stencil);
@@ -151,10 +155,13 @@ fn gradients_and_hessians_agree_with_differences() {
         for case in cases(&model) {
             let what = format!("{} on {}", model.kind(), case.kind);
             let weights = [0.7, -0.4, 0.9];
-            let (stencil, hessian) = case.with(&case.now, &model, |pair, s| {
-                let mut h = vec![0.0; s.n * s.n];
-                model.as_dyn().add_hessian(pair, s, weights, &mut h);
-                (s.clone(), h)
+            let (stencil, hessian, symmetric) = case.with(&case.now, &model, |pair, s| {
+                let [all, normal] = [weights, [1.0, 0.0, 0.0]].map(|weights| {
+                    let mut h = vec![0.0; s.n * s.n];
+                    model.as_dyn().add_hessian(pair, s, weights, &mut h);
+                    h
+                });
+                (s.clone(), all, normal)
             });
             let n = stencil.n;
             let combined =
@@ -169,11 +176,18 @@ fn gradients_and_hessians_agree_with_differences() {
                     "{what} gap {l}"
                 );
                 for i in 0..2 {
-                    let row = stencil.rows[i + 1][l];
-                    assert!(
-                        (d(a.slip[i], b.slip[i]) - row).abs() < 1e-8,
-                        "{what} slip {i} {l}"
-                    );
+                    // friction sees the slip less the way of the belt along the frame
+                    let seen = |s: &Stencil| s.slip[i] - dot(s.frame[i], BELT);
+                    let row = match stencil.slip_rows[i].as_slice() {
+                        [] => stencil.rows[i + 1][l],
+                        row => row[l],
+                    };
+                    let paper = model.as_dyn().triangles();
+                    let difference = match paper {
+                        true => d(a.slip[i], b.slip[i]),
+                        false => d(seen(&a), seen(&b)),
+                    };
+                    assert!((difference - row).abs() < 1e-8, "{what} slip {i} {l}");
                 }
                 if !stencil.skew_row.is_empty() {
                     assert!(
@@ -189,8 +203,8 @@ fn gradients_and_hessians_agree_with_differences() {
                         "{what} {k} {l}: {value} {difference}"
                     );
                     assert!(
-                        (value - hessian[l * n + k]).abs() < 1e-11,
-                        "{what} is symmetric"
+                        (symmetric[k * n + l] - symmetric[l * n + k]).abs() < 1e-11,
+                        "{what} is symmetric along the normal"
                     );
                 }
             }
@@ -328,17 +342,33 @@ fn friction_is_isotropic_but_in_the_papers_kinematics() {
     }
 }
 
+/// A motion of an obstacle over the unit of time, and where the point was before: the obstacle is at rest, moves, turns under the point by `angle`
+/// while the point stays about where it is, and takes the point along for a part of the way.
+fn obstacle_motions() -> Vec<(Motion, f64)> {
+    let table = vec![vec![0.0; 4], vec![1.0, 0.02, -0.01, 0.03]];
+    let turn = |angle: f64| {
+        Some(crate::contact::obstacle::Rotation {
+            centre: vec![0.05, -0.02, 0.01],
+            axis: Some(vec![0.3, 0.2, 1.0]),
+            angle: vec![[0.0, 0.2], [1.0, 0.2 + angle]],
+        })
+    };
+    let with = |translation: &Vec<Vec<f64>>, rotation| Motion {
+        translation: translation.clone(),
+        rotation,
+    };
+    vec![
+        (with(&Vec::new(), None), 0.0),
+        (with(&table, None), 0.0),
+        (with(&table, turn(0.05)), 0.0),
+        (with(&table, turn(1.0)), 0.0),
+        (with(&table, turn(-0.7)), -0.4),
+        (with(&Vec::new(), turn(1.2)), 0.9),
+    ]
+}
+
 #[test]
 fn rigid_stencils_agree_with_differences() {
-    let motion = Motion {
-        translation: vec![vec![0.0, 0.0, 0.0, 0.0], vec![1.0, 0.02, -0.01, 0.03]],
-        rotation: Some(crate::contact::obstacle::Rotation {
-            centre: vec![0.0; 3],
-            axis: Some(vec![0.3, 0.2, 1.0]),
-            angle: vec![[0.0, 0.0], [1.0, 0.05]],
-        }),
-    };
-    let poses = (motion.pose(1.0), motion.pose(0.0));
     let point = ContactPoint {
         nodes: vec![0, 1],
         weights: vec![0.4, 0.6],
@@ -348,53 +378,190 @@ fn rigid_stencils_agree_with_differences() {
         size: 1.0,
     };
     for shape in ObstacleShape::samples() {
-        let shape = shape.as_dyn();
-        let x = [[0.31, -0.22, 0.17], [0.33, -0.2, 0.15]];
-        let before = [0.3, -0.21, 0.16];
-        let at = |x: &[Vec3; 2]| {
-            let place = point.position(x);
-            let mut s = Stencil::default();
-            let feet = rigid_stencil(
-                shape,
-                (&poses.0, &poses.1),
-                &point,
-                (place, before),
-                3,
-                &mut s,
-            );
-            (s, feet.expect("off the centre"), place)
-        };
-        let (s, feet, place) = at(&x);
-        let weights = [0.7, -0.4, 0.9];
-        let mut hessian = vec![0.0; 36];
-        add_rigid_hessian(
-            shape,
-            &poses.0,
-            &point,
-            place,
-            &feet,
-            3,
-            weights,
-            &mut hessian,
-        );
-        let h = 1e-6;
-        for l in 0..6 {
-            let moved = |h: f64| {
-                let mut y = x;
-                y[l / 3][l % 3] += h;
-                at(&y).0
+        for (motion, along) in obstacle_motions() {
+            let poses = (motion.pose(1.0), motion.pose(0.0));
+            let shape = shape.as_dyn();
+            let x = [[0.31, -0.22, 0.17], [0.33, -0.2, 0.15]];
+            let (centre, axis) = poses.1.axis();
+            let back = |x: Vec3| add(centre, mat_vec(&rotation(axis, -along), sub(x, centre)));
+            let before = back([0.3, -0.21, 0.16]);
+            let at = |x: &[Vec3; 2]| {
+                let place = point.position(x);
+                let mut s = Stencil::default();
+                let poses = (&poses.0, &poses.1);
+                let feet = rigid_stencil(shape, poses, &point, (place, before), BELT, 3, &mut s);
+                (s, feet.expect("off the centre"))
             };
-            let (a, b) = (moved(-h), moved(h));
-            let d = |a: f64, b: f64| (b - a) / (2.0 * h);
-            assert!((d(a.gap, b.gap) - s.rows[0][l]).abs() < 1e-8);
-            for i in 0..2 {
-                assert!((d(a.slip[i], b.slip[i]) - s.rows[i + 1][l]).abs() < 1e-8);
+            let (s, feet) = at(&x);
+            let weights = [0.7, -0.4, 0.9];
+            let mut hessian = vec![0.0; 36];
+            add_rigid_hessian(&poses.0, &point, &feet, 3, weights, &mut hessian);
+            let h = 1e-6;
+            for l in 0..6 {
+                let moved = |h: f64| {
+                    let mut y = x;
+                    y[l / 3][l % 3] += h;
+                    at(&y).0
+                };
+                let (a, b) = (moved(-h), moved(h));
+                let d = |a: f64, b: f64| (b - a) / (2.0 * h);
+                assert!((d(a.gap, b.gap) - s.rows[0][l]).abs() < 1e-8);
+                for i in 0..2 {
+                    let seen = |s: &Stencil| s.slip[i] - dot(s.frame[i], BELT);
+                    let difference = d(seen(&a), seen(&b));
+                    assert!((difference - s.slip_rows[i][l]).abs() < 1e-8, "{along}");
+                }
+                for k in 0..6 {
+                    let c = |s: &Stencil| (0..3).map(|q| weights[q] * s.rows[q][k]).sum::<f64>();
+                    assert!(
+                        (d(c(&a), c(&b)) - hessian[k * 6 + l]).abs() < 1e-7,
+                        "{along}"
+                    );
+                }
             }
-            for k in 0..6 {
-                let c = |s: &Stencil| (0..3).map(|q| weights[q] * s.rows[q][k]).sum::<f64>();
-                assert!((d(c(&a), c(&b)) - hessian[k * 6 + l]).abs() < 1e-7);
+            // a frame of unit vectors in the tangent plane of now
+            let all = [s.normal, s.frame[0], s.frame[1]];
+            for (i, a) in all.iter().enumerate() {
+                for (j, b) in all.iter().enumerate() {
+                    let unit = if i == j { 1.0 } else { 0.0 };
+                    assert!((dot(*a, *b) - unit).abs() < 1e-14);
+                }
             }
         }
-        assert!(dot(s.normal, s.normal) - 1.0 < 1e-14);
+    }
+}
+
+/// Slip over an obstacle in space, and the frame.
+fn slip_over(
+    shape: &ObstacleShape,
+    motion: &Motion,
+    [x, before]: [Vec3; 2],
+    dim: usize,
+) -> (Vec3, Stencil) {
+    let point = ContactPoint {
+        nodes: vec![0],
+        weights: vec![1.0],
+        area: 1.0,
+        stiffness: 1.0,
+        normal: [0.0; 3],
+        size: 1.0,
+    };
+    let mut s = Stencil::default();
+    let poses = (&motion.pose(1.0), &motion.pose(0.0));
+    rigid_stencil(
+        shape.as_dyn(),
+        poses,
+        &point,
+        (x, before),
+        [0.0; 3],
+        dim,
+        &mut s,
+    )
+    .expect("a foot");
+    (
+        add_scaled(scale(s.slip[0], s.frame[0]), s.slip[1], s.frame[1]),
+        s,
+    )
+}
+
+fn turning(centre: Vec3, axis: Vec3, angle: f64) -> Motion {
+    Motion {
+        translation: Vec::new(),
+        rotation: Some(crate::contact::obstacle::Rotation {
+            centre: centre.to_vec(),
+            axis: Some(axis.to_vec()),
+            angle: vec![[0.0, 0.0], [1.0, angle]],
+        }),
+    }
+}
+
+/// A surface of revolution that turns under a point at rest goes by with one velocity: slip is the arc against it, for turns of any size.
+#[test]
+fn slip_over_what_turns_is_the_arc() {
+    use crate::contact::obstacle::{Cylinder, Plane, Sphere};
+    let centre = [0.3, -0.2, 0.1];
+    let axis = [0.0, 0.6, 0.8];
+    let shapes = [
+        ObstacleShape::Cylinder(Cylinder {
+            centre: centre.to_vec(),
+            axis: Some(axis.to_vec()),
+            radius: 0.5,
+            inside: false,
+        }),
+        ObstacleShape::Cylinder(Cylinder {
+            centre: centre.to_vec(),
+            axis: Some(axis.to_vec()),
+            radius: 0.5,
+            inside: true,
+        }),
+        ObstacleShape::Sphere(Sphere {
+            centre: centre.to_vec(),
+            radius: 0.5,
+            inside: false,
+        }),
+        ObstacleShape::Plane(Plane {
+            point: centre.to_vec(),
+            normal: axis.to_vec(),
+        }),
+    ];
+    let x = add(centre, [0.3, 0.35, 0.15]);
+    for shape in &shapes {
+        for angle in [0.01, -0.2, 1.0, 3.0, -7.0, 20.0] {
+            let (slip, s) = slip_over(shape, &turning(centre, axis, angle), [x, x], 3);
+            let foot = shape.as_dyn().foot(x).expect("a foot").point;
+            let exact = scale(-angle, cross(axis, sub(foot, centre)));
+            assert!(
+                norm(sub(slip, exact)) < 1e-13 * (1.0 + norm(exact)),
+                "{angle} {slip:?} {exact:?}"
+            );
+            assert!((dot(s.frame[0], s.frame[0]) - 1.0).abs() < 1e-14);
+            // A point that rides along has none, and what it carries turns with it.
+            if angle.abs() < 3.0 {
+                let turn = rotation(axis, angle);
+                let there = add(centre, mat_vec(&turn, sub(x, centre)));
+                let (slip, s) = slip_over(shape, &turning(centre, axis, angle), [there, x], 3);
+                assert!(norm(slip) < 1e-15, "{angle} {slip:?}");
+                for i in 0..2 {
+                    let carried = mat_vec(&turn, s.frame_before[i]);
+                    assert!(norm(sub(carried, s.frame[i])) < 1e-14, "{angle}");
+                }
+            }
+        }
+    }
+}
+
+/// A cylinder or a sphere that is pushed along its curvature slips by the angle between the feet times the radius.
+#[test]
+fn slip_over_what_is_pushed_is_the_arc() {
+    use crate::contact::obstacle::{Cylinder, Sphere};
+    for inside in [false, true] {
+        let shapes = [
+            ObstacleShape::Sphere(Sphere {
+                centre: vec![0.0; 3],
+                radius: 2.0,
+                inside,
+            }),
+            ObstacleShape::Cylinder(Cylinder {
+                centre: vec![0.0; 3],
+                axis: Some(vec![0.0, 0.0, 1.0]),
+                radius: 2.0,
+                inside,
+            }),
+        ];
+        for shape in &shapes {
+            for angle in [1e-6_f64, 0.03, 0.5, 1.5] {
+                // from the angle 0 to `angle`, a little off the surface at both ends
+                let before = [2.01, 0.0, 0.0];
+                let x = scale(1.98, [angle.cos(), angle.sin(), 0.0]);
+                let rest = Motion::default();
+                let (slip, s) = slip_over(shape, &rest, [x, before], 3);
+                let exact = scale(2.0 * angle, [-angle.sin(), angle.cos(), 0.0]);
+                assert!(norm(sub(slip, exact)) < 1e-14, "{angle}");
+                for (e, before) in s.frame.iter().zip(s.frame_before) {
+                    let carried = mat_vec(&rotation([0.0, 0.0, 1.0], angle), before);
+                    assert!(norm(sub(carried, *e)) < 1e-14, "{angle}");
+                }
+            }
+        }
     }
 }

@@ -50,6 +50,14 @@ impl Shape for Cylinder {
         radial_slope_derivative(x, to_vec3(&self.centre), self.radius, &q, v)
     }
 
+    fn radius(&self) -> f64 {
+        if self.inside {
+            -self.radius
+        } else {
+            self.radius
+        }
+    }
+
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
         let mut faults: Vec<_> = [
             vector_fault("centre", &self.centre, dim),

@@ -35,6 +35,12 @@ pub trait Shape: Send + Sync {
     /// `∂(slope · v)/∂x` at `x` for a constant vector `v` [1/m]: zero for flat shapes.
     fn slope_derivative(&self, x: Vec3, v: Vec3) -> Mat3;
 
+    /// The radius of its curvature `[m]`, the same everywhere: positive where the shape is convex, negative in a bore or socket, zero for flat
+    /// shapes.
+    fn radius(&self) -> f64 {
+        0.0
+    }
+
     /// What is wrong with the parameters in a space of dimension `dim`, as `(key, message)`.
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)>;
 }

@@ -37,19 +37,35 @@ pub struct Pose {
     turn: Mat3,
     centre: Vec3,
     shift: Vec3,
+    axis: Vec3,
+    angle: f64,
 }
 
 impl Pose {
     /// From space into the frame.
     pub fn inward(&self, x: Vec3) -> Vec3 {
-        let r = sub(sub(x, self.shift), self.centre);
-        add(transpose_vec(&self.turn, r), self.centre)
+        add(transpose_vec(&self.turn, self.arm(x)), self.centre)
     }
 
     /// From the frame into space.
     pub fn outward(&self, x: Vec3) -> Vec3 {
         let r = mat_vec(&self.turn, sub(x, self.centre));
         add(add(r, self.centre), self.shift)
+    }
+
+    /// The axis of rotation, the same in space and in the frame: a point on it in the frame, and its direction.
+    pub fn axis(&self) -> (Vec3, Vec3) {
+        (self.centre, self.axis)
+    }
+
+    /// By how much the frame has turned about its axis since another of its poses `[rad]`; turns by more than a half are counted.
+    pub fn turned_since(&self, before: &Pose) -> f64 {
+        self.angle - before.angle
+    }
+
+    /// A place in space as seen from the axis where that is now, in the directions of space.
+    pub fn arm(&self, x: Vec3) -> Vec3 {
+        sub(sub(x, self.shift), self.centre)
     }
 
     /// A direction of the frame in space.
@@ -79,12 +95,16 @@ impl Motion {
             turn: identity(),
             centre: [0.0; 3],
             shift,
+            axis: [0.0, 0.0, 1.0],
+            angle: 0.0,
         };
         if let Some(r) = &self.rotation {
             let axis = r.axis.as_deref().map_or([0.0, 0.0, 1.0], to_vec3);
             let angle = Amplitude::new(r.angle.clone()).map_or(0.0, |a| a.at(t));
             pose.centre = to_vec3(&r.centre);
-            pose.turn = rotation(normalize(axis).unwrap_or([0.0, 0.0, 1.0]), angle);
+            pose.axis = normalize(axis).unwrap_or(pose.axis);
+            pose.angle = angle;
+            pose.turn = rotation(pose.axis, angle);
         }
         pose
     }

@@ -29,6 +29,14 @@ impl Shape for Sphere {
         radial_slope_derivative(x, to_vec3(&self.centre), self.radius, &identity(), v)
     }
 
+    fn radius(&self) -> f64 {
+        if self.inside {
+            -self.radius
+        } else {
+            self.radius
+        }
+    }
+
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
         [
             vector_fault("centre", &self.centre, dim),

@@ -1,0 +1,111 @@
+//! Whether points carry what the law of friction says, judged by the tractions that are reported and by how the points have moved: nothing here knows
+//! frames, trial tractions or slip rules.
+
+use super::evaluate::Evaluation;
+use super::{Interface, Primary};
+use crate::contact::law::friction::FrictionPoint;
+use crate::contact::response::Status;
+use crate::math::{Vec3, add_scaled, dot, norm, sub};
+use crate::system::Stage;
+
+/// Part of the increment before its end over which the velocity of an obstacle is taken.
+const MOMENT: f64 = 1e-4;
+
+/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
+const YIELDING: f64 = 1e-2;
+
+/// What is wrong with the shear of an interface after an increment, and what that is relative to.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Cone {
+    /// Largest amount by which the shear is not what friction says `[Pa]`.
+    pub worst: f64,
+    /// Largest limit `[Pa]`.
+    pub limit: f64,
+}
+
+impl Interface {
+    /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
+    /// limit, in the tangent plane and not along its slip; one that sticks carries no more than its limit.
+    pub(super) fn judge_friction(&self, stage: &Stage) -> Cone {
+        let law = self.laws.friction_law();
+        let mut cone = Cone::default();
+        if !law.frictional() || self.laws.tied || !self.schedule.active(stage.at.t) {
+            return cone;
+        }
+        let points = self.memory.last.points.iter().zip(&self.memory.committed);
+        for (i, (e, before)) in points.enumerate() {
+            let pressure = e.response.traction[0];
+            if e.response.status == Status::Open || pressure <= 0.0 {
+                continue;
+            }
+            let shear = e.along(&e.frame);
+            let size = norm(shear);
+            let (moved, unsure) = self.moved_over(i, e, stage);
+            let speed = norm(moved) / stage.dt;
+            // What the speed changes is the law's, and it sees another measure of it.
+            let limit = match self.laws.own.friction {
+                Some(_) => e.response.limit,
+                None => {
+                    let limit = law.limit(&FrictionPoint {
+                        pressure,
+                        penetration: (-e.gap).max(0.0),
+                        speed,
+                        sticking: before.status != Status::Slip,
+                    });
+                    match limit.d_speed == 0.0 {
+                        true => limit.value,
+                        false => e.response.limit,
+                    }
+                }
+            };
+            cone.limit = cone.limit.max(limit);
+            let slips = e.response.status == Status::Slip;
+            let mut wrong = match slips {
+                true => (size - limit).abs(),
+                false => size - limit,
+            };
+            wrong = wrong.max(dot(shear, e.normal).abs());
+            let given = (size + norm(before.shear)) * self.yielding(i, e);
+            if slips && norm(moved) > unsure + given {
+                wrong = wrong.max(dot(shear, moved) / norm(moved));
+            }
+            cone.worst = cone.worst.max(wrong);
+        }
+        cone
+    }
+
+    /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
+    fn yielding(&self, i: usize, e: &Evaluation) -> f64 {
+        1.0 / e.tangential_stiffness + YIELDING / self.points[i].stiffness
+    }
+
+    /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
+    /// what its velocity at the end makes of the increment.
+    fn moved_over(&self, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
+        let dim = self.dofs.dim;
+        let (mut moved, mut own) = ([0.0; 3], [0.0; 3]);
+        for (node, w) in self.weights_of(i) {
+            for c in 0..dim {
+                let dof = self.dofs.of(self.nodes[node], c);
+                let du = stage.at.u[dof] - stage.from.u[dof];
+                own[c] += if w > 0.0 { w * du } else { 0.0 };
+                moved[c] += w * match stage.rate {
+                    Some(rate) => rate.gain[dof] * du + rate.shift[dof],
+                    None => du,
+                };
+            }
+        }
+        moved = add_scaled(moved, -stage.dt, self.belt_velocity(stage.at.t));
+        let mut unsure = 0.0;
+        if let Primary::Rigid(_, motion) = &self.primary {
+            let t = stage.at.t;
+            let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
+            let x = self.points[i].position(&self.memory.x);
+            let surface = sub(x, then.outward(now.inward(x)));
+            moved = add_scaled(moved, -1.0 / MOMENT, surface);
+            // The point has seen other velocities on its way.
+            unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
+        }
+        (add_scaled(moved, -dot(moved, e.normal), e.normal), unsure)
+    }
+}
