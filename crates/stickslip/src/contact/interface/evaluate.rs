@@ -27,6 +27,9 @@ const FIRST_SLACK: f64 = 1e-2;
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
 const KEPT: f64 = 1e-3;
 
+/// Distances from facets, relative to their size, and cosines that are equal but for rounding.
+const TIE: f64 = 1e-9;
+
 /// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
 /// some 1e-6 of the facet.
 const FLAT: f64 = 1e-5;
@@ -394,11 +397,14 @@ impl Interface {
                 None => true,
                 Some((b, held)) => {
                     // Distances equal but for rounding: an edge both facets share.
-                    let tie = (look.away - held.away).abs() <= 1e-9 * look.size;
+                    let tie = (look.away - held.away).abs() <= TIE * look.size;
                     match (look.carried, held.carried, tie) {
                         (true, false, true) => true,
                         (false, true, true) => false,
-                        (_, _, true) => previous == Some(f) && previous != Some(*b),
+                        (_, _, true) if previous == Some(f) || previous == Some(*b) => {
+                            previous == Some(f)
+                        }
+                        (_, _, true) => self.precedes((f, &look), (*b, held), point),
                         _ => look.away < held.away,
                     }
                 }
@@ -417,6 +423,32 @@ impl Interface {
             (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
             _ => Err(nearest),
         }
+    }
+
+    /// Which of two facets that are equally near a point is its own, whatever their numbers: the one that looks at it more, or, where they look alike, the one
+    /// whose middle comes first in the reference configuration.
+    fn precedes(&self, a: (usize, &Look), b: (usize, &Look), point: &ContactPoint) -> bool {
+        let Primary::Facets(facets) = &self.primary else {
+            return false;
+        };
+        let facing = |look: &Look| dot(look.p.normal, point.normal);
+        let apart = facing(a.1) - facing(b.1);
+        if apart.abs() > TIE {
+            return apart < 0.0;
+        }
+        let middle = |f: usize| {
+            let nodes = &facets[f].nodes;
+            let sum = nodes
+                .iter()
+                .fold([0.0; 3], |s, &n| add(s, self.reference[n]));
+            scale(1.0 / nodes.len() as f64, sum)
+        };
+        let first = sub(middle(a.0), middle(b.0));
+        let tie = TIE.sqrt() * a.1.size;
+        first
+            .iter()
+            .find(|d| d.abs() > tie)
+            .is_some_and(|d| *d < 0.0)
     }
 
     /// `last`: this point at the evaluation before, in this attempt.

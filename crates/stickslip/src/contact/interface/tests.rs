@@ -230,6 +230,58 @@ fn the_tangent_is_that_of_the_force() {
     }
 }
 
+/// Points in the hollows of a surface are as near to one facet as to the next: which of them they meet is a matter of geometry.
+#[test]
+fn numbers_of_facets_make_no_difference() {
+    for kind in [ElementKind::Tri3, ElementKind::Quad4] {
+        let mut ordered = sample(kind, KinematicsModel::default());
+        let grid = (CELLS + 1) * (CELLS + 1);
+        for (k, point) in ordered.points.iter_mut().enumerate() {
+            // right below a node of the surface
+            let node = k % grid;
+            let deep = add_scaled(ordered.reference[node], -0.004, [0.0, 0.0, 1.0]);
+            ordered.reference[point.nodes[0]] = deep;
+            point.nodes.truncate(1);
+            point.weights = vec![1.0];
+        }
+        let mut reversed = ordered.clone();
+        if let Primary::Facets(facets) = &mut reversed.primary {
+            facets.reverse();
+            for f in facets.iter_mut() {
+                f.continues.clear();
+            }
+            connect(facets);
+        }
+        let at = State {
+            t: 1.0,
+            u: vec![0.0; ordered.dofs.count()],
+            ..State::default()
+        };
+        let from = State {
+            t: 0.0,
+            ..at.clone()
+        };
+        let [a, b] = [&mut ordered, &mut reversed].map(|interface| {
+            let stage = Stage {
+                from: &from,
+                at: &at,
+                dt: 1.0,
+                rate: None,
+            };
+            let mut out = Assembler::new(interface.dofs.count());
+            out.reset(false);
+            interface.prepare(&stage).expect("candidates");
+            interface.assemble(&stage, &mut out).expect("forces");
+            out.residual
+        });
+        let largest = a.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        assert!(largest > 0.0);
+        for (a, b) in a.iter().zip(&b) {
+            assert!((a - b).abs() <= 1e-12 * largest, "{kind}: {a} {b}");
+        }
+    }
+}
+
 /// A tentative evaluation that is settled, and one that is given up, leave what a plain course leaves.
 #[test]
 fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
