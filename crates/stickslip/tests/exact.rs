@@ -433,3 +433,31 @@ fn what_slips_on_a_drum_or_a_ball_carries_its_limit_for_turns_of_any_size() {
         }
     }
 }
+
+/// What a support holds against an obstacle bears what it bore before, however long and by however many increments.
+#[test]
+fn pressure_that_is_held_stays() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.b = { rigid = true, generate.rectangle = { to = [1, 0.1], cells = [4, 1] }, material = "m" }
+material.m.isotropic = { young = 1e7, poisson = 0.25, density = 100 }
+obstacle.ground.plane = { point = [0, 0], normal = [0, 1] }
+interface.sole = { secondary = "b.bottom", primary = "ground", friction.coulomb.mu = 0.5 }
+load.w = { set = "b", gravity.acceleration = [0, -9.81] }
+support.catch = { set = "b", hold = ["x"] }
+support.guide = { set = "b", hold = ["y"] }
+initial.v = { set = "b", velocity = [1, 0] }
+output.every = 0
+step = [
+    { supports = ["catch"], increments.fixed = 1 },
+    { supports = ["guide"], duration = 0.3, increments = { initial = 1e-7, smallest = 1e-8, largest = 1e-2 }, dynamic = {} },
+]
+"#;
+    let (record, _) = run(&support::problem(text));
+    assert!(record.increments.len() > 50);
+    for (_, row) in &record.increments {
+        let n = row.get("sole.CFN2").expect("the normal force");
+        assert!((n - 98.1).abs() < 1e-4 * 98.1, "{n}");
+    }
+}

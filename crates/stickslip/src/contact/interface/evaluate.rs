@@ -795,6 +795,24 @@ impl Interface {
         (before.gap - gap) / dt
     }
 
+    /// Gap that counts as none.
+    ///
+    /// A constraint that is met to a tolerance leaves a gap, which multipliers would go on to correct in every increment to come. Where supports hold the
+    /// point in it, that has no end: pressure would grow without anything that asks for it. What the tolerance has accepted is accepted for
+    /// as long as the point is in contact.
+    fn rest(&self, i: usize) -> f64 {
+        if !self.unknown() {
+            return self.memory.rest.get(i).copied().unwrap_or(0.0);
+        }
+        let before = &self.memory.committed[i];
+        match before.status {
+            Status::Open => 0.0,
+            _ => before
+                .gap
+                .clamp(-self.memory.accepted, self.memory.accepted),
+        }
+    }
+
     /// Laws at the stencil of the batch, of a point that stands for `area` and whose nodes are those from `sides` on.
     fn respond(
         &self,
@@ -881,7 +899,7 @@ impl Interface {
             slip: slid,
             path: None,
             unknown,
-            rest: self.memory.rest.get(i).copied().unwrap_or(0.0),
+            rest: self.rest(i),
             sticking: self.memory.committed[i].status != Status::Slip,
             closing: self.closing(i, stencil.gap, scene.dt),
             held: self.held(i, &stencil.frame_before, dim),

@@ -153,6 +153,8 @@ pub struct Memory {
     explicit: bool,
     /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
     rest: Vec<f64>,
+    /// Gap that multipliers leave as it is where a point stays in contact `[m]`.
+    accepted: f64,
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     inertia: Vec<f64>,
     softening: Option<f64>,
@@ -295,6 +297,19 @@ impl Interface {
         let inertia = self.memory.inertia.get(i).copied().unwrap_or(0.0);
         let inertia = moving.map_or(0.0, |dt| 0.4 * inertia / (dt * dt));
         self.points[i].stiffness + inertia
+    }
+
+    /// The gap that an augmented Lagrangian may leave, by half: the part `error` of the elastic approach of the last accepted state.
+    fn accepted(&self) -> f64 {
+        let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
+            return 0.0;
+        };
+        if !self.laws.needs_normal_stiffness() {
+            return 0.0;
+        }
+        let points = self.points.iter().zip(&self.memory.committed);
+        let approach = points.map(|(p, h)| h.pressure.abs() / p.stiffness);
+        0.5 * error * approach.fold(0.0, f64::max)
     }
 
     /// Whether multipliers are unknowns of the present attempt.
@@ -605,6 +620,7 @@ impl Force for Interface {
 
     fn begin(&mut self) {
         self.ready();
+        self.memory.accepted = self.accepted();
         let memory = &mut self.memory;
         for (m, h) in memory.multipliers.iter_mut().zip(&memory.committed) {
             *m = Multiplier {
