@@ -530,3 +530,148 @@ step = [{ name = "fly", duration = 1, dynamic = {}, increments = { fixed = 4 } }
     assert_eq!(far.len(), 1, "{findings:#?}");
     assert!(far[0].message.contains("body block"), "{far:?}");
 }
+
+/// A block over a gap; what presses and slides it comes behind.
+const OVER_A_GAP: &str = r#"format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { from = [0, 1e-5], to = [0.04, 0.02001], cells = [10, 5] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.base = { secondary = "block.bottom", primary = "floor" }
+"#;
+
+/// The same as the obstacle comes up.
+const FLOOR_COMES: &str = "support.hold = { set = \"block.top\", x = 0.0, y = 0.0 }\nobstacle.floor.motion.translation = [[0, 0, 0], [1, 0, 1.2e-5]]\n";
+
+/// Largest residual over the largest energy in play, at the end of every increment.
+fn residual(simulation: &Simulation) -> f64 {
+    simulation.summary.energy_quality.residual
+}
+
+#[test]
+fn work_is_that_along_the_path_where_gaps_close_within_increments() {
+    let pressed = "support.press = { set = \"block.top\", x = 0.0, y = -1.2e-5 }\n";
+    for (what, driven) in [("support", pressed), ("obstacle", FLOOR_COMES)] {
+        for increments in ["fixed = 1", "fixed = 3", "initial = 0.1"] {
+            let step = format!("step = [{{ increments = {{ {increments} }} }}]\n");
+            let simulation = run(&format!("{OVER_A_GAP}{driven}{step}"));
+            let e = &simulation.summary.energy;
+            let stored = e.strain + e.contact;
+            let work = [e.external_work, e.belt_work];
+            let [all, none] = match what {
+                "support" => work,
+                _ => [work[1], work[0]],
+            };
+            assert!(
+                (all / stored - 1.0).abs() < 1e-6 && none.abs() < 1e-9 * stored,
+                "{what}, {increments}: {work:?} for {stored:e}"
+            );
+            assert!(residual(&simulation) < 1e-6, "{what}, {increments}");
+        }
+    }
+}
+
+#[test]
+fn the_ledger_closes_where_points_open_close_and_begin_to_slide_within_increments() {
+    let bodies = BLOCKS.replace(
+        "from = [0.1, 1], to = [0.9, 2]",
+        "from = [0.1, 1.0004], to = [0.9, 2.0004]",
+    );
+    let bodies = bodies.replace("x = 1e-4, y = -1e-2", "y = -1e-3, amplitude = \"press\"");
+    let slid = "support.aside = { set = \"upper.top\", x = 4e-4, amplitude = \"slide\" }\n\
+        amplitude.press.table = [[0, 0], [1, 1], [2, 1], [3, 0.2]]\n\
+        amplitude.slide.table = [[0, 0], [1, 0], [2, 1], [3, -1]]\n";
+    let run_in = |text: &str, increments: usize| {
+        let from = text.find("step = ").expect("a step");
+        let steps = format!("[[step]]\nincrements.fixed = {increments}\n").repeat(3);
+        run(&format!("{}{slid}{steps}", &text[..from]))
+    };
+    let laws = [
+        ("", "unilateral"),
+        ("interface.joint.normal.linear.c = 1e4\n", "linear"),
+        ("interface.joint.enforcement.penalty = {}\n", "penalty"),
+        (
+            "interface.joint.discretisation.node-to-facet = {}\n",
+            "node-to-facet",
+        ),
+    ];
+    for (line, what) in laws {
+        let text = bodies.replace("support.base", &format!("{line}support.base"));
+        let fine = run_in(&text, 40).summary.energy;
+        for increments in [1, 2, 5, 10] {
+            let simulation = run_in(&text, increments);
+            let left = residual(&simulation);
+            assert!(left < 1e-3, "{what}, {increments}: {left:e}");
+            // What friction took is known as well as is said.
+            let e = &simulation.summary.energy;
+            let off = (e.friction - fine.friction).abs();
+            let most = e.uncertain + fine.uncertain + 0.02 * fine.friction;
+            assert!(
+                off < most,
+                "{what}, {increments}: {:e} for {:e} ± {most:e}",
+                e.friction,
+                fine.friction
+            );
+        }
+    }
+}
+
+#[test]
+fn an_obstacle_that_turns_does_the_work_of_its_moment() {
+    let simulation = run(r#"format = 1
+model.space = "solid"
+body.block = { generate.box = { from = [-1, -1, 0], to = [1, 1, 1], cells = [4, 4, 2] }, material = "soft" }
+material.soft.isotropic = { young = 1e6, poisson = 0.3 }
+obstacle.table = { plane = { point = [0, 0, 0], normal = [0, 0, 1] }, motion.rotation = { centre = [0, 0, 0], axis = [0, 0, 1], angle = [[0, 0], [1, 0], [2, 0.05]] } }
+interface.base = { secondary = "block.bottom", primary = "table", friction.coulomb.mu = 0.1 }
+support.press = { set = "block.top", x = 0.0, y = 0.0, z = -0.01, amplitude = "press" }
+amplitude.press.table = [[0, 0], [1, 1]]
+step = [{ increments.fixed = 1 }, { increments.fixed = 10 }]
+"#);
+    let e = &simulation.summary.energy;
+    assert!(e.friction > 0.0 && residual(&simulation) < 1e-3, "{e:?}");
+    // Nothing else moves in the second step.
+    assert!(e.belt_work > e.friction, "{e:?}");
+}
+
+#[test]
+fn a_table_that_shakes_a_block_does_work() {
+    let rows: Vec<String> = (0..=50)
+        .map(|k| {
+            let t = 0.01 * f64::from(k);
+            let x = 0.01 * (1.0 - (std::f64::consts::TAU * t).cos());
+            format!("[{:.2}, {x}, 0]", 1.0 + t)
+        })
+        .collect();
+    let text = format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.b = {{ generate.rectangle = {{ to = [0.4, 0.1], cells = [4, 2] }}, rayleigh.stiffness = 1e-4, material = "m" }}
+material.m.isotropic = {{ young = 1e7, poisson = 0.3, density = 1000 }}
+obstacle.table = {{ plane = {{ point = [0, 0], normal = [0, 1] }}, motion.translation = [[0, 0, 0], {}] }}
+interface.i = {{ secondary = "b.bottom", primary = "table", friction.coulomb.mu = 0.3 }}
+load.w = {{ set = "b", gravity.acceleration = [0, -9.81] }}
+support.catch = {{ set = "b", hold = ["x"] }}
+"#,
+        rows.join(", ")
+    );
+    for dynamic in [
+        "increments.fixed = 100, dynamic = {}",
+        "dynamic.scheme.central-difference = {}",
+    ] {
+        let steps = format!(
+            "step = [{{ supports = [\"catch\"], increments.fixed = 1 }}, {{ supports = [], duration = 0.5, {dynamic} }}]\n"
+        );
+        let simulation = run(&format!("{text}{steps}"));
+        let e = &simulation.summary.energy;
+        // The block has the velocity of the table, 0 at the end; half-way it had 0.0628 m/s: 0.079 J.
+        assert!(e.belt_work.abs() < 1e-2, "{dynamic}: {e:?}");
+        let scale = simulation.summary.energy_quality.scale;
+        assert!(scale > 0.075, "{dynamic}: {scale:e}");
+        assert!(
+            simulation.summary.quality.met,
+            "{dynamic}: {:?}",
+            violated(&simulation)
+        );
+    }
+}

@@ -7,10 +7,10 @@ use stickslip::simulation::{Simulation, fields};
 const PRESSURE: f64 = 40.0;
 const SLIP: f64 = 0.05;
 const MU: f64 = 0.25;
-/// Slip of the step in which sliding begins, in two increments; over the first the shear rises to its limit and its mean is half of that.
+/// Slip of the step in which sliding begins. The shear is at its limit all the time that the block slides: under a constant pressure what rubs is the path.
 const BEGIN: f64 = 1e-3;
 const PATH: f64 = BEGIN + SLIP;
-const RUBBED: f64 = 0.75 * BEGIN + SLIP;
+const RUBBED: f64 = PATH;
 
 /// A block that is pressed on another, held across and with a mesh of its own, whose surface moves by `SLIP` in the last step: the pressure
 /// is that of the load everywhere, and the shear `MU` times that. It begins to slide in the step before.

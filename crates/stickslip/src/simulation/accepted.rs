@@ -123,7 +123,7 @@ impl Simulation {
         let before = summary.energy.of_interfaces();
         summary
             .energy
-            .enter(flow, kinetic, strain + stored, &contact);
+            .enter(flow, [kinetic, strain + stored], &contact, followed);
         if followed {
             // Less what the interfaces have entered of it.
             let entered =

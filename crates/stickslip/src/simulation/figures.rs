@@ -175,7 +175,7 @@ pub(super) static ENERGY: Kind = Kind {
     own: 1.0,
     model: 1.0,
     what: "the balance of energies is open by this part",
-    help: "take smaller increments, or add damping where bodies bounce",
+    help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps it is the ledger alone that is off: forces do not follow from it",
 };
 
 /// What a figure came to after an increment.

@@ -169,6 +169,12 @@ impl Gate {
     }
 }
 
+/// Residual of a quasi-static ledger over the energy in play above which a note says so.
+const OPEN: f64 = 1e-3;
+
+/// The same of what is not known of friction.
+const UNKNOWN: f64 = 1e-2;
+
 /// Forces that move by less than this part of the size of the model do no work worth a balance.
 const STILL: f64 = 1e-6;
 
@@ -272,6 +278,20 @@ impl Simulation {
         let least = STILL * self.model.mesh.diameter() * forces;
         let pair = [quality.largest, quality.scale.max(least)];
         let t = self.state.t;
+        let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
+        let unknown = self.summary.energy.uncertain;
+        if in_motion.is_none() && open > OPEN * scale {
+            self.notes.push(format!(
+                "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that; forces do not follow from them. Smaller increments make it less",
+                100.0 * open / scale
+            ));
+        }
+        if in_motion.is_none() && unknown > UNKNOWN * scale {
+            self.notes.push(format!(
+                "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
+                self.summary.energy.friction
+            ));
+        }
         self.summary.quality.note(&ENERGY, "model", pair, limit, t);
         self.summary.quality.settle();
     }

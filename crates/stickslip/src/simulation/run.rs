@@ -246,6 +246,7 @@ impl Simulation {
         }
         let limits = self.model.quality;
         self.judge_energy(&limits);
+        self.tell_notes(observers)?;
         for observer in observers.iter_mut() {
             observer.see(self, Event::End)?;
         }

@@ -20,6 +20,7 @@ mod steady;
 mod symptoms;
 mod turned;
 mod turning;
+mod work;
 
 #[cfg(test)]
 mod objective;
@@ -47,7 +48,7 @@ use super::pairing::FacetPoint;
 use super::response::{Laws, Status};
 use super::search::{Box3, Tree};
 use super::surface::{ContactPoint, Facet, Skin};
-use crate::math::{Vec3, add, add_scaled, distance, dot, scale};
+use crate::math::{Vec3, add, add_scaled, distance, scale};
 use crate::system::{
     Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
     Stage, State, StepFailure, Tally,
@@ -140,6 +141,14 @@ pub struct Memory {
     traces: Vec<[f64; 2]>,
     belt_work: f64,
     damped: f64,
+    /// See [`Energy::path`], [`Energy::uncertain`] and [`Energy::excess`].
+    path: f64,
+    uncertain: f64,
+    excess: f64,
+    /// Recoverable energy at the last accepted state `[J]`.
+    stored: f64,
+    /// Force, and moment about the centre of rotation, with which a moving obstacle pushed then.
+    pushed: [Vec3; 2],
     /// Largest velocity of slip below the limit over the last increment.
     creep: f64,
     /// Whether the shear is what friction says.
@@ -213,6 +222,10 @@ struct History {
     dissipated: f64,
     /// Pressure times path of sliding, accumulated: `∫ p |ds|` `[Pa m]`.
     rubbed: f64,
+    /// The largest shear traction that could be carried `[Pa]`.
+    limit: f64,
+    /// Elastic energy of the spring that sticks `[J/m²]`.
+    sheared: f64,
 }
 
 /// Multipliers of a contact point in the current attempt.
@@ -817,84 +830,7 @@ impl Force for Interface {
     }
 
     fn commit(&mut self, stage: &Stage) {
-        let active = self.schedule.active(stage.at.t);
-        let belt = self.belt_path(stage);
-        let nodal = self.nodal_forces(active);
-        self.memory.cone = self.judge_friction(stage);
-        let (initial, times) = (&self.initial, [stage.from.t, stage.at.t]);
-        let dim = self.dofs.dim;
-        let memory = &mut self.memory;
-        memory.nodal = nodal;
-        if !active || memory.last.points.is_empty() {
-            for h in &mut memory.committed {
-                *h = History {
-                    slip: h.slip,
-                    dissipated: h.dissipated,
-                    rubbed: h.rubbed,
-                    ..History::default()
-                };
-            }
-            return;
-        }
-        memory.creep = 0.0;
-        let frictional = self.laws.friction_law().frictional();
-        let creeps = frictional && !self.laws.slip.as_dyn().sticks();
-        let mut traces = vec![[0.0; 2]; memory.committed.len()];
-        for (i, ((h, e), trace)) in memory
-            .committed
-            .iter_mut()
-            .zip(&memory.last.points)
-            .zip(&mut traces)
-            .enumerate()
-        {
-            let r = &e.response;
-            let shear = e.along(&e.frame);
-            // By the trapezoidal rule, like the work of the loads: exact where the traction grows in proportion.
-            let carried = e.carried;
-            let mean = [0, 1].map(|i| 0.5 * (carried[i] + r.traction[i + 1]));
-            let work = mean[0] * r.sliding_path[0] + mean[1] * r.sliding_path[1];
-            let area = e.area;
-            let rubbed = 0.5 * (h.pressure + r.traction[0]) * e.path(frictional);
-            *trace = [(-work).max(0.0), rubbed.max(0.0)];
-            memory.dissipated += (-work * area).max(0.0);
-            memory.rubbed += trace[1] * area;
-            memory.belt_work += 0.5 * dot(add(h.shear, shear), belt) * area;
-            // Overlap that is resolved drives the surfaces apart.
-            let [before, now] = times.map(|t| initial.offset(i, t));
-            memory.belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
-            if creeps && r.status == Status::Stick {
-                memory.creep = memory.creep.max(crate::math::norm(e.moved) / stage.dt);
-            }
-            if r.damping != 0.0 || h.damping != 0.0 {
-                let closed = if h.normal == [0.0; 3] {
-                    0.0
-                } else {
-                    h.gap - e.gap
-                };
-                let work = 0.5 * (h.damping + r.damping) * closed;
-                memory.damped += (work * area).max(0.0);
-            }
-            // Slip so far goes along with the surface, as tractions do.
-            let so_far = e.forward(h.slip, h.normal, dim);
-            let slid = match r.status {
-                Status::Open => [0.0; 3],
-                _ => e.forward(e.moved, e.normal_before, dim),
-            };
-            *h = History {
-                pressure: r.traction[0],
-                shear,
-                slip: add(so_far, slid),
-                gap: e.gap,
-                normal: e.normal,
-                status: r.status,
-                facet: e.facet,
-                area: e.area,
-                damping: r.damping,
-                dissipated: h.dissipated + trace[0],
-                rubbed: h.rubbed + trace[1],
-            };
-        }
-        self.leave_traces(&traces);
+        self.accept(stage);
     }
 
     fn energy(&self) -> Energy {
@@ -903,6 +839,9 @@ impl Force for Interface {
             dissipated: self.memory.dissipated,
             work: self.memory.belt_work,
             damped: self.memory.damped,
+            path: self.memory.path,
+            uncertain: self.memory.uncertain,
+            excess: self.memory.excess,
         }
     }
 
@@ -945,19 +884,5 @@ impl Evaluation {
         let there = carried_over(v, normal, self.normal_before);
         let [a, b] = components(there, &self.frame_before, dim);
         add_scaled(scale(a, self.frame[0]), b, self.frame[1])
-    }
-
-    /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
-    fn path(&self, frictional: bool) -> f64 {
-        let r = &self.response;
-        match (r.status, frictional) {
-            (Status::Open, _) => 0.0,
-            (_, true) => {
-                let [a, b] = r.sliding_path;
-                let [e, f] = self.frame_before;
-                crate::math::norm(add_scaled(scale(a, e), b, f))
-            }
-            (_, false) => crate::math::norm(self.moved),
-        }
     }
 }

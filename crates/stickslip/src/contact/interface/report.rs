@@ -44,7 +44,7 @@ fn output_frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
 const CANCELLED: f64 = 1e-9;
 
 impl Interface {
-    /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield.
+    /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield, in both directions.
     pub(super) fn stored_energy(&self) -> f64 {
         let own = self.law_energies();
         self.memory
@@ -57,11 +57,14 @@ impl Interface {
                 {
                     // what is left of the constraint's violation, a spring from λ to p
                     let rest = self.memory.rest.get(i).copied().unwrap_or(0.0);
-                    0.5 * (h.pressure - h.damping) * (rest - h.gap).max(0.0)
+                    let left = rest - h.gap;
+                    // Tied surfaces pull as well.
+                    let left = if self.laws.tied { left } else { left.max(0.0) };
+                    0.5 * (h.pressure - h.damping) * left
                 } else {
                     0.0
                 };
-                self.area_of(i) * (own[i] + spring)
+                self.area_of(i) * (own[i] + spring + h.sheared)
             })
             .sum()
     }

@@ -36,7 +36,8 @@ impl Interface {
                 })
                 .collect();
         }
-        self.stored_energy() - before
+        self.memory.stored = self.stored_energy();
+        self.memory.stored - before
     }
 
     /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the

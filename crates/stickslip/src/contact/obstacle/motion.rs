@@ -2,7 +2,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{to_vec3, vector_fault};
-use crate::math::{Mat3, Vec3, add, identity, mat_vec, normalize, rotation, sub, transpose_vec};
+use crate::math::{
+    Mat3, Vec3, add, identity, mat_vec, normalize, rotation, scale, sub, transpose_vec,
+};
 use crate::system::Amplitude;
 
 /// The prescribed motion of an obstacle: a rotation, then a translation, both from tables over time (linear in between,
@@ -45,6 +47,11 @@ impl Pose {
     /// From space into the frame.
     pub fn inward(&self, x: Vec3) -> Vec3 {
         add(transpose_vec(&self.turn, self.arm(x)), self.centre)
+    }
+
+    /// Where the centre of rotation is.
+    pub fn centre(&self) -> Vec3 {
+        add(self.centre, self.shift)
     }
 
     /// From the frame into space.
@@ -107,6 +114,18 @@ impl Motion {
             pose.turn = rotation(pose.axis, angle);
         }
         pose
+    }
+
+    /// The way from one time to another: shift of the centre of rotation, and the angle turned about it along the axis.
+    pub fn way(&self, from: f64, to: f64) -> [Vec3; 2] {
+        let shift = sub(self.pose(to).shift, self.pose(from).shift);
+        let turn = self.rotation.as_ref().map_or([0.0; 3], |r| {
+            let axis = r.axis.as_deref().map_or([0.0, 0.0, 1.0], to_vec3);
+            let axis = normalize(axis).unwrap_or([0.0, 0.0, 1.0]);
+            let angle = |t| Amplitude::new(r.angle.clone()).map_or(0.0, |a| a.at(t));
+            scale(angle(to) - angle(from), axis)
+        });
+        [shift, turn]
     }
 
     /// What is wrong with the tables in a space of dimension `dim`, as `(key, message)`.

@@ -1,0 +1,269 @@
+//! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
+
+use super::evaluate::Evaluation;
+use super::{History, Interface, Primary};
+use crate::contact::enforcement::Multipliers;
+use crate::contact::response::Status;
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+use crate::system::Stage;
+
+/// What the committed history of a point becomes, and what happened on the way, per area.
+struct Passed {
+    history: History,
+    /// Dissipated by friction `[J/m²]`, and by how much that may be off.
+    dissipated: f64,
+    uncertain: f64,
+    /// See [`Energy::excess`](crate::system::Energy::excess) `[J/m²]`.
+    excess: f64,
+    /// Pressure times path of sliding `[Pa m]`.
+    rubbed: f64,
+    /// Work on the bodies by the trapezoidal rule, but for damping `[J/m²]`.
+    work: f64,
+}
+
+impl Interface {
+    /// Committed history := trial, and what that adds to the energies.
+    pub(super) fn accept(&mut self, stage: &Stage) {
+        let active = self.schedule.active(stage.at.t);
+        self.memory.cone = self.judge_friction(stage);
+        self.memory.nodal = self.nodal_forces(active);
+        self.push(stage);
+        if !active || self.memory.last.points.is_empty() {
+            for h in &mut self.memory.committed {
+                *h = History {
+                    slip: h.slip,
+                    dissipated: h.dissipated,
+                    rubbed: h.rubbed,
+                    ..History::default()
+                };
+            }
+            self.memory.stored = 0.0;
+            return;
+        }
+        let resolved = stage.rate.is_none() && !self.memory.explicit;
+        let gaps = match resolved {
+            true => self.gaps_before(stage),
+            false => Vec::new(),
+        };
+        let belt = self.belt_path(stage);
+        let times = [stage.from.t, stage.at.t];
+        let creeps = self.laws.friction_law().frictional() && !self.laws.slip.as_dyn().sticks();
+        let mut traces = vec![[0.0; 2]; self.memory.committed.len()];
+        self.memory.creep = 0.0;
+        let (mut dissipated, mut work) = (0.0, 0.0);
+        for (i, trace) in traces.iter_mut().enumerate() {
+            let (e, h) = (&self.memory.last.points[i], &self.memory.committed[i]);
+            let gap = gaps.get(i).copied().unwrap_or(h.gap);
+            let passed = self.pass(h, e, gap, resolved);
+            let (area, r) = (e.area, &e.response);
+            let shear = passed.history.shear;
+            let mut belt_work = 0.5 * dot(add(h.shear, shear), belt) * area;
+            // Overlap that is resolved drives the surfaces apart.
+            let [before, now] = times.map(|t| self.initial.offset(i, t));
+            belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
+            let mut damped = 0.0;
+            if r.damping != 0.0 || h.damping != 0.0 {
+                let closed = if h.normal == [0.0; 3] {
+                    0.0
+                } else {
+                    h.gap - e.gap
+                };
+                damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
+            }
+            let creep = match creeps && r.status == Status::Stick {
+                true => norm(e.moved) / stage.dt,
+                false => 0.0,
+            };
+            *trace = [passed.dissipated, passed.rubbed];
+            dissipated += passed.dissipated * area;
+            work += passed.work * area;
+            let memory = &mut self.memory;
+            memory.uncertain += passed.uncertain * area;
+            memory.excess += passed.excess * area;
+            memory.rubbed += passed.rubbed * area;
+            memory.belt_work += belt_work;
+            memory.damped += damped;
+            memory.creep = memory.creep.max(creep);
+            memory.committed[i] = passed.history;
+        }
+        self.memory.dissipated += dissipated;
+        self.leave_traces(&traces);
+        let stored = self.stored_energy();
+        let before = std::mem::replace(&mut self.memory.stored, stored);
+        if resolved {
+            // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
+            self.memory.path += work - (before - stored - dissipated);
+        }
+    }
+
+    /// A point over an increment. `gap`: at its start.
+    fn pass(&self, h: &History, e: &Evaluation, gap: f64, resolved: bool) -> Passed {
+        let r = &e.response;
+        let frictional = self.laws.friction_law().frictional();
+        let shear = e.along(&e.frame);
+        // At the edge of a mortar a point stands for less and less: forces at the start are those on the area then.
+        let part = match resolved && h.area > 0.0 && e.area > 0.0 {
+            true => h.area / e.area,
+            false => 1.0,
+        };
+        let limit = match frictional {
+            true => r.limit,
+            false => 0.0,
+        };
+        let [dissipated, uncertain, excess] = self.dissipated(h, e, part, resolved);
+        let rubbed = 0.5 * (h.pressure + r.traction[0]) * e.path(frictional);
+        // Slip so far goes along with the surface, as tractions do.
+        let dim = self.dofs.dim;
+        let so_far = e.forward(h.slip, h.normal, dim);
+        let slid = match r.status {
+            Status::Open => [0.0; 3],
+            _ => e.forward(e.moved, e.normal_before, dim),
+        };
+        // The shear of both ends in the directions at the start.
+        let [a, b] = e.carried.map(|t| part * t);
+        let [e1, e2] = e.frame_before;
+        let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frame_before));
+        // Without damping, which is no part of what is stored.
+        let pressures = part * (h.pressure - h.damping) + (r.traction[0] - r.damping);
+        let opened = match gap.is_finite() && e.gap.is_finite() {
+            true => e.gap - gap,
+            false => 0.0,
+        };
+        Passed {
+            dissipated,
+            uncertain,
+            excess,
+            rubbed: rubbed.max(0.0),
+            work: 0.5 * (pressures * opened + dot(both, e.moved)),
+            history: History {
+                pressure: r.traction[0],
+                shear,
+                slip: add(so_far, slid),
+                gap: e.gap,
+                normal: e.normal,
+                status: r.status,
+                facet: e.facet,
+                area: e.area,
+                damping: r.damping,
+                dissipated: h.dissipated + dissipated,
+                rubbed: h.rubbed + rubbed.max(0.0),
+                limit,
+                sheared: self.sheared(e, shear),
+            },
+        }
+    }
+
+    /// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
+    fn sheared(&self, e: &Evaluation, shear: Vec3) -> f64 {
+        let updated = matches!(
+            self.laws.enforcement.as_dyn().multipliers(),
+            Multipliers::Augmented { .. }
+        );
+        let springs = self.laws.needs_tangential_stiffness() && (!updated || self.memory.explicit);
+        let stiffness = e.tangential_stiffness;
+        match springs && stiffness.is_finite() && stiffness > 0.0 {
+            true => 0.5 * dot(shear, shear) / stiffness,
+            false => 0.0,
+        }
+    }
+
+    /// Energy per area that friction has dissipated over an increment, by how much that may be off, and by how much it exceeds the trapezoidal rule in
+    /// motion.
+    ///
+    /// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may be as long as one likes, and shear may turn
+    /// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
+    /// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
+    /// point slid already, and from half-way where it stuck, as nobody knows when it began to slide.
+    fn dissipated(&self, h: &History, e: &Evaluation, part: f64, resolved: bool) -> [f64; 3] {
+        let r = &e.response;
+        // What a spring held is lost where the surfaces part.
+        let released = match r.status {
+            Status::Open => part * h.sheared,
+            _ => 0.0,
+        };
+        let along = |t: [f64; 2]| -(t[0] * r.sliding_path[0] + t[1] * r.sliding_path[1]);
+        let now = along([r.traction[1], r.traction[2]]);
+        let mean = 0.5 * (along(e.carried) + now);
+        if resolved && r.status == Status::Open {
+            // It may have slid before the surfaces parted.
+            return [released, 0.5 * part * h.limit * norm(e.moved), 0.0];
+        }
+        let slides = resolved && r.status == Status::Slip && r.limit > 0.0;
+        if !slides || !self.laws.slip.as_dyn().sticks() {
+            // Friction gives nothing back: where the slip turns round, the scheme took less than it enters.
+            let excess = if resolved { 0.0 } else { (-mean).max(0.0) };
+            return [mean.max(0.0) + released, 0.0, excess];
+        }
+        let start = part * h.limit / r.limit;
+        let (onset, unknown) = match h.status {
+            Status::Slip => (start, 0.0),
+            Status::Stick => (0.5 * (1.0 + start), 0.25 * (1.0 - start).abs()),
+            // It may have slid before it touched.
+            Status::Open => (0.0, 0.5),
+        };
+        let now = now.max(0.0);
+        [0.5 * (1.0 + onset) * now + released, unknown * now, 0.0]
+    }
+
+    /// Gaps of all points at the start of an increment. Where that is not known, as nothing was opposite or nothing had been accepted yet, they are
+    /// looked up.
+    fn gaps_before(&mut self, stage: &Stage) -> Vec<f64> {
+        let committed = &self.memory.committed;
+        let points = self.memory.last.points.iter().zip(committed);
+        let unknown = |(e, h): (&Evaluation, &History)| {
+            h.normal == [0.0; 3] && e.response.traction != [0.0; 3]
+        };
+        if !points.into_iter().any(unknown) {
+            return committed.iter().map(|h| h.gap).collect();
+        }
+        let start = Stage {
+            from: stage.from,
+            at: stage.from,
+            ..*stage
+        };
+        let evaluations = self.evaluate_all(&start, super::Wants::default());
+        let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
+        let known = self.memory.committed.iter().zip(&evaluations.points);
+        let gaps = known.map(|(h, e)| match h.normal == [0.0; 3] {
+            true => gap(e),
+            false => h.gap,
+        });
+        let gaps = gaps.collect();
+        self.memory.trial = evaluations;
+        gaps
+    }
+
+    /// Enters the work of a moving obstacle: force times shift and moment times angle, by the trapezoidal rule.
+    fn push(&mut self, stage: &Stage) {
+        let Primary::Rigid(_, motion) = &self.primary else {
+            return;
+        };
+        let [shift, turn] = motion.way(stage.from.t, stage.at.t);
+        let centre = motion.pose(stage.at.t).centre();
+        let x = self.coordinates(&stage.at.u);
+        let mut now = [[0.0; 3]; 2];
+        for (&force, &x) in self.memory.nodal.iter().zip(&x) {
+            now[0] = add(now[0], force);
+            now[1] = add(now[1], cross(sub(x, centre), force));
+        }
+        let before = std::mem::replace(&mut self.memory.pushed, now);
+        let mean = [0, 1].map(|k| scale(0.5, add(before[k], now[k])));
+        self.memory.belt_work += dot(mean[0], shift) + dot(mean[1], turn);
+    }
+}
+
+impl Evaluation {
+    /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
+    pub(super) fn path(&self, frictional: bool) -> f64 {
+        let r = &self.response;
+        match (r.status, frictional) {
+            (Status::Open, _) => 0.0,
+            (_, true) => {
+                let [a, b] = r.sliding_path;
+                let [e, f] = self.frame_before;
+                crate::math::norm(add_scaled(scale(a, e), b, f))
+            }
+            (_, false) => crate::math::norm(self.moved),
+        }
+    }
+}
