@@ -433,7 +433,10 @@ fn devices_and_folders_are_no_input() {
             "/dev/zero",
             "error: /dev/zero: it is a device, not a file\n",
         ),
-        ("f.toml", "error: f.toml: it is a folder, not a file\n"),
+        (
+            "f.toml",
+            "error: f.toml: this is a folder, and a problem file is wanted; there is no problem file in it\n",
+        ),
         (
             "mesh.toml",
             "error: z.msh: the mesh cannot be read: it is a device, not a file\n",

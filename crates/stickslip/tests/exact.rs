@@ -5,8 +5,12 @@ mod resistance;
 mod support;
 
 use resistance::{Medium, Space, resist};
+use std::sync::Arc;
+
+use stickslip::math::{Mat3, Vec3, add, identity, mat_vec, norm, rotation, sub, transpose_vec};
+use stickslip::mesh::generators::{Cuboid, Generate, Rectangle};
 use stickslip::newton::Course;
-use stickslip::problem::Problem;
+use stickslip::problem::{Meshes, Problem};
 use stickslip::simulation::{Event, Observer, Simulation};
 use support::Record;
 
@@ -459,5 +463,98 @@ step = [
     for (_, row) in &record.increments {
         let n = row.get("sole.CFN2").expect("the normal force");
         assert!((n - 98.1).abs() < 1e-4 * 98.1, "{n}");
+    }
+}
+
+/// Two stressed bodies on an obstacle, as they lie in space: turned, and moved by a thousand sizes.
+fn posed(dim: usize, turn: &Mat3, shift: Vec3) -> Vec<Vec3> {
+    let cells = [[8, 6, 2], [6, 4, 4]];
+    let ends = [
+        [[0.0, 0.0, 0.0], [0.04, 0.03, 0.01]],
+        [[0.01, 0.01, 0.01], [0.03, 0.02, 0.03]],
+    ];
+    let place = |x: Vec3| add(mat_vec(turn, x), shift);
+    let numbers = |x: Vec3| format!("{:?}", &x[..dim]);
+    // In the plane z is y.
+    let flat = |x: Vec3| if dim == 2 { [x[0], x[2], 0.0] } else { x };
+    let mut meshes = Meshes::default();
+    for (name, ([from, to], cells)) in ["lower", "upper"].iter().zip(ends.into_iter().zip(cells)) {
+        let mut mesh = match dim {
+            2 => {
+                Rectangle::new([from[0], from[2]], [to[0], to[2]], [cells[0], cells[2]]).generate()
+            }
+            _ => Cuboid::new(from, to, cells).generate(),
+        }
+        .expect("a mesh");
+        mesh.points.iter_mut().for_each(|x| *x = place(*x));
+        meshes.insert(format!("{name}.msh").into(), Arc::new(mesh));
+    }
+    let space = if dim == 2 { "plane-strain" } else { "solid" };
+    let up = mat_vec(turn, flat([0.0, 0.0, 1.0]));
+    let moved = mat_vec(turn, flat([4e-5, 0.0, -3e-4]));
+    let axes = ["x", "y", "z"];
+    let components: Vec<String> = (0..dim)
+        .map(|i| format!("{} = {:?}", axes[i], moved[i]))
+        .collect();
+    let text = format!(
+        r#"
+format = 1
+model.space = "{space}"
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+body.lower = {{ gmsh.file = "lower.msh", material = "steel" }}
+body.upper = {{ gmsh.file = "upper.msh", material = "steel" }}
+obstacle.floor.plane = {{ point = {point}, normal = {normal} }}
+interface.base = {{ secondary = "lower.bottom", primary = "floor", friction.coulomb = {{ mu = 0.3 }} }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb = {{ mu = 0.3 }} }}
+support.press = {{ set = "upper.top", {components} }}
+solver.tolerance = 1e-11
+step = [{{ increments.fixed = 2 }}]
+"#,
+        point = numbers(shift),
+        normal = numbers(up),
+        components = components.join(", "),
+    );
+    let problem = support::problem(&text);
+    let model = problem
+        .build_with(std::path::Path::new(""), &meshes)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{e}"));
+    let outcome = simulation.run(&mut []);
+    outcome.unwrap_or_else(|e| panic!("{e}"));
+    let last = &simulation.summary.last;
+    let force = |name: &str| -> Vec3 {
+        let value = |i: usize| last.get(&format!("{name}{}", i + 1)).copied();
+        let now = std::array::from_fn(|i| value(i).unwrap_or(0.0));
+        // Back to where it was.
+        transpose_vec(turn, now)
+    };
+    ["base.CFN", "base.CFS", "joint.CFN", "joint.CFS"]
+        .map(force)
+        .to_vec()
+}
+
+#[test]
+fn forces_do_not_depend_on_where_and_how_an_assembly_lies() {
+    for (dim, axis) in [(2, [0.0, 0.0, 1.0]), (3, [0.48, 0.6, 0.64])] {
+        let home = posed(dim, &identity(), [0.0; 3]);
+        let most = home.iter().map(|f| norm(*f)).fold(0.0, f64::max);
+        assert!(most > 0.0);
+        for angle in [0.0, 0.7, 2.5] {
+            for far in [0.0, 40.0] {
+                let shift = if dim == 2 {
+                    [far, -far, 0.0]
+                } else {
+                    [far, -far, 0.5 * far]
+                };
+                let there = posed(dim, &rotation(axis, angle), shift);
+                for (a, b) in home.iter().zip(&there) {
+                    let off = norm(sub(*a, *b)) / most;
+                    assert!(
+                        off < 1e-9,
+                        "{dim}D, {angle} rad, {far} m: {off:e}, {a:?} {b:?}"
+                    );
+                }
+            }
+        }
     }
 }

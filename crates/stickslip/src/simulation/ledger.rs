@@ -142,7 +142,12 @@ impl EnergyQuality {
     /// Takes note of the ledger after an increment.
     pub(super) fn note(&mut self, ledger: &EnergyLedger) {
         self.scale = self.scale.max(ledger.in_play());
-        self.largest = self.largest.max(ledger.residual.abs());
+        // What is not a number is no small residual.
+        let open = match ledger.residual.is_nan() {
+            true => f64::INFINITY,
+            false => ledger.residual.abs(),
+        };
+        self.largest = self.largest.max(open);
         if self.scale > 0.0 {
             self.residual = self.largest / self.scale;
         }

@@ -270,7 +270,8 @@ impl Simulation {
         if limits.gate == GateMode::Off || self.summary.increments == 0 {
             return;
         }
-        let in_motion = self.model.moves().then_some(self.model.energy_limit);
+        let moves = self.model.moves();
+        let in_motion = moves.then_some(self.model.energy_limit);
         let limit = limits.energy.or(in_motion).unwrap_or(f64::INFINITY);
         let quality = &self.summary.energy_quality;
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
@@ -280,13 +281,13 @@ impl Simulation {
         let t = self.state.t;
         let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
         let unknown = self.summary.energy.uncertain;
-        if in_motion.is_none() && open > OPEN * scale {
+        if !moves && open > OPEN * scale {
             self.notes.push(format!(
                 "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that; forces do not follow from them. Smaller increments make it less",
                 100.0 * open / scale
             ));
         }
-        if in_motion.is_none() && unknown > UNKNOWN * scale {
+        if !moves && unknown > UNKNOWN * scale {
             self.notes.push(format!(
                 "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
                 self.summary.energy.friction

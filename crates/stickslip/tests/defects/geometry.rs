@@ -135,7 +135,11 @@ pub const GEOMETRY: &[Defect] = &[
         )],
         Found(DoctorCause::MixedUnits, "lower"),
     )
-    .also(&[DoctorCause::InitialOverlap, DoctorCause::MeshMismatch]),
+    .also(&[
+        DoctorCause::InitialOverlap,
+        DoctorCause::MeshMismatch,
+        DoctorCause::LostProjection,
+    ]),
     defect(
         "a set that is misspelt",
         PRESS,

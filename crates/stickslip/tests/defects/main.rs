@@ -180,7 +180,11 @@ pub fn judged(
         return Some(format!("{cause} of {entity} is not found"));
     }
     // What came of the defect by the end of the run is no other cause.
-    const OUTCOME: [DoctorCause; 2] = [DoctorCause::NeverCarried, DoctorCause::CoarseContact];
+    const OUTCOME: [DoctorCause; 3] = [
+        DoctorCause::NeverCarried,
+        DoctorCause::CoarseContact,
+        DoctorCause::FarAway,
+    ];
     let serious = || {
         let findings = said.findings().filter(|f| !OUTCOME.contains(&f.cause));
         findings.filter(|f| f.severity >= Severity::Warning)

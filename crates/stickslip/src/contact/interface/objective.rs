@@ -7,7 +7,7 @@ use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::law::slip::{Regularised, SlipModel};
 use crate::contact::mortar::Face;
 use crate::contact::surface::connect;
-use crate::math::{cross, mat_vec, norm, rotation, sub};
+use crate::math::{cross, dot, mat_vec, norm, rotation, sub};
 use crate::shape::ElementKind;
 
 const AROUND: usize = 48;
@@ -114,6 +114,7 @@ fn drum(dim: usize, kinematics: KinematicsModel, mortar: bool, slip: SlipModel) 
         mortar,
         neighbours: Vec::new(),
         primary: Primary::Facets(facets),
+        skin: Vec::new(),
         share: 1.0,
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),

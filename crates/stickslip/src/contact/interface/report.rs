@@ -58,8 +58,9 @@ impl Interface {
                     // what is left of the constraint's violation, a spring from λ to p
                     let rest = self.memory.rest.get(i).copied().unwrap_or(0.0);
                     let left = rest - h.gap;
-                    // Tied surfaces pull as well.
-                    let left = if self.laws.tied { left } else { left.max(0.0) };
+                    // Tied surfaces pull as well, where something is opposite.
+                    let pulls = self.laws.tied && h.gap.is_finite();
+                    let left = if pulls { left } else { left.max(0.0) };
                     0.5 * (h.pressure - h.damping) * left
                 } else {
                     0.0
