@@ -74,25 +74,6 @@ pub struct Source {
     pub forgiven: Vec<(Place, String)>,
 }
 
-/// Which parameters cards have been asked for: the test of the table compares.
-#[cfg(test)]
-pub(crate) mod asked {
-    use std::cell::RefCell;
-    use std::collections::BTreeSet;
-
-    thread_local! {
-        static ASKED: RefCell<BTreeSet<(String, String)>> = const { RefCell::new(BTreeSet::new()) };
-    }
-
-    pub fn note(keyword: &str, parameter: &str) {
-        ASKED.with_borrow_mut(|a| a.insert((keyword.into(), parameter.into())));
-    }
-
-    pub fn all() -> BTreeSet<(String, String)> {
-        ASKED.with_borrow(Clone::clone)
-    }
-}
-
 /// Deepest nesting of included files.
 const DEPTH: usize = 16;
 
@@ -360,4 +341,23 @@ fn split(line: &str) -> Vec<String> {
         }
     }
     out
+}
+
+/// Which parameters cards have been asked for: the test of the table compares.
+#[cfg(test)]
+pub(crate) mod asked {
+    use std::cell::RefCell;
+    use std::collections::BTreeSet;
+
+    thread_local! {
+        static ASKED: RefCell<BTreeSet<(String, String)>> = const { RefCell::new(BTreeSet::new()) };
+    }
+
+    pub fn note(keyword: &str, parameter: &str) {
+        ASKED.with_borrow_mut(|a| a.insert((keyword.into(), parameter.into())));
+    }
+
+    pub fn all() -> BTreeSet<(String, String)> {
+        ASKED.with_borrow(Clone::clone)
+    }
 }

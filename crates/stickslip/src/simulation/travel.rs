@@ -33,7 +33,7 @@ impl Simulation {
             let moved = way / size.max(f64::MIN_POSITIVE);
             if self.motion.is_none() && self.explicit.is_none() {
                 gate.note(&DISPLACEMENT, &place, [way, size], limits.displacement, t);
-            } else if !(moved <= limits.displacement) {
+            } else if moved.is_nan() || moved > limits.displacement {
                 far.push((body.name.clone(), way, moved));
             }
         }

@@ -1,5 +1,7 @@
 //! What elastic bodies resist with at each node, `K u`, found without anything of the library: shape functions from the places of the nodes of the
 //! elements, forces from the stresses.
+// Loops over indices are the formulas.
+#![allow(clippy::needless_range_loop)]
 
 use stickslip::mesh::Mesh;
 

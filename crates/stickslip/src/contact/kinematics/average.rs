@@ -35,8 +35,8 @@ pub fn average(
         let foot = foot(shape, pose, x[node])?;
         let normal = pose.turn(foot.normal);
         out.gap += w * foot.gap;
-        for c in 0..dim {
-            out.rows[0][k * dim + c] = w * normal[c];
+        for (c, n) in normal.iter().enumerate().take(dim) {
+            out.rows[0][k * dim + c] = w * n;
         }
     }
     Some(())

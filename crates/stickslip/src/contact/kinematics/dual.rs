@@ -61,9 +61,12 @@ impl Sub for Dual {
 impl Mul for Dual {
     type Output = Dual;
     fn mul(self, b: Dual) -> Dual {
+        // The rule of the product.
+        let slope =
+            crate::math::add_scaled(crate::math::scale(self.value, b.slope), b.value, self.slope);
         Dual {
             value: self.value * b.value,
-            slope: std::array::from_fn(|j| self.value * b.slope[j] + self.slope[j] * b.value),
+            slope,
         }
     }
 }

@@ -81,8 +81,7 @@ impl<'a> Projection<'a> {
         let (n, d) = (pair.dofs(), pair.kind.dim());
         let normal = foot.normal;
         let mut left = [[0.0; MOST_DOFS]; 2];
-        for alpha in 0..d {
-            let row = &mut left[alpha];
+        for (alpha, row) in left.iter_mut().enumerate().take(d) {
             add_facet(pair, &foot.dn[alpha], normal, -w, row);
             for gamma in 0..d {
                 let f = w * dot(normal, foot.aa[pair_index(alpha, gamma)]);
