@@ -257,7 +257,13 @@ impl Pair {
         Some(Pair {
             name: name.to_string(),
             secondary: Side::named(case, mesh, text_of(table, "secondary")?)?,
-            mortar: mortar && matches!(primary, Side::Body { .. }),
+            // Of quadratic faces in space points are means over the faces around them, on obstacles too.
+            mortar: mortar
+                && (matches!(primary, Side::Body { .. })
+                    || mesh
+                        .cells
+                        .iter()
+                        .any(|(kind, _)| kind.quadratic() && kind.dim() == 3)),
             primary,
             two_sided: discretisation.is_some_and(|(_, keys)| flag(keys, "two-sided")),
             tied: flag(table, "tied"),

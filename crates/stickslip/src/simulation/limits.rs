@@ -84,8 +84,8 @@ pub struct Limits {
     /// motion bodies may fly as far as they like: there it is a finding.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     pub displacement: f64,
-    /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit` where bodies are in motion. Of
-    /// a quasi-static analysis no force follows from the ledger: if it is open by more than a thousandth, that is a note.
+    /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
+    /// quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
     #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<f64>,

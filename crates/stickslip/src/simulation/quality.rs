@@ -271,8 +271,7 @@ impl Simulation {
             return;
         }
         let moves = self.model.moves();
-        let in_motion = moves.then_some(self.model.energy_limit);
-        let limit = limits.energy.or(in_motion).unwrap_or(f64::INFINITY);
+        let limit = limits.energy.unwrap_or(self.model.energy_limit);
         let quality = &self.summary.energy_quality;
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
         let forces = self.summary.quality.largest(&EQUILIBRIUM, None);

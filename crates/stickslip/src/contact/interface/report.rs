@@ -3,7 +3,7 @@
 use super::evaluate::Evaluation;
 use super::{Interface, Primary, Wants};
 use crate::contact::response::Status;
-use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale};
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale, sub};
 use crate::system::{Fields, Force, Location, Stage};
 
 /// Forces of an interface on its secondary.
@@ -112,6 +112,12 @@ impl Interface {
             r.carried += h.pressure.hypot(norm(h.shear)) * area;
             r.area += area;
             r.peak = r.peak.max(h.pressure);
+        }
+        let averaged = self.points.iter().any(|p| p.nodes.len() > 1);
+        if matches!(self.primary, Primary::Rigid(..)) && averaged {
+            // The mean of normals around a point is shorter than one: what nodes are given is the force.
+            let all = self.memory.nodal.iter().fold([0.0; 3], |s, &f| add(s, f));
+            r.normal = sub(all, r.shear);
         }
         r.centre = match signed.abs() > CANCELLED * r.total {
             true => scale(1.0 / signed, r.centre),
