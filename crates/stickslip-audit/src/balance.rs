@@ -1,4 +1,4 @@
-//! Balance at every node: `K u = loads + RF + CFORCE` at rest; in motion see [`inertia`](crate::inertia).
+//! Balance at every node: `K u = loads + RF + CFORCE` at rest; in motion see [`crate::inertia`].
 
 use crate::bulk::Bulk;
 use crate::case::text_of;

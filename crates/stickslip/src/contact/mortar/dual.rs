@@ -37,7 +37,7 @@ pub fn positive(kind: ElementKind, n: &mut [f64; FACE_NODES]) {
 
 /// The mean over the faces around the node `k` of a face, weighted by its dual function: nodes, its own first, and their weights.
 ///
-/// `∫ Φ_k N_i` over `∫ Φ_k`, where Φ is dual to [`positive`] functions `N̂`: with `N` written in `N̂`, `N_middle = N̂_middle / (1 - 2α)` and
+/// `∫ Φ_k N_i` over `∫ Φ_k`, where Φ is dual to the functions `positive` makes, `N̂`: with `N` written in `N̂`, `N_middle = N̂_middle / (1 - 2α)` and
 /// `N_corner = N̂_corner - α / (1 - 2α) Σ N̂_middle`, only the node itself and, of one in the middle of an edge, the corners of that edge take part, whatever the shape of the
 /// faces.
 pub fn mean_weights(kind: ElementKind, k: usize) -> (Vec<usize>, Vec<f64>) {
