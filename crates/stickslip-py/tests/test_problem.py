@@ -71,7 +71,7 @@ def test_files_that_are_not_there_are_errors_of_files(tmp_path):
     assert isinstance(caught.value, OSError)
     with pytest.raises(stickslip.FileError) as caught:
         stickslip.Problem.from_toml("nofile")
-    assert caught.value.file == "nofile"
+    assert pathlib.Path(caught.value.file) == pathlib.Path("nofile")
 
 
 def test_values_can_be_changed_by_key(problem):

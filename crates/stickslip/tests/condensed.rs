@@ -91,18 +91,21 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 /// How near displacements and reactions are relative to the largest of the run, and whether only up to the first change of status.
 ///
 /// The exceptions are cases whose results the last digit of the input changes as much: with the sparse matrix alone, Young's modulus larger by two
-/// roundings moves `braking-block` (which sticks at more points than shear can be told apart at) by 1e-3 of what its heel moves and `forced-slider` by 1.2e-5, and another factor in GMRES moves `shear-lag` by
+/// roundings moves `braking-block` by 1.1e-6 and `forced-slider` by 1.2e-5, and another factor in GMRES moves `shear-lag` by
 /// 1.5e-9 and `belt-mass`, whose changes of status are located in time, by 3 % in the end.
 fn demanded(name: &str) -> (f64, bool) {
     match name {
         "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-4, true),
-        "braking-block" => (1e-4, false),
+        "braking-block" => (1e-6, false),
         // Followed bodies are at rest when their anchors carry less than 1e-8 of the load.
         "closing-gaps" => (1e-7, false),
         "shear-lag" => (1e-8, false),
         _ => (1e-9, false),
     }
 }
+
+/// Displacements below this part of the model are as good as none.
+const STILL: f64 = 1e-7;
 
 fn check(name: &str) {
     let folder = examples().join(name);
@@ -136,7 +139,9 @@ fn check(name: &str) {
         );
         let (sparse, _) = run(simulation(&case, &expected.overrides, "sparse"));
         let (limit, quiet) = demanded(name);
-        let size = largest(sparse.displacements.iter().flatten());
+        // A block that stays where it is moves by rounding, 1e-13 m in one of the cases.
+        let still = STILL * after.model.mesh.diameter();
+        let size = largest(sparse.displacements.iter().flatten()).max(still);
         let force = sparse.force;
         let rows = if quiet {
             sparse.quiet
