@@ -616,6 +616,38 @@ fn the_ledger_closes_where_points_open_close_and_begin_to_slide_within_increment
     }
 }
 
+/// From one equilibrium to the next the bodies go with their loads and reactions in proportion, however a table of time jumps.
+#[test]
+fn the_ledger_closes_where_loads_jump_and_supports_let_go() {
+    let bodies = BLOCKS.replace(
+        "support.top = { set = \"upper.top\", x = 1e-4, y = -1e-2 }",
+        "",
+    );
+    let bodies = bodies.replace("interface.joint.friction.coulomb.mu = 0.3\n", "");
+    let (bodies, _) = bodies.split_once("step = ").expect("a step");
+    let driven = "support.side = { set = \"upper.left\", x = 0.0 }\n\
+        support.pull = { set = \"upper.right\", x = 1e-3 }\n\
+        load.press = { set = \"upper.top\", pressure = { value = 1.0 }, amplitude = \"at-once\" }\n\
+        amplitude.at-once.table = [[0, 1], [1, 1], [1.001, 3], [2, 3], [2.5, 3], [2.501, 0.5], [3, 0.5]]\n";
+    for method in ["sparse", "condensed"] {
+        for increments in [1, 4] {
+            let steps = format!(
+                "[[step]]\nincrements.fixed = {increments}\nsupports = [\"base\", \"side\", \"pull\"]\n\
+                 [[step]]\nincrements.fixed = {increments}\nsupports = [\"base\", \"side\"]\n\
+                 [[step]]\nincrements.fixed = {}\nsupports = [\"base\", \"side\"]\n",
+                2 * increments
+            );
+            let simulation = run(&format!(
+                "{bodies}{driven}solver.method = \"{method}\"\n{steps}"
+            ));
+            let (left, e) = (residual(&simulation), &simulation.summary.energy);
+            // Sliding by 1e-3 of the size changes who faces whom.
+            assert!(left < 1e-4, "{method}, {increments}: {left:e}, {e:?}");
+            assert!(e.strain > 0.0);
+        }
+    }
+}
+
 #[test]
 fn an_obstacle_that_turns_does_the_work_of_its_moment() {
     let simulation = run(r#"format = 1

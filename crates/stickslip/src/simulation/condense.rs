@@ -555,7 +555,6 @@ impl Simulation {
         accepted.strain = Some(0.5 * inertia::dot(u, &internal));
         accepted.forces = forces;
         let work = self.work(
-            pending.trial,
             &fixed,
             (&pending.accepted.state.u, &pending.accepted.forces),
             &pending.accepted.external,

@@ -69,7 +69,7 @@ impl Simulation {
         self.tell(&seen, observers);
         let converged = converged?;
         self.check_change(&at.u)?;
-        let work = self.work(trial, &fixed, (&at.u, &converged.forces), &external);
+        let work = self.work(&fixed, (&at.u, &converged.forces), &external);
         Ok(Accepted {
             forces: converged.forces.clone(),
             contact: converged.contact.clone(),
@@ -83,22 +83,20 @@ impl Simulation {
         })
     }
 
-    /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly.
+    /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly. It begins with what held the last
+    /// accepted state in balance, not with what an amplitude says of its time: a load that is there at once, or changes from one step to the next, is
+    /// taken from one equilibrium to the other like any other, and a support that lets go has done its part until then.
     pub(super) fn work(
         &self,
-        trial: Trial,
         fixed: &[bool],
         (u, forces): (&[f64], &[f64]),
         external: &[f64],
     ) -> f64 {
-        let before = self.external(trial.from);
         let mut work = 0.0;
-        for (i, (before, after)) in before.iter().zip(external).enumerate() {
-            work += 0.5 * (before + after) * (u[i] - self.state.u[i]);
-        }
-        for (i, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            let mean = 0.5 * (self.forces[i] + forces[i]);
-            work += mean * (u[i] - self.state.u[i]);
+        for (i, after) in external.iter().enumerate() {
+            let before = self.load[i] + self.forces[i];
+            let reaction = if fixed[i] { forces[i] } else { 0.0 };
+            work += 0.5 * (before + after + reaction) * (u[i] - self.state.u[i]);
         }
         work
     }
