@@ -4,7 +4,9 @@ mod book;
 mod browser;
 mod chatter;
 mod decks;
+mod digests;
 mod dist;
+mod examples;
 mod fuzz;
 mod peers;
 mod robustness;
@@ -27,6 +29,10 @@ tasks:
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
   decks [FOLDER]            run decks with the numbers that CalculiX prints (NAME.inp, NAME.dat.ref; default: ../shared/decks/calculix)
                             and write book/src/decks.md
+  digests FILE [--problems N] [DECKS]
+                            run all tested examples, N random problems (default 60) and the decks of a folder (default as above), and write
+                            digests of their histories, fields and other files to FILE; where FILE is there already, compare with it and list
+                            what differs, with the largest difference of a history. For changes that shall not change results
   fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu, checkpoint or inp (needs cargo-fuzz)
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
@@ -55,6 +61,7 @@ fn main() -> ExitCode {
         Some((task, [])) if task == "dist" => dist::pack(),
         Some((task, what)) if task == "book" => book::build(what),
         Some((task, what)) if task == "decks" => decks::run(what),
+        Some((task, what)) if task == "digests" => digests::run(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
+use crate::examples::{self, Expectation};
 use crate::workspace;
 
 /// A run is given up after this time `[s]`.
@@ -28,65 +29,45 @@ struct Run {
 /// Runs all examples and writes the page. Runs that take too long for a test are left out unless `full`.
 pub fn page(full: bool) -> Result<String, String> {
     let binary = workspace::stickslip()?;
-    let folder = workspace::root().join("examples");
     let work = workspace::target().join("verification");
-    let mut examples: Vec<PathBuf> = list(&folder)?;
-    examples.retain(|p| p.join("case.toml").is_file());
     let mut runs: BTreeMap<String, Vec<Run>> = BTreeMap::new();
-    for example in &examples {
-        let name = name(example);
-        for file in list(example)? {
-            let stem = self::name(&file);
-            if stem.starts_with("expected") && stem.ends_with(".toml") {
-                let run = check(&binary, example, &file, &work, full)?;
-                println!(
-                    "{}: {} checks, {:.1} s",
-                    run.expected,
-                    run.rows.len(),
-                    run.seconds
-                );
-                runs.entry(name.clone()).or_default().push(run);
-            }
-        }
+    for expectation in examples::all()? {
+        let run = check(&binary, &expectation, &work, full)?;
+        println!(
+            "{}: {} checks, {:.1} s",
+            run.expected,
+            run.rows.len(),
+            run.seconds
+        );
+        let name = examples::name(&expectation.folder);
+        runs.entry(name).or_default().push(run);
     }
     Ok(written(&runs))
 }
 
-fn check(
-    binary: &Path,
-    example: &Path,
-    file: &Path,
-    work: &Path,
-    full: bool,
-) -> Result<Run, String> {
-    let text = std::fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
-    let expected: toml::Table =
-        toml::from_str(&text).map_err(|e| format!("{}: {e}", file.display()))?;
-    let case = expected
-        .get("case")
-        .and_then(|c| c.as_str())
-        .unwrap_or("case.toml");
-    let overrides: Vec<&str> = expected
-        .get("overrides")
-        .and_then(|o| o.as_array())
-        .into_iter()
-        .flatten()
-        .filter_map(|o| o.as_str())
-        .collect();
-    let label = format!("{}/{}", name(example), name(file));
+fn check(binary: &Path, expectation: &Expectation, work: &Path, full: bool) -> Result<Run, String> {
+    let Expectation {
+        label,
+        file,
+        table: expected,
+        folder,
+        case,
+        overrides,
+        tested,
+    } = expectation;
     let out = work.join(label.replace('/', "-"));
-    let mut command = format!("stickslip run examples/{}/{case}", name(example));
-    for change in &overrides {
+    let mut command = format!("stickslip run examples/{}/{case}", examples::name(folder));
+    for change in overrides {
         let _ = write!(command, " --set '{change}'");
     }
     let mut run = Run {
-        expected: label,
+        expected: label.clone(),
         command,
         seconds: 0.0,
         rows: Vec::new(),
         failure: None,
     };
-    if !full && expected.get("tested").and_then(|t| t.as_bool()) == Some(false) {
+    if !full && !tested {
         run.failure =
             Some("Left out here, as it takes minutes: see the README of the example.".to_string());
         return Ok(run);
@@ -97,8 +78,8 @@ fn check(
         .arg(PATIENCE.to_string())
         .arg(binary)
         .args(["run", "--quiet"]);
-    process.arg(example.join(case)).arg("--output").arg(&out);
-    for change in &overrides {
+    process.arg(folder.join(case)).arg("--output").arg(&out);
+    for change in overrides {
         process.args(["--set", change]);
     }
     let output = process
@@ -220,18 +201,4 @@ fn escaped(text: &str) -> String {
     text.replace('|', "\\|")
         .replace('<', "&lt;")
         .replace('\n', " ")
-}
-
-fn list(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut paths: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).collect();
-    paths.sort();
-    Ok(paths)
-}
-
-fn name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
