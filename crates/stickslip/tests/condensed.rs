@@ -104,8 +104,9 @@ fn demanded(name: &str) -> (f64, bool) {
     }
 }
 
-/// Displacements below this part of the model are as good as none.
-const STILL: f64 = 1e-7;
+/// Displacements that differ by no more than this part of the model differ by rounding: `braking-block`, stuck on its incline, moves by 3e-14 m
+/// in all, and with the sparse matrix alone the last digit of its density, height, length or friction changes that by 1e-15 to 3e-15 m.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 fn check(name: &str) {
     let folder = examples().join(name);
@@ -139,9 +140,8 @@ fn check(name: &str) {
         );
         let (sparse, _) = run(simulation(&case, &expected.overrides, "sparse"));
         let (limit, quiet) = demanded(name);
-        // A block that stays where it is moves by rounding, 1e-13 m in one of the cases.
-        let still = STILL * after.model.mesh.diameter();
-        let size = largest(sparse.displacements.iter().flatten()).max(still);
+        let rounding = ROUNDING * after.model.mesh.diameter();
+        let size = largest(sparse.displacements.iter().flatten());
         let force = sparse.force;
         let rows = if quiet {
             sparse.quiet
@@ -162,7 +162,7 @@ fn check(name: &str) {
             let at = format!("{name}, {}, t = {}", file.display(), sparse.times[k]);
             let u = difference(&condensed.displacements[k], &sparse.displacements[k]);
             assert!(
-                u <= limit * size,
+                u <= (limit * size).max(rounding),
                 "{at}: displacements differ by {:e}",
                 u / size
             );
