@@ -88,13 +88,13 @@ fn gaps(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
         let (x, t) = places(results, Some(i));
         let values = at(state);
         for node in nodes.iter().filter(|n| values[**n].status > 0.0) {
-            let foot = match &pair.primary {
-                Side::Rigid(obstacle) => obstacle.foot(x[*node], t),
-                Side::Body { facets, .. } => foot(&results.mesh, facets, &x, x[*node]),
+            let distance = |node: usize| match &pair.primary {
+                Side::Rigid(obstacle) => Some(obstacle.foot(x[node], t)?.gap),
+                Side::Body { facets, .. } => Some(foot(&results.mesh, facets, &x, x[node])?.gap),
             };
             // Over edges and corners there is no foot, and the distance is that to the edge.
-            if let Some(foot) = foot {
-                let off = (foot.gap - values[*node].gap).abs();
+            if let Some(gap) = pair.mean(*node, distance) {
+                let off = (gap - values[*node].gap).abs();
                 report.note("gap", &pair.name, off / sizes.approach, t);
             }
         }
@@ -151,31 +151,33 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
         let frictionless = now
             .iter()
             .all(|p| p.carried() == 0.0 || p.carried().is_nan());
-        for node in nodes
-            .iter()
-            .filter(|n| now[**n].status > 0.0 && then[**n].status > 0.0)
-        {
-            let moved = sub(x1[*node], x0[*node]);
+        let slid = |node: usize| {
+            let moved = sub(x1[node], x0[node]);
             let (carried, normal) = match &pair.primary {
                 Side::Rigid(obstacle) => {
-                    let Some(foot) = obstacle.foot(x1[*node], state.t) else {
-                        continue;
-                    };
+                    let foot = obstacle.foot(x1[node], state.t)?;
                     // What is under the point at the end has come this way.
                     let back = obstacle.carried(foot.place, state.t, old.t);
                     (scale(-1.0, back), foot.normal)
                 }
                 Side::Body { facets, .. } => {
-                    let Some(foot) = foot(&results.mesh, facets, &x0, x0[*node]) else {
-                        continue;
-                    };
+                    let foot = foot(&results.mesh, facets, &x0, x0[node])?;
                     let moved = |s: Vec3, (n, w): &(usize, f64)| along(s, *w, sub(x1[*n], x0[*n]));
                     (foot.weights.iter().fold([0.0; 3], moved), foot.normal)
                 }
             };
             let own = tangential(sub(moved, carried), normal);
-            let frame = frame(normal, dim);
-            let own = frame.map(|e| dot(own, e));
+            Some(frame(normal, dim).map(|e| dot(own, e)))
+        };
+        for node in nodes
+            .iter()
+            .filter(|n| now[**n].status > 0.0 && then[**n].status > 0.0)
+        {
+            let part = |k: usize| pair.mean(*node, |n| Some(slid(n)?[k]));
+            let (Some(first), Some(second)) = (part(0), part(1)) else {
+                continue;
+            };
+            let own = [first, second];
             let said = [0, 1].map(|k| now[*node].slip[k] - then[*node].slip[k]);
             let off = [own[0] - said[0], own[1] - said[1]];
             mean = [mean[0] + off[0], mean[1] + off[1]];

@@ -1,10 +1,10 @@
 //! The two sides of an interface: points and facets of bodies, or an obstacle that moves.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use toml::Table;
 
-use crate::case::{Case, interpolate, kind, number, rows, text_of, vector};
+use crate::case::{Case, Space, interpolate, kind, number, rows, text_of, vector};
 use crate::element::Kind;
 use crate::loads::{place, sense, stretch};
 use crate::mesh::{Facet, Mesh};
@@ -214,6 +214,18 @@ fn project(kind: Kind, x: &[Vec3], at: Vec3) -> Option<[f64; 3]> {
     inside.then_some(xi)
 }
 
+/// The nodes in the middle of edges of quadratic facets, with the ends of these edges.
+fn middles(facets: &[Facet]) -> BTreeMap<usize, [usize; 2]> {
+    let mut out = BTreeMap::new();
+    for facet in facets {
+        let (corners, middles) = facet.nodes.split_at(facet.kind.corners());
+        for (k, middle) in middles.iter().enumerate() {
+            out.insert(*middle, [corners[k], corners[(k + 1) % corners.len()]]);
+        }
+    }
+    out
+}
+
 /// The two sides and the settings of an interface that the audit needs.
 pub struct Pair {
     /// Name.
@@ -224,6 +236,9 @@ pub struct Pair {
     pub primary: Side,
     /// `mortar` or `node-to-facet`.
     pub mortar: bool,
+    /// Nodes whose points are means over their faces, each with the ends of its edge: the middle ones of quadratic faces, but for points of plane edges that
+    /// are nodes themselves. See [`Pair::mean`].
+    pub means: BTreeMap<usize, [usize; 2]>,
     /// Whether both sides are secondary.
     pub two_sided: bool,
     /// Whether the sides are glued together.
@@ -254,16 +269,20 @@ impl Pair {
         let flag =
             |table: &Table, key: &str| table.get(key).and_then(toml::Value::as_bool) == Some(true);
         let initial = text_of(table, "initial").unwrap_or("as-meshed");
+        let secondary = Side::named(case, mesh, text_of(table, "secondary")?)?;
+        // Of quadratic faces in space points are means over the faces around them, on obstacles too.
+        let solid = |(kind, _): &(Kind, _)| kind.quadratic() && kind.dim() == 3;
+        let mortar =
+            mortar && (matches!(primary, Side::Body { .. }) || mesh.cells.iter().any(solid));
+        let means = match &secondary {
+            Side::Body { facets, .. } if mortar || case.space == Space::Ring => middles(facets),
+            _ => BTreeMap::new(),
+        };
         Some(Pair {
             name: name.to_string(),
-            secondary: Side::named(case, mesh, text_of(table, "secondary")?)?,
-            // Of quadratic faces in space points are means over the faces around them, on obstacles too.
-            mortar: mortar
-                && (matches!(primary, Side::Body { .. })
-                    || mesh
-                        .cells
-                        .iter()
-                        .any(|(kind, _)| kind.quadratic() && kind.dim() == 3)),
+            means,
+            secondary,
+            mortar,
             primary,
             two_sided: discretisation.is_some_and(|(_, keys)| flag(keys, "two-sided")),
             tied: flag(table, "tied"),
@@ -275,11 +294,62 @@ impl Pair {
         })
     }
 
+    /// What a point has of something that the nodes have: of the middle node of an edge the mean over the faces around it weighted by the dual of its
+    /// function, which has a fifth of that of the middle node at each corner (Popp et al., SIAM Journal on Scientific Computing 34 (2012) B421).
+    pub fn mean(&self, node: usize, of: impl Fn(usize) -> Option<f64>) -> Option<f64> {
+        match self.means.get(&node) {
+            Some(&[a, b]) => Some((of(node)? - 0.2 * (of(a)? + of(b)?)) / 0.6),
+            None => of(node),
+        }
+    }
+
     /// The points of the secondary.
     pub fn points(&self) -> Option<&BTreeSet<usize>> {
         match &self.secondary {
             Side::Body { points, .. } => Some(points),
             Side::Rigid(_) => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_over_quadratic_faces_are_those_of_their_dual_functions() {
+        let facet = Facet {
+            kind: Kind::Line(3),
+            nodes: vec![4, 6, 5],
+            cell: 0,
+            body: 0,
+        };
+        let pair = Pair {
+            name: String::new(),
+            secondary: Side::Rigid(Obstacle {
+                table: Table::new(),
+                flat: true,
+            }),
+            primary: Side::Rigid(Obstacle {
+                table: Table::new(),
+                flat: true,
+            }),
+            means: middles(&[facet]),
+            mortar: true,
+            two_sided: false,
+            tied: false,
+            kinematics: String::new(),
+            as_meshed: true,
+            damped: false,
+            belt: false,
+        };
+        // Dual to N̂ = (N_a + N_m / 5, N_b + N_m / 5, 3 N_m / 5) means that what is a sum of these has its coefficients for means: here f = s² at s = -1, 1, 0.
+        let square = |node: usize| Some(if node == 5 { 0.0 } else { 1.0 });
+        assert_eq!(pair.mean(4, square), Some(1.0));
+        assert_eq!(pair.mean(6, square), Some(1.0));
+        let middle = pair.mean(5, square).unwrap_or(f64::NAN);
+        assert!((middle + 2.0 / 3.0).abs() < 1e-12, "{middle}");
+        let nothing = |node: usize| (node != 4).then_some(0.0);
+        assert_eq!(pair.mean(5, nothing), None);
     }
 }

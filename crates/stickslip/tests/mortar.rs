@@ -415,3 +415,51 @@ fn quadratic_faces_on_obstacles_have_the_pressure_of_hertz() {
         assert!((force / 250.0 - 1.0).abs() < 1e-3, "{element}: {force}");
     }
 }
+
+/// Points on the axis of a ring have no area of their own where faces are quadratic: what they carry must be no more than what their neighbours do.
+#[test]
+fn quadratic_faces_that_meet_the_axis_have_the_pressure_of_hertz() {
+    let floor = "obstacle.floor.plane = { point = [0, -10], normal = [0, 1] }";
+    let slab = r#"body.slab = { generate.rectangle = { from = [0, -10.6], to = [1.2, -10], cells = [30, 8], element = "ELEMENT" }, material = "hard" }
+material.hard.isotropic = { young = 1e9, poisson = 0.3 }
+support.below = { set = "slab", x = 0, y = 0 }"#;
+    let on_floor = r#"primary = "floor""#;
+    let on_slab = r#"primary = "slab.top", discretisation.node-to-facet = {}"#;
+    let cases = [("quad8", floor, on_floor), ("tri6", floor, on_floor)];
+    for (element, below, primary) in cases.into_iter().chain([("quad8", slab, on_slab)]) {
+        let below = below.replace("ELEMENT", element);
+        let text = format!(
+            r#"format = 1
+model.space = "axisymmetric"
+body.ball = {{ generate.half-disc = {{ radius = 10, symmetric = true, size = 4, element = "{element}", refine = {{ finest = 0.05, width = 0.5, growth = 1.6 }} }}, material = "m" }}
+material.m.isotropic = {{ young = 1e5, poisson = 0.3 }}
+{below}
+interface.contact = {{ secondary = "ball.arc", {primary} }}
+support.axis = {{ set = "ball.axis", x = 0 }}
+load.f = {{ set = "ball.flat", pressure.value = 3.183098861837907 }}
+step = [{{ increments = {{ fixed = 2 }} }}]
+"#
+        );
+        let problem = support::problem(&text);
+        let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        // E* = E / (1 - ν²) on what is as good as rigid; a³ = 3 F R / 4 E*, p₀ = 3 F / 2 π a².
+        let a = f64::cbrt(0.75 * 1000.0 * 10.0 / (1e5 / (1.0 - 0.09)));
+        let peak = 1500.0 / (std::f64::consts::PI * a * a);
+        let interface = &simulation.model.interfaces[0];
+        let (names, columns) = interface.table(&simulation.state.u);
+        let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
+        let mut points = 0;
+        for (x, p) in column("x").iter().zip(column("CPRESS")) {
+            let r = x / a;
+            if r < 0.8 {
+                points += 1;
+                let off = (p - peak * (1.0 - r * r).sqrt()) / peak;
+                assert!(off.abs() < 0.05, "{element}, {primary}, r = {r} a: {off}");
+            }
+        }
+        assert!(points >= 10, "{element}: {points}");
+        let force = interface.resultant(&simulation.state.u).total;
+        assert!((force / 1000.0 - 1.0).abs() < 1e-3, "{element}: {force}");
+    }
+}

@@ -327,22 +327,26 @@ impl Surfaces<'_> {
             .collect()
     }
 
-    /// Contact points: the nodes, each with its share of the area. Corners of quadratic faces in space have no share or a negative one: there they
-    /// are means over the faces around each node on an `obstacle`, and quadrature points on facets.
+    /// Contact points: the nodes, each with its share of the area. Corners of quadratic faces in space have no share or a negative one, those of quadratic
+    /// edges one in proportion to their radius where the edges are turned about an axis, and on the axis none: there points are means over the faces around
+    /// each node on an `obstacle` or in a plane, and quadrature points on facets in space.
     fn points(
         &self,
         facets: &[FacetRef],
         (primary, obstacle): (f64, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
-        let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) = facets.iter().partition(|&&f| {
-            matches!(
-                self.mesh.facet_kind(f),
-                ElementKind::Tri6 | ElementKind::Quad8
-            )
-        });
+        let ring = matches!(self.space, Space::Axisymmetric);
+        let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) =
+            facets
+                .iter()
+                .partition(|&&f| match self.mesh.facet_kind(f) {
+                    ElementKind::Tri6 | ElementKind::Quad8 => true,
+                    ElementKind::Line3 => ring,
+                    _ => false,
+                });
         let mut out = self.nodal_points(&plain, primary, numbering);
-        out.extend(match obstacle {
+        out.extend(match obstacle || ring {
             true => self.mean_points(&curved, primary, numbering),
             false => self.quadrature_points(&curved, primary, numbering),
         });
