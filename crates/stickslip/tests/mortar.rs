@@ -463,3 +463,52 @@ step = [{{ increments = {{ fixed = 2 }} }}]
         assert!((force / 1000.0 - 1.0).abs() < 1e-3, "{element}: {force}");
     }
 }
+
+/// Where both surfaces are secondary a node shows the slip of its own surface, not the opposite one of the other half.
+#[test]
+fn fields_of_two_sided_contact_are_those_of_the_own_surface() {
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { from = [-2, -1], to = [2, 0], cells = [8, 2] }, material = "m" }
+body.upper = { generate.rectangle = { from = [-1, 0], to = [1, 1], cells = [5, 2] }, material = "m" }
+material.m.isotropic = { young = 1e3, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", enforcement.penalty = {}, discretisation.mortar = { two-sided = true } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0.01, y = -0.01 }
+step = [{ increments.fixed = 1 }]
+"#;
+    let problem = support::problem(text);
+    let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let mut fields = stickslip::system::Fields::default();
+    for interface in &simulation.model.interfaces {
+        stickslip::system::Force::fields(interface, &simulation.state, &mut fields);
+    }
+    let points = &simulation.model.mesh.points;
+    for (interface, sign) in simulation.model.interfaces.iter().zip([1.0, -1.0]) {
+        let (names, columns) = interface.table(&simulation.state.u);
+        let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
+        let set = if sign > 0.0 {
+            "upper.bottom"
+        } else {
+            "lower.top"
+        };
+        let mut judged = 0;
+        for (row, status) in column("CSTATUS").iter().enumerate() {
+            let node = interface.nodes[interface.points[row].nodes[0]];
+            assert_eq!(points[node][0], column("x")[row]);
+            for name in ["CSLIP1", "CPRESS", "COPEN"] {
+                let shown = fields.all.iter().find(|f| f.name == name).unwrap().values[node];
+                let own = column(name)[row];
+                let lonely = !column("COPEN")[row].is_finite();
+                let same = lonely || (shown - own).abs() <= 1e-12 * own.abs();
+                assert!(same, "{set}, {name} of node {node}: {shown}, not {own}");
+            }
+            if *status > 0.0 {
+                judged += 1;
+                assert!(sign * column("CSLIP1")[row] > 5e-3, "{set}, node {node}");
+            }
+        }
+        assert!(judged >= 5, "{set}: {judged}");
+    }
+}

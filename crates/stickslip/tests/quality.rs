@@ -707,3 +707,27 @@ support.catch = {{ set = "b", hold = ["x"] }}
         );
     }
 }
+
+/// Discs that close a gap in one increment turn their surfaces against each other while these are still apart: that is no slip, and shear that goes with it
+/// is not along the slip.
+#[test]
+fn surfaces_that_turn_while_they_close_have_not_slipped() {
+    let simulation = run(r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.half-disc = { centre = [0, -10], direction = [0, 1], radius = 10, size = 5, refine = { finest = 0.2, width = 1.2, growth = 1.6 } }, material = "soft" }
+body.upper = { generate.half-disc = { centre = [0, 10.0174], direction = [0, -1], radius = 10, size = 5, element = "tri3", refine = { finest = 0.8, width = 1.6, growth = 1.6 } }, material = "hard" }
+material.soft.isotropic = { young = 1.43e4, poisson = 0.227 }
+material.hard.isotropic = { young = 3.25e4, poisson = 0.277 }
+interface.joint = { secondary = "lower.arc", primary = "upper.arc", friction.coulomb.mu = 0.762 }
+support.base = { set = "lower.flat", x = 0, y = 0 }
+support.press = { set = "upper.flat", x = 0, y = -0.169 }
+step = [{ increments.fixed = 1 }]
+"#);
+    let interface = &simulation.model.interfaces[0];
+    let (names, columns) = interface.table(&simulation.state.u);
+    let status = names.iter().position(|n| n == "CSTATUS").expect("CSTATUS");
+    assert!(columns[status].contains(&2.0), "nothing slips");
+    let figures = &simulation.summary.quality.figures;
+    let figure = figures.iter().find(|f| f.figure == "friction-law");
+    assert!(figure.expect("judged").value < 1e-6, "{figure:?}");
+}

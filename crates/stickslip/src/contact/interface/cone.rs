@@ -5,7 +5,7 @@ use super::evaluate::Evaluation;
 use super::{Interface, Primary};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
-use crate::math::{Vec3, add_scaled, dot, norm, sub};
+use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
 use crate::system::Stage;
 
 /// Part of the increment before its end over which the velocity of an obstacle is taken.
@@ -80,11 +80,17 @@ impl Interface {
     }
 
     /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
-    /// what its velocity at the end makes of the increment.
+    /// what its velocity at the end makes of the increment. What was apart at the start of the increment has swung towards each other as far as the
+    /// surfaces have turned on the way, and that was no slip: by less than the gap there was.
     fn moved_over(&self, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
         let dim = self.dofs.dim;
-        let (mut moved, mut own) = ([0.0; 3], [0.0; 3]);
+        let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (node, w) in self.weights_of(i) {
+            let before = add(
+                self.reference[node],
+                self.dofs.vector(&stage.from.u, self.nodes[node]),
+            );
+            apart = add_scaled(apart, w, before);
             for c in 0..dim {
                 let dof = self.dofs.of(self.nodes[node], c);
                 let du = stage.at.u[dof] - stage.from.u[dof];
@@ -96,7 +102,7 @@ impl Interface {
             }
         }
         moved = add_scaled(moved, -stage.dt, self.belt_velocity(stage.at.t));
-        let mut unsure = 0.0;
+        let mut unsure = dot(apart, e.normal).abs();
         if let Primary::Rigid(_, motion) = &self.primary {
             let t = stage.at.t;
             let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));

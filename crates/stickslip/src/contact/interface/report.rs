@@ -166,7 +166,8 @@ impl Interface {
 
     /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
     /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
-    /// their areas there. Where no interface is the values are NaN, except for forces, which are zero.
+    /// their areas there; where both surfaces are secondary only of those that hang on it, as slip and shear of the other half have the other sign. Where no
+    /// interface is the values are NaN, except for forces, which are zero.
     pub(super) fn add_fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let mut sums = vec![[0.0; 7]; self.nodes.len()];
@@ -206,7 +207,9 @@ impl Interface {
                     }
                 }
             };
-            for (node, w) in self.own_weights(i).chain(self.facet_weights(i)) {
+            let half = self.share < 1.0;
+            let opposite = self.facet_weights(i).filter(|_| !half);
+            for (node, w) in self.own_weights(i).chain(opposite) {
                 give(node, w.max(0.0));
             }
         }
