@@ -34,6 +34,7 @@ references! {
     taylor_1976: "R. L. Taylor, P. J. Beresford, E. L. Wilson, A non-conforming element for stress analysis, International Journal for Numerical Methods in Engineering 10 (1976) 1211-1219.",
     ibrahimbegovic_1991: "A. Ibrahimbegović, E. L. Wilson, A modified method of incompatible modes, Communications in Applied Numerical Methods 7 (1991) 187-194.",
     higham_1986: "N. J. Higham, Computing the polar decomposition - with applications, SIAM Journal on Scientific and Statistical Computing 7 (1986) 1160-1174.",
+    horn_1987: "B. K. P. Horn, Closed-form solution of absolute orientation using unit quaternions, Journal of the Optical Society of America A 4 (1987) 629-642.",
     hughes_1980: "T. J. R. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, International Journal for Numerical Methods in Engineering 15 (1980) 1413-1418.",
     karypis_kumar_1998: "G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM Journal on Scientific Computing 20 (1998) 359-392.",
     duff_reid_1983: "I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Transactions on Mathematical Software 9 (1983) 302-325.",

@@ -14,7 +14,7 @@ use crate::contact::pairing::{
 };
 use crate::contact::response::{Circumstances, Response, Status, Told};
 use crate::contact::search::Box3;
-use crate::contact::surface::{ContactPoint, Facet};
+use crate::contact::surface::Facet;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, mat_vec, norm, normalize, scale,
     sub,
@@ -308,13 +308,18 @@ impl Interface {
         }
     }
 
+    /// Normal out of the secondary at a point.
+    fn outward(&self, i: usize) -> Vec3 {
+        let turned = self.memory.facing.get(i).copied();
+        turned.unwrap_or(self.points[i].normal)
+    }
+
     /// A point at `position` over a facet; `None` if it has no projection there, or if the two do not face each other.
     fn look(
         &self,
         facet: &Facet,
         x: &[Vec3],
-        point: &ContactPoint,
-        position: Vec3,
+        (i, position): (usize, Vec3),
         near: Option<[f64; 2]>,
     ) -> Option<Look> {
         let mut nodes = [[0.0; 3]; FACET_NODES];
@@ -323,7 +328,7 @@ impl Interface {
             Some(xi) => project_near(facet.kind, nodes, position, xi)?,
             None => project(facet.kind, nodes, position)?,
         };
-        if dot(p.normal, point.normal) >= 0.0 {
+        if dot(p.normal, self.outward(i)) >= 0.0 {
             return None;
         }
         let size = Self::facet_size(facet, &p);
@@ -371,7 +376,7 @@ impl Interface {
             return Err(f64::INFINITY);
         };
         let near = near.filter(|_| previous == Some(first));
-        let mut seed = self.look(&facets[first], x, point, position, near);
+        let mut seed = self.look(&facets[first], x, (i, position), near);
         let mut nearest = seed.as_ref().map_or(f64::INFINITY, |look| look.away);
         let mut best: Option<(usize, Look)> = None;
         let mut kept: Option<FacetPoint> = None;
@@ -384,7 +389,7 @@ impl Interface {
                 if box_distance2(f) > limit * limit {
                     continue;
                 }
-                self.look(&facets[f], x, point, position, None)
+                self.look(&facets[f], x, (i, position), None)
             };
             let Some(look) = look else {
                 continue;
@@ -404,7 +409,7 @@ impl Interface {
                         (_, _, true) if previous == Some(f) || previous == Some(*b) => {
                             previous == Some(f)
                         }
-                        (_, _, true) => self.precedes((f, &look), (*b, held), point),
+                        (_, _, true) => self.precedes((f, &look), (*b, held), i),
                         _ => look.away < held.away,
                     }
                 }
@@ -427,11 +432,12 @@ impl Interface {
 
     /// Which of two facets that are equally near a point is its own, whatever their numbers: the one that looks at it more, or, where they look alike, the one
     /// whose middle comes first in the reference configuration.
-    fn precedes(&self, a: (usize, &Look), b: (usize, &Look), point: &ContactPoint) -> bool {
+    fn precedes(&self, a: (usize, &Look), b: (usize, &Look), i: usize) -> bool {
         let Primary::Facets(facets) = &self.primary else {
             return false;
         };
-        let facing = |look: &Look| dot(look.p.normal, point.normal);
+        let outward = self.outward(i);
+        let facing = |look: &Look| dot(look.p.normal, outward);
         let apart = facing(a.1) - facing(b.1);
         if apart.abs() > TIE {
             return apart < 0.0;
@@ -770,10 +776,6 @@ impl Interface {
         };
         let (at, dim) = ((scene.x, scene.before), self.dofs.dim);
         let around = mortar.around[i].iter().map(|&(f, _)| f);
-        let own = around.clone().map(|f| {
-            let face = &mortar.faces[f];
-            (&face.nodes[..face.kind.corner_count()], 1.0)
-        });
         let other = around
             .flat_map(|f| &scene.integrals[f].pieces)
             .map(|piece| {
@@ -781,7 +783,7 @@ impl Interface {
                 (&facet.nodes[..facet.kind.corner_count()], piece.area)
             });
         (
-            turning::rotation_of(own, at, dim),
+            turning::rotation_of(self.faces_around(i), at, dim),
             turning::rotation_of(other, at, dim),
         )
     }

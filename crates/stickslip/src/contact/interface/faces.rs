@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::turning::{self, Part};
 use super::{GLUE, Interface, Primary};
 use crate::contact::mortar::{FaceIntegral, Scratch, Sides, correct, integrate};
 use crate::contact::search::Tree;
 use crate::contact::surface::ContactPoint;
-use crate::math::{Vec3, add_scaled, distance};
+use crate::math::{Vec3, add_scaled, distance, identity};
 use crate::system::{Stage, State};
 
 /// Faces integrated by one task.
@@ -58,6 +59,10 @@ impl Interface {
 
     fn integrate_at(&mut self, x: &[Vec3], reference: &[Vec3], frozen: bool) {
         self.search_faces(x);
+        let turn = match frozen {
+            true => identity(),
+            false => turning::of_points(self.own_nodes(), (x, reference), self.dofs.dim),
+        };
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return;
         };
@@ -65,6 +70,7 @@ impl Interface {
         let sides = Sides {
             x,
             reference,
+            turn,
             facets,
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
@@ -92,6 +98,19 @@ impl Interface {
             correct(&sides, &mortar.faces, &mut integrals);
         }
         memory.integrals = integrals;
+    }
+
+    /// The nodes of the faces of a mortar, each as often as it has faces.
+    fn own_nodes(&self) -> impl Iterator<Item = usize> + Clone {
+        let faces = self.mortar.iter().flat_map(|m| &m.faces);
+        faces.flat_map(|face| face.nodes.iter().copied())
+    }
+
+    /// The corners of the faces around a point of a mortar.
+    pub(super) fn faces_around(&self, i: usize) -> impl Iterator<Item = Part<'_>> + Clone {
+        let faces =
+            (self.mortar.iter()).flat_map(move |m| m.around[i].iter().map(|&(f, _)| &m.faces[f]));
+        faces.map(|face| (&face.nodes[..face.kind.corner_count()], 1.0))
     }
 
     /// Searches anew when nodes have moved so far that a facet might be missing from the candidates of a face.

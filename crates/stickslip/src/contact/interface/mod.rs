@@ -48,7 +48,7 @@ use super::pairing::FacetPoint;
 use super::response::{Laws, Status};
 use super::search::{Box3, Tree};
 use super::surface::{ContactPoint, Facet, Skin};
-use crate::math::{Vec3, add, add_scaled, distance, scale};
+use crate::math::{Vec3, add, add_scaled, distance, dot, mat_vec, scale};
 use crate::system::{
     Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
     Stage, State, StepFailure, Tally,
@@ -173,6 +173,8 @@ pub struct Memory {
     tightened: u32,
     violation: Option<f64>,
     steady: Steady,
+    /// Outward normals when it was last searched, by point; empty where those of the reference serve.
+    facing: Vec<Vec3>,
     /// Points that do not take part; empty where all do.
     asleep: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
@@ -274,6 +276,9 @@ impl Flips {
 
 /// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.
 const GAIN: f64 = 0.1;
+
+/// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back.
+const UNTURNED: f64 = 0.95;
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
 const CHUNK: usize = 16;
@@ -451,6 +456,29 @@ impl Interface {
             });
         memory.searched_at.clear();
         memory.searched_at.extend_from_slice(x);
+        self.memory.facing = self.facing(x);
+    }
+
+    /// Outward normals of the contact points that have turned far since the reference configuration, by their faces; empty if none has.
+    fn facing(&self, x: &[Vec3]) -> Vec<Vec3> {
+        let mut around = vec![Vec::new(); self.points.len()];
+        for skin in &self.skin {
+            let corners = &skin.facet.nodes[..skin.facet.kind.corner_count()];
+            for &p in &skin.points {
+                around[p].push((corners, 1.0));
+            }
+        }
+        let turned = |(point, around): (&ContactPoint, &Vec<turning::Part>)| {
+            let parts = around.iter().copied();
+            let turn = turning::rotation_of(parts, (x, &self.reference), self.dofs.dim);
+            mat_vec(&turn, point.normal)
+        };
+        let normals: Vec<Vec3> = self.points.iter().zip(&around).map(turned).collect();
+        let mut pairs = normals.iter().zip(&self.points);
+        match pairs.any(|(n, p)| dot(*n, p.normal) < UNTURNED) {
+            true => normals,
+            false => Vec::new(),
+        }
     }
 
     /// Pairs in the reference configuration, for small sliding.

@@ -1,97 +1,155 @@
 //! Interfaces whose surfaces turn: with each other nothing happens but that tractions turn too; over each other points carry their limit.
 
+use std::collections::BTreeMap;
+
 use super::*;
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::law::slip::{Regularised, SlipModel};
 use crate::contact::mortar::Face;
-use crate::contact::surface::connect;
-use crate::math::{cross, dot, mat_vec, norm, rotation, sub};
+use crate::contact::surface::{connect, skin};
+use crate::math::{Mat3, cross, dot, mat_vec, norm, normalize, rotation, sub};
 use crate::shape::ElementKind;
 
 const AROUND: usize = 48;
 const LAYERS: usize = 2;
 
+/// Nodes of a part of a cylinder about the z axis, by angle and height in halves of the cells.
+struct Sheet {
+    radius: f64,
+    /// Angle at the first column and between columns, in parts of the circle.
+    start: f64,
+    step: f64,
+    /// Columns after which it closes.
+    around: Option<usize>,
+    known: BTreeMap<(usize, usize), usize>,
+}
+
+impl Sheet {
+    fn node(&mut self, at: (usize, usize), x: &mut Vec<Vec3>) -> usize {
+        let column = self.around.map_or(at.0, |n| at.0 % (2 * n));
+        let (radius, part) = (self.radius, self.start + 0.5 * self.step * column as f64);
+        *self.known.entry((column, at.1)).or_insert_with(|| {
+            let (s, c) = (std::f64::consts::TAU * part).sin_cos();
+            x.push([radius * c, radius * s, 0.075 * at.1 as f64]);
+            x.len() - 1
+        })
+    }
+
+    /// A face with these corners, by column and layer, and for a quadratic one the middles of its edges.
+    fn face(
+        &mut self,
+        corners: &[(usize, usize)],
+        quadratic: bool,
+        x: &mut Vec<Vec3>,
+    ) -> (ElementKind, Vec<usize>) {
+        let mut places: Vec<_> = corners.iter().map(|c| (2 * c.0, 2 * c.1)).collect();
+        if quadratic {
+            let edges = if corners.len() == 2 { 1 } else { corners.len() };
+            places.extend((0..edges).map(|k| {
+                let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+                (a.0 + b.0, a.1 + b.1)
+            }));
+        }
+        let kind = match places.len() {
+            2 => ElementKind::Line2,
+            4 => ElementKind::Quad4,
+            8 => ElementKind::Quad8,
+            6 => ElementKind::Tri6,
+            _ if corners.len() == 2 => ElementKind::Line3,
+            _ => ElementKind::Tri3,
+        };
+        (
+            kind,
+            places.into_iter().map(|at| self.node(at, x)).collect(),
+        )
+    }
+
+    /// All faces of some columns and layers, which look away from the axis or towards it.
+    fn faces(
+        &mut self,
+        (columns, layers): (usize, usize),
+        (outward, triangles, quadratic): (bool, bool, bool),
+        x: &mut Vec<Vec3>,
+    ) -> Vec<(ElementKind, Vec<usize>)> {
+        let mut out = Vec::new();
+        for k in 0..columns {
+            let mut all: Vec<Vec<(usize, usize)>> = Vec::new();
+            if layers == 0 {
+                all.push(vec![(k, 0), (k + 1, 0)]);
+            }
+            for l in 0..layers {
+                let [a, b, c, d] = [(k, l), (k + 1, l), (k + 1, l + 1), (k, l + 1)];
+                match triangles {
+                    true => all.extend([vec![a, b, c], vec![a, c, d]]),
+                    false => all.push(vec![a, b, c, d]),
+                }
+            }
+            for mut corners in all {
+                if !outward {
+                    corners.reverse();
+                }
+                out.push(self.face(&corners, quadratic, x));
+            }
+        }
+        out
+    }
+}
+
 /// A drum of radius one about the z axis, its outside in facets, and a shoe of a few faces on it, as a node-to-facet contact or a mortar. In the plane a
 /// circle.
-fn drum(dim: usize, kinematics: KinematicsModel, mortar: bool, slip: SlipModel) -> Interface {
-    let triangles = kinematics.as_dyn().triangles();
+fn drum(
+    dim: usize,
+    kinematics: KinematicsModel,
+    (mortar, triangles, quadratic): (bool, bool, bool),
+    slip: SlipModel,
+) -> Interface {
     let layers = if dim == 2 { 0 } else { LAYERS };
-    let at = |radius: f64, part: f64, layer: usize| {
-        let angle = std::f64::consts::TAU * part;
-        let (s, c) = angle.sin_cos();
-        [radius * c, radius * s, 0.15 * layer as f64]
+    let sheet = |radius: f64, start: f64, step: f64, around: Option<usize>| Sheet {
+        radius,
+        start,
+        step,
+        around,
+        known: BTreeMap::new(),
     };
+    let part = 1.0 / AROUND as f64;
     let mut reference = Vec::new();
-    for layer in 0..=layers {
-        reference.extend((0..AROUND).map(|k| at(1.0, k as f64 / AROUND as f64, layer)));
-    }
-    let primary_nodes = reference.len();
-    let node = |k: usize, layer: usize| layer * AROUND + k % AROUND;
-    let facet = |kind, nodes| Facet {
+    let of_drum = sheet(1.0, 0.0, part, Some(AROUND)).faces(
+        (AROUND, layers),
+        (true, triangles, quadratic),
+        &mut reference,
+    );
+    let facet = |(kind, nodes)| Facet {
         kind,
         nodes,
         continues: Vec::new(),
         modulus: 1.0,
         cell: 0,
     };
-    let mut facets = Vec::new();
-    for k in 0..AROUND {
-        if dim == 2 {
-            facets.push(facet(ElementKind::Line2, vec![node(k, 0), node(k + 1, 0)]));
-        }
-        for l in 0..layers {
-            let [a, b, c, d] = [
-                node(k, l),
-                node(k + 1, l),
-                node(k + 1, l + 1),
-                node(k, l + 1),
-            ];
-            if triangles {
-                facets.push(facet(ElementKind::Tri3, vec![a, b, c]));
-                facets.push(facet(ElementKind::Tri3, vec![a, c, d]));
-            } else {
-                facets.push(facet(ElementKind::Quad4, vec![a, b, c, d]));
-            }
-        }
-    }
+    let mut facets: Vec<Facet> = of_drum.into_iter().map(facet).collect();
     connect(&mut facets);
+    let primary_nodes = reference.len();
     // The shoe has another size of cells, and reaches into the drum.
-    let columns = 4;
     let first = reference.len();
-    let mut points = Vec::new();
-    for layer in 0..=layers {
-        for k in 0..=columns {
-            let part = (3.3 + 1.2 * k as f64) / AROUND as f64;
-            let x = at(0.995, part, layer);
-            points.push(ContactPoint {
-                nodes: vec![reference.len()],
-                weights: vec![1.0],
-                area: 0.01,
-                stiffness: 1.0,
-                normal: [-x[0], -x[1], 0.0],
-                size: 0.1,
-            });
-            reference.push(x);
-        }
-    }
-    let mine = |k: usize, layer: usize| first + layer * (columns + 1) + k;
-    let mut faces = Vec::new();
-    for k in 0..columns {
-        if dim == 2 {
-            faces.push((ElementKind::Line2, vec![mine(k + 1, 0), mine(k, 0)]));
-        }
-        for l in 0..layers {
-            let nodes = vec![
-                mine(k, l),
-                mine(k, l + 1),
-                mine(k + 1, l + 1),
-                mine(k + 1, l),
-            ];
-            faces.push((ElementKind::Quad4, nodes));
-        }
-    }
+    let faces = sheet(0.995, 3.3 * part, 1.2 * part, None).faces(
+        (4, layers),
+        (false, triangles, quadratic),
+        &mut reference,
+    );
+    let inward = |x: Vec3| [-x[0], -x[1], 0.0];
+    let points: Vec<ContactPoint> = (first..reference.len())
+        .map(|node| ContactPoint {
+            nodes: vec![node],
+            weights: vec![1.0],
+            area: 0.01,
+            stiffness: 1.0,
+            normal: normalize(inward(reference[node])).expect("off the axis"),
+            size: 0.1,
+        })
+        .collect();
+    let beneath = faces.iter().cloned().map(facet).collect();
+    let skin = skin(beneath, &points, None);
     let faces = faces.into_iter().map(|(kind, nodes)| Face {
         kind,
         points: nodes.iter().map(|n| n - first).collect(),
@@ -114,7 +172,7 @@ fn drum(dim: usize, kinematics: KinematicsModel, mortar: bool, slip: SlipModel) 
         mortar,
         neighbours: Vec::new(),
         primary: Primary::Facets(facets),
-        skin: Vec::new(),
+        skin,
         share: 1.0,
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),
@@ -177,13 +235,21 @@ fn all(dim: usize) -> Vec<(String, Interface)> {
             SlipModel::Regularised(Regularised { epsilon: 1e-3 }),
         ),
     ] {
-        for (name, kinematics, mortar) in [
-            ("facets", convective(), false),
-            ("the paper", pop(), false),
-            ("mortar", convective(), true),
+        // mortar, triangles, quadratic
+        for (name, kinematics, kind) in [
+            ("facets", convective(), (false, false, false)),
+            ("the paper", pop(), (false, true, false)),
+            ("mortar", convective(), (true, false, false)),
+            ("mortar of triangles", convective(), (true, true, false)),
+            ("quadratic mortar", convective(), (true, false, true)),
+            (
+                "mortar of quadratic triangles",
+                convective(),
+                (true, true, true),
+            ),
         ] {
             let what = format!("{name}, {rule}, {dim}D");
-            out.push((what, drum(dim, kinematics, mortar, slip.clone())));
+            out.push((what, drum(dim, kinematics, kind, slip.clone())));
         }
     }
     out
@@ -203,44 +269,51 @@ fn a_pair_that_turns_together_keeps_its_traction() {
                     true => x,
                     false => [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]],
                 };
-                let still = accept(&mut interface, &origin, sheared);
+                let mut state = accept(&mut interface, &origin, sheared);
                 let before = interface.memory.committed.clone();
-                let largest = before.iter().fold(0.0_f64, |m, h| m.max(norm(h.shear)));
-                let most = before.iter().fold(0.0_f64, |m, h| m.max(h.pressure));
-                assert!(largest > 0.0 && most > 0.0, "{what}");
                 let axis = if dim == 2 {
                     [0.0, 0.0, 1.0]
                 } else {
                     [0.48, 0.6, 0.64]
                 };
-                let turn = rotation(axis, angle);
-                let turned = |k, x| add(mat_vec(&turn, sheared(k, x)), [0.3, -0.1, 0.0]);
-                accept(&mut interface, &still, turned);
-                let sticks = interface.laws.slip.as_dyn().sticks();
-                let points = before.iter().zip(&interface.memory.committed);
-                for ((a, b), e) in points.zip(&interface.memory.last.points) {
-                    assert!(norm(e.moved) < 1e-14, "{what} {angle}: {:e}", norm(e.moved));
-                    // A mortar is cut along normals of the reference: its pressure knows small rotations only.
-                    if interface.mortar.is_some() {
-                        continue;
-                    }
-                    let apart = (a.pressure - b.pressure).abs();
-                    assert!(apart <= 1e-10 * most, "{what}: {apart:e} of {most:e}");
-                    let expected = match sticks {
-                        true => mat_vec(&turn, a.shear),
-                        // shear is that of the velocity: at rest there is none
-                        false => [0.0; 3],
-                    };
-                    let apart = norm(sub(b.shear, expected));
-                    assert!(
-                        apart < 1e-9 * largest,
-                        "{what} {angle}: {apart:e} of {largest:e}"
+                // more than half a turn in all
+                for k in 1..=4 {
+                    let turn = rotation(axis, f64::from(k) * angle);
+                    let away = scale(f64::from(k), [0.3, -0.1, 0.0]);
+                    let turned = |k, x| add(mat_vec(&turn, sheared(k, x)), away);
+                    state = accept(&mut interface, &state, turned);
+                    has_turned(
+                        &interface,
+                        &before,
+                        &turn,
+                        &format!("{what}, {k} x {angle}"),
                     );
-                    let slip = sub(b.slip, mat_vec(&turn, a.slip));
-                    assert!(norm(slip) < 1e-12, "{what} {angle}: slip");
                 }
             }
         }
+    }
+}
+
+/// All is as it was before a turn, and has turned.
+fn has_turned(interface: &Interface, before: &[History], turn: &Mat3, what: &str) {
+    let largest = before.iter().fold(0.0_f64, |m, h| m.max(norm(h.shear)));
+    let most = before.iter().fold(0.0_f64, |m, h| m.max(h.pressure));
+    assert!(largest > 0.0 && most > 0.0, "{what}");
+    let sticks = interface.laws.slip.as_dyn().sticks();
+    let points = before.iter().zip(&interface.memory.committed);
+    for ((a, b), e) in points.zip(&interface.memory.last.points) {
+        assert!(norm(e.moved) < 1e-14, "{what}: {:e}", norm(e.moved));
+        let apart = (a.pressure - b.pressure).abs();
+        assert!(apart <= 1e-10 * most, "{what}: {apart:e} of {most:e}");
+        let expected = match sticks {
+            true => mat_vec(turn, a.shear),
+            // shear is that of the velocity: at rest there is none
+            false => [0.0; 3],
+        };
+        let apart = norm(sub(b.shear, expected));
+        assert!(apart < 1e-10 * largest, "{what}: {apart:e} of {largest:e}");
+        let slip = sub(b.slip, mat_vec(turn, a.slip));
+        assert!(norm(slip) < 1e-12, "{what}: slip");
     }
 }
 
@@ -283,7 +356,7 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
                         0.99
                     };
                     assert!(cosine > skew, "{what} {angle}: {cosine}");
-                    if what.starts_with("mortar") {
+                    if what.contains("mortar") {
                         let arc = norm(e.moved) / angle.abs();
                         assert!((arc - 1.0).abs() < 0.01, "{what} {angle}: {arc}");
                     }
@@ -299,7 +372,7 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
 fn small_sliding_carries_its_limit_in_the_plane_of_the_reference() {
     for mortar in [false, true] {
         let kinematics = KinematicsModel::SmallSliding(SmallSliding {});
-        let mut interface = drum(3, kinematics, mortar, SlipModel::default());
+        let mut interface = drum(3, kinematics, (mortar, false, false), SlipModel::default());
         let origin = start(&interface);
         let drum = interface.primary_nodes;
         let (s, c) = 0.02_f64.sin_cos();

@@ -41,6 +41,32 @@ impl Polygon {
         self
     }
 
+    /// The same without corners that hardly stick out, each by a triangle of no more than `least`, and from another corner on: the first one along a
+    /// direction in which corners of ordinary meshes do not lie side by side.
+    ///
+    /// Where edges coincide rounding decides at which corner cutting begins, and whether there is another corner somewhere along the edge. The
+    /// triangles that the polygon is divided into must not depend on that.
+    pub fn in_order(mut self, least: f64) -> Self {
+        const DIRECTION: Point = [0.833, 0.553];
+        let mut k = 0;
+        while k < self.count && self.count > 2 {
+            let c = self.corners();
+            let (a, p, b) = (c[(k + c.len() - 1) % c.len()], c[k], c[(k + 1) % c.len()]);
+            let out = (p[0] - a[0]) * (b[1] - a[1]) - (p[1] - a[1]) * (b[0] - a[0]);
+            if 0.5 * out.abs() <= least {
+                self.corners[k..self.count].rotate_left(1);
+                self.count -= 1;
+            } else {
+                k += 1;
+            }
+        }
+        let along = |p: &Point| DIRECTION[0] * p[0] + DIRECTION[1] * p[1];
+        let all = &mut self.corners[..self.count];
+        let first = (0..all.len()).min_by(|&i, &j| along(&all[i]).total_cmp(&along(&all[j])));
+        all.rotate_left(first.unwrap_or(0));
+        self
+    }
+
     /// Signed area, positive if counter-clockwise.
     pub fn area(&self) -> f64 {
         let c = self.corners();
@@ -112,6 +138,23 @@ mod tests {
             }
         }
         assert!((sum - whole.area()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn corners_are_no_matter_of_rounding_and_order() {
+        let mut corners = [
+            [0.0, 0.0],
+            [0.3, -1e-17],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0],
+        ];
+        for _ in 0..5 {
+            corners.rotate_left(1);
+            let polygon = Polygon::new(corners.into_iter()).in_order(1e-14);
+            let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            assert_eq!(polygon.corners(), square);
+        }
     }
 
     #[test]

@@ -16,6 +16,9 @@ const FACING: f64 = 0.1;
 /// Part of a face below which what lies opposite is left out.
 const LEAST: f64 = 1e-4;
 
+/// Part of a cell below which a piece of it is nothing.
+const LEAST_PIECE: f64 = 1e-14;
+
 /// The geometry of both sides.
 #[derive(Debug, Clone, Copy)]
 pub struct Sides<'a> {
@@ -23,8 +26,22 @@ pub struct Sides<'a> {
     pub x: &'a [Vec3],
     /// In the reference configuration, which areas are taken from.
     pub reference: &'a [Vec3],
+    /// How the secondary as a whole has turned since then.
+    pub turn: Mat3,
     /// The primary.
     pub facets: &'a [Facet],
+}
+
+impl Sides<'_> {
+    /// Directions along which the gap of a face is measured, at its nodes: those of the reference turn with the surface as a whole, so that a pair that
+    /// turns as one keeps its gap. How the surface bends has no part in them: they would change in every iteration, and the tangent does not know.
+    fn normals(&self, face: &Face) -> [Vec3; FACE_NODES] {
+        let mut out = [[0.0; 3]; FACE_NODES];
+        for (o, &normal) in out.iter_mut().zip(&face.normals) {
+            *o = mat_vec(&self.turn, normal);
+        }
+        out
+    }
 }
 
 /// What a node has in a weighted gap: its weight, and the gradient of the gap with respect to it.
@@ -218,13 +235,14 @@ struct View<'a> {
     face: &'a Face,
     x: [Vec3; FACE_NODES],
     reference: [Vec3; FACE_NODES],
+    normals: [Vec3; FACE_NODES],
 }
 
 impl View<'_> {
     /// Unit normal at a place with these shape functions.
     fn normal(&self, n: &[f64; FACE_NODES]) -> Vec3 {
         let mut sum = [0.0; 3];
-        for (normal, &n) in self.face.normals.iter().zip(n) {
+        for (normal, &n) in self.normals.iter().zip(n) {
             sum = add_scaled(sum, n, *normal);
         }
         normalize(sum).unwrap_or(sum)
@@ -292,6 +310,7 @@ pub fn integrate(
         face,
         x: gather(&face.nodes, sides.x),
         reference: gather(&face.nodes, sides.reference),
+        normals: sides.normals(face),
     };
     let whole: f64 = measure(&view);
     for cell in cells(face.kind, &face.nodes, sides.reference) {
@@ -350,7 +369,7 @@ fn faces(kind: ElementKind, x: &[Vec3], normal: Vec3) -> bool {
 
 /// Normal of a straight cell of a face.
 fn cell_normal(view: &View, cell: &[usize]) -> Vec3 {
-    let sum = (cell.iter()).fold([0.0; 3], |s, &k| add_scaled(s, 1.0, view.face.normals[k]));
+    let sum = (cell.iter()).fold([0.0; 3], |s, &k| add_scaled(s, 1.0, view.normals[k]));
     normalize(sum).unwrap_or(sum)
 }
 
@@ -501,8 +520,9 @@ fn polygons(
             }
             let common = Polygon::new(flat_corners.iter().copied())
                 .reversed()
-                .cut(&window);
-            if common.area() <= 1e-14 * size || !faces(facet.kind, x, normal) {
+                .cut(&window)
+                .in_order(LEAST_PIECE * size);
+            if common.area() <= LEAST_PIECE * size || !faces(facet.kind, x, normal) {
                 continue;
             }
             let p = *known.get_or_insert_with(|| piece(f, out));
