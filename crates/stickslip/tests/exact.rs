@@ -11,6 +11,7 @@ use stickslip::math::{Mat3, Vec3, add, identity, mat_vec, norm, rotation, sub, t
 use stickslip::mesh::generators::{Cuboid, Generate, Rectangle};
 use stickslip::newton::Course;
 use stickslip::problem::{Meshes, Problem};
+use stickslip::shape::ElementKind;
 use stickslip::simulation::{Event, Observer, Simulation};
 use support::Record;
 
@@ -435,6 +436,156 @@ fn what_slips_on_a_drum_or_a_ball_carries_its_limit_for_turns_of_any_size() {
                 assert!(shear < 0.0);
             }
         }
+    }
+}
+
+/// A pad on a rigid disc, and on a rigid ball, that turn by `angle` in one increment. Linearised, that makes them grow by `√(1 + angle²)`: the pad gives way.
+fn pads_on_bodies(angle: f64, more: &str) -> [String; 2] {
+    let way = (1.0 + angle * angle).sqrt() - 1.0 - 0.06;
+    let common = format!(
+        r#"
+format = 1
+material.m.isotropic = {{ young = 1e4, poisson = 0.3, density = 1 }}
+step = [
+    {{ supports = ["centre", "press"], couplings = ["rest"HELD], increments.fixed = 2 }},
+    {{ supports = ["centre", "follow"], couplings = ["turn"HELD], increments.fixed = 1 }},
+]
+{more}
+"#
+    );
+    let disc = format!(
+        r#"{common}
+model.space = "plane-strain"
+body.pad = {{ generate.rectangle = {{ from = [-0.4, 0], to = [0.4, 0.3], cells = [12, 3] }}, material = "m" }}
+body.wheel = {{ rigid = true, generate.disc = {{ centre = [0, -1], radius = 1, direction = [0, 1], size = 0.11 }}, material = "m" }}
+support.centre = {{ set = "wheel.centre", x = 0, y = 0 }}
+support.press = {{ set = "pad.top", x = 0, y = -0.06 }}
+support.follow = {{ set = "pad.top", x = 0, y = {way:?} }}
+coupling.rest.equation = {{ terms = [{{ set = "wheel.pole", component = "x" }}] }}
+coupling.turn.equation = {{ terms = [{{ set = "wheel.pole", component = "x" }}], value = {angle:?} }}
+"#
+    );
+    let ball = format!(
+        r#"{common}
+model.space = "solid"
+body.pad = {{ generate.box = {{ from = [-0.4, -0.4, 0], to = [0.4, 0.4, 0.3], cells = [4, 4, 2] }}, material = "m" }}
+body.wheel = {{ rigid = true, generate.ball = {{ centre = [0, 0, -1], radius = 1, direction = [0, 0, 1], size = 0.3 }}, material = "m" }}
+support.centre = {{ set = "wheel.centre", x = 0, y = 0, z = 0 }}
+support.press = {{ set = "pad.top", x = 0, y = 0, z = -0.06 }}
+support.follow = {{ set = "pad.top", x = 0, y = 0, z = {way:?} }}
+coupling.rest.equation = {{ terms = [{{ set = "wheel.pole", component = "x" }}] }}
+coupling.turn.equation = {{ terms = [{{ set = "wheel.pole", component = "x" }}], value = {angle:?} }}
+coupling.level.equation = {{ terms = [{{ set = "wheel.pole", component = "y" }}] }}
+coupling.straight.equation = {{ terms = [{{ set = "side", component = "x" }}] }}
+set.side = {{ of = "wheel", point = [0, 1, -1] }}
+"#
+    );
+    [
+        disc.replace("HELD", ""),
+        ball.replace("HELD", ", \"level\", \"straight\""),
+    ]
+}
+
+#[test]
+fn what_slips_on_a_rigid_body_that_turns_carries_its_limit() {
+    let [pad, wheel] = [["pad.bottom", "wheel.arc"], ["wheel.arc", "pad.bottom"]];
+    // A pad against facets and facets against a pad; how far that goes with one increment is a matter of Newton's method.
+    let cases = [
+        (pad, "mortar", [true, true], 1.0),
+        (pad, "node-to-facet", [true, false], 1.0),
+        (wheel, "mortar", [true, true], 0.1),
+    ];
+    for angle in [0.01, 0.1, 0.5, 1.0] {
+        for ([secondary, primary], kind, spaces, most) in cases {
+            let sole = format!(
+                r#"interface.sole = {{ secondary = "{secondary}", primary = "{primary}", discretisation.{kind} = {{}}, friction.coulomb.mu = 0.3 }}"#
+            );
+            let texts = pads_on_bodies(angle, &sole).into_iter().zip(spaces);
+            for (text, _) in texts.filter(|t| t.1 && angle <= most) {
+                let (record, simulation) = run(&support::problem(&text));
+                assert_eq!(record.cutbacks, 0, "{text}");
+                let (worst, slipping) = ratio(&simulation, 0.3);
+                assert!(
+                    slipping >= if angle < 0.1 { 2 } else { 6 },
+                    "{slipping}: {text}"
+                );
+                assert!(worst < 1e-10, "{worst:e}: {text}");
+                let gate = &simulation.summary.quality;
+                let figure = |name: &str, place: &str| {
+                    let mut all = gate.figures.iter();
+                    all.find(|f| f.figure == name && f.place.ends_with(place))
+                        .expect("judged")
+                };
+                assert!(figure("friction-law", "sole").value < 1e-9, "{gate:#?}");
+                // What a linearised rotation makes of far turns is said to be wrong.
+                let turned = figure("rotation", "wheel");
+                assert!((turned.value - angle).abs() < 1e-10, "{turned:?}");
+                assert_eq!(turned.met, angle < 0.05);
+                assert!(gate.failed() || turned.met);
+            }
+        }
+    }
+}
+
+/// Part of the circle that a band lies around, its thickness and the friction of the drum beneath.
+const BAND: (f64, f64, f64) = (std::f64::consts::PI, 0.02, 0.3);
+
+/// The ratio of the tensions in an elastic band around a drum that turns by `angle` an increment.
+fn capstan(angle: f64, element: ElementKind) -> f64 {
+    let (around, thickness, mu) = BAND;
+    let mut mesh = Rectangle {
+        element,
+        ..Rectangle::new([0.0, 0.0], [around, thickness], [48, 2])
+    }
+    .generate()
+    .expect("a mesh");
+    for x in &mut mesh.points {
+        let (s, c) = (around - x[0]).sin_cos();
+        *x = [(1.0 + x[1]) * c, (1.0 + x[1]) * s, 0.0];
+    }
+    let mut meshes = Meshes::default();
+    meshes.insert("band.msh".into(), Arc::new(mesh));
+    let text = format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+solver.method = "sparse"
+body.band = {{ gmsh.file = "band.msh", material = "m" }}
+material.m.isotropic = {{ young = 3e6, poisson = 0.3 }}
+obstacle.drum = {{ cylinder = {{ centre = [0, 0], radius = 1.0 }}, motion.rotation = {{ centre = [0, 0], angle = [[0, 0], [1, 0], [2, {turned:?}]] }} }}
+interface.grip = {{ secondary = "band.bottom", primary = "drum", friction.coulomb.mu = {mu} }}
+support.held = {{ set = "band.left", y = 0 }}
+load.pull = {{ set = "band.right", traction.value = [0, {traction:?}] }}
+step = [{{ increments.fixed = 2 }}, {{ increments.fixed = 2 }}]
+"#,
+        turned = -2.0 * angle,
+        traction = -1.0 / thickness,
+    );
+    let problem = support::problem(&text);
+    let model = problem.build_with(std::path::Path::new(""), &meshes);
+    let mut simulation = Simulation::new(model.unwrap_or_else(|e| panic!("{e}"))).expect("sound");
+    let outcome = simulation.run(&mut []);
+    outcome.unwrap_or_else(|e| panic!("{e}"));
+    let gate = &simulation.summary.quality;
+    // A straight edge over 1/48 of half a circle goes into the drum by more of these thin cells than the gate likes.
+    assert!(gate.met || element.order() == 1, "{gate:#?}");
+    simulation.summary.last["held.RF2"].abs()
+}
+
+#[test]
+fn the_tensions_of_a_band_around_a_drum_are_those_of_the_capstan() {
+    let (around, thickness, mu) = BAND;
+    // Euler's formula; friction acts beneath the middle of the band, where the tension is, by half the thickness.
+    let exact = (mu * around / (1.0 + 0.5 * thickness)).exp();
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let slow = capstan(0.05, element);
+        assert!(
+            (slow / exact - 1.0).abs() < 1e-3,
+            "{element}: {slow} {exact}"
+        );
+        // What slips does not know how far.
+        let fast = capstan(1.0, element);
+        assert!((fast / slow - 1.0).abs() < 1e-7, "{element}: {fast} {slow}");
     }
 }
 
