@@ -8,6 +8,9 @@ use crate::results::{Before, Results, State};
 use crate::side::{Pair, Side};
 use crate::vec3::{Vec3, add, norm};
 
+/// Speeds that are tried where any may be, down to 1e-16 of what an increment makes of the largest slip: the scale of a law may be that of slower steps.
+const SPEEDS: i32 = 125;
+
 /// What a point carries at a time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Point {
@@ -240,7 +243,7 @@ fn one(
             let top = scale.slip / dt.max(1e-300);
             [0.0]
                 .into_iter()
-                .chain((0..60).map(|k| top * 0.7f64.powi(k - 20)))
+                .chain((0..SPEEDS).map(|k| top * 0.7f64.powi(k - 20)))
                 .collect()
         }
     };
@@ -315,6 +318,9 @@ pub fn reactions(results: &Results, pairs: &[Pair], report: &mut Report) {
         largest = largest.max(0.5 * gross);
         rows.push((state, by_body));
     }
+    if results.case.space != crate::case::Space::Ring {
+        moments(results, pairs, largest, report);
+    }
     for (state, by_body) in rows {
         // What the history says of each interface, added up by body.
         let mut said = vec![[0.0; 3]; mesh.names.len()];
@@ -368,5 +374,96 @@ pub fn reactions(results: &Results, pairs: &[Pair], report: &mut Report) {
                 state.t,
             );
         }
+    }
+}
+
+/// The sum of the moments of CFORCE where all surfaces are those of bodies, of the largest resultant times the size of the smallest surface.
+fn moments(results: &Results, pairs: &[Pair], largest: f64, report: &mut Report) {
+    let x = &results.mesh.points;
+    let mut size = f64::INFINITY;
+    for pair in pairs {
+        let (Some(own), Side::Body { .. }) = (pair.points(), &pair.primary) else {
+            return;
+        };
+        let extent = (0..3).map(|c| {
+            let along = own.iter().map(|p| x[*p][c]);
+            let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+                [a.min(x), b.max(x)]
+            });
+            high - low
+        });
+        size = size.min(extent.map(|e| e * e).sum::<f64>().sqrt());
+    }
+    if !(size > 0.0 && size.is_finite()) {
+        return;
+    }
+    for state in &results.states {
+        let force = state.grid.vector("CFORCE");
+        let each = force.iter().zip(state.places());
+        let sum = each.fold([0.0; 3], |s, (f, x)| {
+            add(
+                s,
+                crate::vec3::cross(crate::vec3::sub(x, results.mesh.points[0]), *f),
+            )
+        });
+        report.note(
+            "moment",
+            "all bodies",
+            norm(sum) / (largest * size),
+            state.t,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In motion any speed may be, also that at which a law of a quasi-static step has its least limit.
+    #[test]
+    fn a_point_that_slips_slowly_carries_what_a_slow_law_says() {
+        let text = "friction.stribeck = { static = 0.297, kinetic = 0.228, velocity = 1.56e-7, exponent = 1, viscous = 1.21e11 }";
+        let table: toml::Table = text.parse().unwrap_or_default();
+        let none = toml::Table::new();
+        let laws = Laws {
+            normal: ("linear", &none),
+            friction: crate::case::kind(&table, "friction").unwrap_or(("none", &none)),
+            epsilon: None,
+        };
+        let scale = Scale {
+            pressure: 1.2e6,
+            limit: 0.297 * 1.2e6,
+            approach: 1.0,
+            slip: 7e-8,
+        };
+        let judge = |share: f64| {
+            let mut report = Report::default();
+            let point = Point {
+                pressure: 1.2e6,
+                shear: [share * 1.2e6, 0.0],
+                status: 2.0,
+                ..Point::default()
+            };
+            let pair = Pair::bare("joint");
+            let before = Some(point);
+            one(
+                &laws,
+                &point,
+                before,
+                (1.1e-7, true),
+                &pair,
+                &scale,
+                1.0,
+                &mut report,
+            );
+            let figure = report
+                .figures()
+                .find(|f| f.name == "mobilised")
+                .map(|f| f.value);
+            figure.unwrap_or(f64::NAN)
+        };
+        // The least limit over all speeds, 0.267 p, is at 2.3e-7 m/s.
+        assert!(judge(0.267) < 1e-3, "{}", judge(0.267));
+        assert!(judge(0.2) > 0.1, "{}", judge(0.2));
     }
 }

@@ -68,6 +68,12 @@ pub const KINDS: &[Kind] = &[
         "sum of the contact forces of two bodies, of the largest resultant of the run",
     ),
     kind(
+        "moment",
+        3e-3,
+        5e-2,
+        "sum of the moments of the contact forces of bodies, of the largest resultant of the run times the smallest surface",
+    ),
+    kind(
         "resultant",
         1e-8,
         1e-6,

@@ -313,6 +313,32 @@ impl Pair {
 }
 
 #[cfg(test)]
+impl Pair {
+    /// A pair of nothing.
+    pub(crate) fn bare(name: &str) -> Pair {
+        let nowhere = || {
+            Side::Rigid(Obstacle {
+                table: Table::new(),
+                flat: true,
+            })
+        };
+        Pair {
+            name: name.to_string(),
+            secondary: nowhere(),
+            primary: nowhere(),
+            means: BTreeMap::new(),
+            mortar: true,
+            two_sided: false,
+            tied: false,
+            kinematics: String::new(),
+            as_meshed: true,
+            damped: false,
+            belt: false,
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
@@ -325,23 +351,8 @@ mod tests {
             body: 0,
         };
         let pair = Pair {
-            name: String::new(),
-            secondary: Side::Rigid(Obstacle {
-                table: Table::new(),
-                flat: true,
-            }),
-            primary: Side::Rigid(Obstacle {
-                table: Table::new(),
-                flat: true,
-            }),
             means: middles(&[facet]),
-            mortar: true,
-            two_sided: false,
-            tied: false,
-            kinematics: String::new(),
-            as_meshed: true,
-            damped: false,
-            belt: false,
+            ..Pair::bare("joint")
         };
         // Dual to N̂ = (N_a + N_m / 5, N_b + N_m / 5, 3 N_m / 5) means that what is a sum of these has its coefficients for means: here f = s² at s = -1, 1, 0.
         let square = |node: usize| Some(if node == 5 { 0.0 } else { 1.0 });

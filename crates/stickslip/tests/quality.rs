@@ -731,3 +731,31 @@ step = [{ increments.fixed = 1 }]
     let figure = figures.iter().find(|f| f.figure == "friction-law");
     assert!(figure.expect("judged").value < 1e-6, "{figure:?}");
 }
+
+/// Beside the edge of a punch the mean over the corner of a quadratic face that it covers is no depth of the whole face.
+#[test]
+fn a_corner_of_a_face_that_is_covered_is_not_contact_that_is_missed() {
+    for half in [3.6, 3.65, 4.0] {
+        let simulation = run(&format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ from = [-5, -3.4], to = [5, 0], cells = [7, 2], element = "tri6" }}, material = "soft" }}
+body.upper = {{ generate.rectangle = {{ from = [-{half}, 0], to = [{half}, 3], cells = [4, 1], element = "tri6" }}, material = "hard" }}
+material.soft.isotropic = {{ young = 8e3, poisson = 0.25 }}
+material.hard.isotropic = {{ young = 3.2e4, poisson = 0.15 }}
+interface.joint = {{ secondary = "lower.top", primary = "upper.bottom", normal.linear.c = 1.1e4 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.press = {{ set = "upper.top", x = 0, y = -0.03 }}
+step = [{{ increments.fixed = 1 }}]
+"#
+        ));
+        let figures = &simulation.summary.quality.figures;
+        let figure = figures.iter().find(|f| f.figure == "unseen-to-approach");
+        assert!(figure.expect("judged").value < 0.05, "{half}: {figure:?}");
+        assert!(
+            simulation.summary.quality.met,
+            "{half}: {:?}",
+            violated(&simulation)
+        );
+    }
+}

@@ -22,8 +22,8 @@ pub struct Between {
     pub penetration: f64,
     /// The same relative to the height of the cell beneath `[-]`.
     pub relative_to_size: f64,
-    /// Largest distance by which the surfaces stand apart, everywhere around a point, beyond what the point says; times its pressure
-    /// over the largest `[m]`.
+    /// Largest distance by which the surfaces stand apart, everywhere around a point, beyond what the point says; times its pressure and the part of it that
+    /// has something opposite, over the largest `[m]`.
     pub apart: f64,
 }
 
@@ -284,13 +284,18 @@ impl Interface {
                 around[p] = around[p].min(least);
             }
         }
-        let most = committed.iter().map(|h| h.pressure).fold(0.0, f64::max);
+        // A mean over the corner of a face, where the other surface ends, is carried on to the node: what it presses with is the covered part of it.
+        let presses = |i: usize| {
+            let covered = self.area_of(i) / (self.points[i].area * self.share);
+            committed[i].pressure.max(0.0) * covered.min(1.0)
+        };
+        let most = (0..committed.len()).map(presses).fold(0.0, f64::max);
         // Each of two halves presses where the other one finds contact.
         if most > 0.0 && self.share == 1.0 {
-            for (i, h) in committed.iter().enumerate() {
-                let apart = around[i] - said(i) - rounding;
-                if h.pressure > 0.0 && apart.is_finite() && apart > 0.0 {
-                    out.apart = out.apart.max(apart * h.pressure / most);
+            for (i, around) in around.iter().enumerate() {
+                let apart = around - said(i) - rounding;
+                if apart.is_finite() && apart > 0.0 {
+                    out.apart = out.apart.max(apart * presses(i) / most);
                 }
             }
         }
