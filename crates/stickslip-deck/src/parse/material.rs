@@ -205,14 +205,23 @@ impl Reader<'_> {
             axes[i] = std::array::from_fn(|k| c * p[k] + s * q[k]);
             axes[j] = std::array::from_fn(|k| c * q[k] - s * p[k]);
         }
-        self.deck.orientations.insert(
-            name,
-            Orientation {
-                axes,
-                uniform,
-                place: card.place,
-            },
-        );
+        let orientation = Orientation {
+            axes,
+            uniform,
+            place: card.place,
+        };
+        if self
+            .deck
+            .orientations
+            .insert(name.clone(), orientation)
+            .is_some()
+        {
+            self.error(
+                card.place,
+                format!("the orientation {name} is given twice"),
+                "give each orientation a name of its own",
+            );
+        }
     }
 }
 

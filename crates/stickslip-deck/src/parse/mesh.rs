@@ -232,9 +232,12 @@ impl Reader<'_> {
         };
         let mut out = Vec::new();
         if let Some(set) = card.get("ELSET").map(str::to_string) {
+            // Elements share nodes, which is not meant to count.
+            let mut of_cells = std::collections::BTreeSet::new();
             for e in self.elements_of(&set, card.place) {
-                out.extend(self.deck.elements[&e].nodes.iter().copied());
+                of_cells.extend(self.deck.elements[&e].nodes.iter().copied());
             }
+            out.extend(of_cells);
         }
         for data in &card.data {
             if card.has("GENERATE") {
@@ -249,7 +252,10 @@ impl Reader<'_> {
                         self.absent.push(absent);
                     }
                     None => match self.deck.node_sets.get(&label(field)) {
-                        Some(set) => out.extend(set),
+                        Some(set) => {
+                            out.extend(set);
+                            self.inherit(0, &label(field), &name);
+                        }
                         None => {
                             self.error(
                                 data.place,
@@ -261,7 +267,33 @@ impl Reader<'_> {
                 }
             }
         }
-        add(self.deck.node_sets.entry(name).or_default(), out);
+        let set = self.deck.node_sets.entry(name.clone()).or_default();
+        if let Some(n) = add(set, out) {
+            self.doubled[0].entry(name).or_insert(n);
+        }
+    }
+
+    /// A set of nodes (0) or elements (1) that is part of another makes it name twice what it names twice.
+    fn inherit(&mut self, kind: usize, part: &str, whole: &str) {
+        if let Some(n) = self.doubled[kind].get(part).copied() {
+            self.doubled[kind].entry(whole.to_string()).or_insert(n);
+        }
+    }
+
+    /// It is an error to add up over a set of nodes (0) or elements (1) that names one of them twice: programs differ in how often it counts.
+    pub(super) fn once(&mut self, kind: usize, set: &str, place: Place) {
+        let Some(n) = self.doubled[kind].get(set) else {
+            return;
+        };
+        let what = ["node", "element"][kind];
+        let message = format!(
+            "{what} {n} stands in the set {set} more than once: it counts as often in CalculiX, and once in Abaqus"
+        );
+        self.error(
+            place,
+            message,
+            &format!("let the set name each {what} once"),
+        );
     }
 
     /// Nodes of sets that are not there: CalculiX leaves them out, which changes nothing where the set is only printed.
@@ -313,9 +345,13 @@ impl Reader<'_> {
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
                 out.extend(self.elements_of(field, data.place));
+                self.inherit(1, &label(field), &name);
             }
         }
-        add(self.deck.element_sets.entry(name).or_default(), out);
+        let set = self.deck.element_sets.entry(name.clone()).or_default();
+        if let Some(n) = add(set, out) {
+            self.doubled[1].entry(name).or_insert(n);
+        }
     }
 
     /// `S3` or `P3` as 3.
@@ -779,7 +815,18 @@ impl Reader<'_> {
             total_time: card.get("TIME") == Some("TOTALTIME"),
             place: card.place,
         };
-        self.deck.amplitudes.insert(name, amplitude);
+        if self
+            .deck
+            .amplitudes
+            .insert(name.clone(), amplitude)
+            .is_some()
+        {
+            self.error(
+                card.place,
+                format!("the amplitude {name} is given twice"),
+                "give each amplitude a name of its own",
+            );
+        }
     }
 
     pub(super) fn time_points(&mut self, card: &Card) {
@@ -810,12 +857,25 @@ impl Reader<'_> {
             times,
             total_time: card.get("TIME") == Some("TOTALTIME"),
         };
-        self.deck.time_points.insert(name, points);
+        if self.deck.time_points.insert(name.clone(), points).is_some() {
+            self.error(
+                card.place,
+                format!("the time points {name} are given twice"),
+                "give each a name of its own",
+            );
+        }
     }
 }
 
-/// Adds to a set what it does not have yet, in order.
-fn add(set: &mut Vec<u64>, more: Vec<u64>) {
+/// Adds to a set what it does not have yet, in order. The first that it has already.
+fn add(set: &mut Vec<u64>, more: Vec<u64>) -> Option<u64> {
     let mut seen: std::collections::BTreeSet<u64> = set.iter().copied().collect();
-    set.extend(more.into_iter().filter(|n| seen.insert(*n)));
+    let mut again = None;
+    for n in more {
+        match seen.insert(n) {
+            true => set.push(n),
+            false => again = again.or(Some(n)),
+        }
+    }
+    again
 }

@@ -5,6 +5,7 @@ mod material;
 mod mesh;
 mod step;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 pub(crate) use material::frame;
@@ -70,6 +71,10 @@ struct Reader<'a> {
     procedure: bool,
     /// What cards with `OP` have been met in the step, each by what clears it.
     touched: Vec<Action>,
+    /// Kinds of output that the step has asked for.
+    asked: BTreeSet<String>,
+    /// Sets of nodes and of elements that name one twice, with its number.
+    doubled: [BTreeMap<String, u64>; 2],
     /// Elements of types that are not supported, and sets of them: one error is enough.
     skipped: std::collections::BTreeSet<u64>,
     skipped_sets: std::collections::BTreeSet<String>,
@@ -100,6 +105,8 @@ impl<'a> Reader<'a> {
             in_step: false,
             procedure: false,
             touched: Vec::new(),
+            asked: BTreeSet::new(),
+            doubled: Default::default(),
             skipped: Default::default(),
             skipped_sets: Default::default(),
             bounding: Vec::new(),

@@ -1,7 +1,11 @@
 //! Steps: procedure, loads, supports, output.
 
+use std::collections::BTreeSet;
+
 use super::{Reader, keys, parameter, whole};
-use crate::deck::{Action, Boundary, Distributed, Print, Procedure, Step, Totals, When};
+use crate::deck::{
+    Action, Boundary, Distributed, Print, Procedure, Step, SurfaceParts, Target, Totals, When,
+};
 use crate::source::{Card, Data, Place, label, squeeze};
 
 impl Reader<'_> {
@@ -27,15 +31,21 @@ impl Reader<'_> {
                 None
             }
         };
+        // What is printed and written goes on until cards of the same kind say otherwise.
+        let before = self.deck.steps.last();
         self.deck.steps.push(Step {
             nonlinear,
             abrupt,
             place: card.place,
+            prints: before.map_or_else(Vec::new, |s| s.prints.clone()),
+            output_every: before.and_then(|s| s.output_every),
+            output_times: before.map_or_else(Vec::new, |s| s.output_times.clone()),
             ..Step::default()
         });
         self.in_step = true;
         self.procedure = false;
         self.touched.clear();
+        self.asked.clear();
     }
 
     pub(super) fn end_step(&mut self, card: &Card) {
@@ -264,6 +274,9 @@ impl Reader<'_> {
             else {
                 continue;
             };
+            if let Target::Set(name) = &target {
+                self.once(0, name, data.place);
+            }
             let value = self.number(data, 2, 0.0);
             self.act(Action::Force {
                 target,
@@ -347,6 +360,7 @@ impl Reader<'_> {
             let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
             // `*DLOAD` of a surface is what some pre-processors write.
             if what == "P" && self.deck.surfaces.contains_key(&label(&first)) {
+                self.faces_once(&label(&first), data.place);
                 let p = self.number(data, 2, 0.0);
                 self.distribute(
                     &amplitude,
@@ -362,6 +376,7 @@ impl Reader<'_> {
             if elements.is_empty() {
                 continue;
             }
+            self.once(1, &label(&first), data.place);
             let value = self.number(data, 2, 0.0);
             let count = match what.as_str() {
                 "GRAV" => 6,
@@ -448,8 +463,25 @@ impl Reader<'_> {
                 );
                 continue;
             }
+            self.faces_once(&name, data.place);
             let p = self.number(data, 2, 0.0);
             self.distribute(&amplitude, Distributed::Surface(name, p), data.place);
+        }
+    }
+
+    /// It is an error to load a surface that names one of its faces twice.
+    fn faces_once(&mut self, name: &str, place: Place) {
+        let Some(SurfaceParts::Faces(faces)) = self.deck.surfaces.get(name).map(|s| &s.parts)
+        else {
+            return;
+        };
+        let mut seen = BTreeSet::new();
+        let again = faces.iter().copied().find(|f| !seen.insert(*f));
+        if let Some((element, Some(face))) = again {
+            let message = format!(
+                "face {face} of element {element} stands in the surface {name} more than once: it is loaded as often in CalculiX, and once in Abaqus"
+            );
+            self.error(place, message, "let the surface name each face once");
         }
     }
 
@@ -475,6 +507,16 @@ impl Reader<'_> {
         if self.own_step(card).is_none() {
             return;
         }
+        let kind = |p: &Print| match p {
+            Print::Node { .. } => "NODEPRINT",
+            Print::Element { .. } => "ELPRINT",
+            Print::Contact { .. } => "CONTACTPRINT",
+        };
+        if self.asked.insert(card.keyword.clone())
+            && let Some(step) = self.deck.steps.last_mut()
+        {
+            step.prints.retain(|p| kind(p) != card.keyword);
+        }
         let totals = match card.get("TOTALS") {
             Some("YES") => Totals::Yes,
             Some("ONLY") => Totals::Only,
@@ -483,8 +525,8 @@ impl Reader<'_> {
         let Some(when) = self.when(card) else { return };
         let keys = keys(card);
         let known: &[&str] = match card.keyword.as_str() {
-            "NODEPRINT" => &["U", "RF", "V", "A", "NT"],
-            "ELPRINT" => &["S", "E", "ELSE", "EVOL", "ELKE", "EMAS", "ENER"],
+            "NODEPRINT" => &["U", "RF", "V", "A"],
+            "ELPRINT" => &["S", "E", "ELSE", "EVOL"],
             _ => &[
                 "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",
             ],
@@ -503,6 +545,14 @@ impl Reader<'_> {
             .into_iter()
             .filter(|k| known.contains(&k.as_str()))
             .collect();
+        let sums = match card.keyword.as_str() {
+            "NODEPRINT" => card.get("NSET").map(|s| (0, s.to_string())),
+            "ELPRINT" => card.get("ELSET").map(|s| (1, s.to_string())),
+            _ => None,
+        };
+        if let (true, Some((kind, set))) = (totals != Totals::No, sums) {
+            self.once(kind, &set, card.place);
+        }
         let print = match card.keyword.as_str() {
             "NODEPRINT" => match card.get("NSET").map(str::to_string) {
                 Some(set) if !self.deck.node_sets.contains_key(&set) => {
@@ -566,6 +616,11 @@ impl Reader<'_> {
     pub(super) fn output(&mut self, card: &Card) {
         if self.own_step(card).is_none() {
             return;
+        }
+        if self.asked.insert("OUTPUT".into())
+            && let Some(step) = self.deck.steps.last_mut()
+        {
+            step.output_every = None;
         }
         let when = self.when(card);
         if let (Some(When::Every(n)), Some(step)) = (when, self.deck.steps.last_mut()) {

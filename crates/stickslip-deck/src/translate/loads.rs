@@ -18,6 +18,8 @@ pub(super) struct Acting<T> {
     pub place: Place,
     pub label: String,
     steps: Vec<bool>,
+    /// Steps to which it comes from the one before, without being given anew.
+    kept: Vec<bool>,
     /// Steps in which a value with an amplitude takes its place: it ends at once, instead of falling over the step.
     ends: Vec<bool>,
 }
@@ -28,6 +30,7 @@ impl<T> Acting<T> {
         When {
             amplitude: self.amplitude.clone(),
             steps: self.steps.clone(),
+            kept: self.kept.clone(),
             ends: self.ends.clone(),
         }
     }
@@ -38,11 +41,21 @@ impl<T> Acting<T> {
 pub(super) struct When {
     amplitude: Option<String>,
     steps: Vec<bool>,
+    kept: Vec<bool>,
     ends: Vec<bool>,
 }
 
-/// A value with its amplitude, and where and for what it was given.
-pub(super) type Given<T> = (T, Option<String>, Place, String);
+/// A value as a step gives it, or the step before.
+#[derive(Debug, Clone)]
+pub(super) struct Given<T> {
+    pub what: T,
+    pub amplitude: Option<String>,
+    pub place: Place,
+    /// What it was given for.
+    pub label: String,
+    /// The step that gives it.
+    pub step: usize,
+}
 
 /// Values by step to values with their steps, equal ones together.
 pub(super) fn collect<K: Ord + Clone, T: Clone + PartialEq>(
@@ -51,31 +64,32 @@ pub(super) fn collect<K: Ord + Clone, T: Clone + PartialEq>(
     let mut out: Vec<(K, Acting<T>)> = Vec::new();
     let mut at: BTreeMap<K, Vec<usize>> = BTreeMap::new();
     for (i, state) in by_step.iter().enumerate() {
-        for (key, (what, amplitude, place, label)) in state {
+        for (key, given) in state {
             let known = at.entry(key.clone()).or_default();
-            let same = known
-                .iter()
-                .copied()
-                .find(|&j| out[j].1.what == *what && out[j].1.amplitude == *amplitude);
+            let alike = |a: &Acting<T>| a.what == given.what && a.amplitude == given.amplitude;
+            let same = known.iter().copied().find(|&j| alike(&out[j].1));
             let index = same.unwrap_or_else(|| {
                 known.push(out.len());
                 let acting = Acting {
-                    what: what.clone(),
-                    amplitude: amplitude.clone(),
-                    place: *place,
-                    label: label.clone(),
+                    what: given.what.clone(),
+                    amplitude: given.amplitude.clone(),
+                    place: given.place,
+                    label: given.label.clone(),
                     steps: vec![false; by_step.len()],
+                    kept: vec![false; by_step.len()],
                     ends: vec![false; by_step.len()],
                 };
                 out.push((key.clone(), acting));
                 out.len() - 1
             });
             out[index].1.steps[i] = true;
+            // Without an amplitude it is the same, given anew or not.
+            out[index].1.kept[i] = given.step < i && given.amplitude.is_some();
         }
     }
     for (key, acting) in &mut out {
         for (i, state) in by_step.iter().enumerate().skip(1) {
-            let replaced = state.get(key).is_some_and(|v| v.1.is_some());
+            let replaced = state.get(key).is_some_and(|v| v.amplitude.is_some());
             acting.ends[i] = replaced && acting.steps[i - 1] && !acting.steps[i];
         }
     }
@@ -105,11 +119,11 @@ pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &Wh
     let unusual = when.amplitude.is_none() && steps::unusual(job.deck);
     let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {
         (None, false) => None,
-        (Some(a), false) => Some(steps::amplitude(job, a, &when.steps, &name)),
+        (Some(a), false) => Some(steps::amplitude(job, a, (&when.steps, &when.kept), &name)),
         (a, true) => Some(steps::ending(
             job,
             a.as_ref(),
-            (&when.steps, &when.ends),
+            (&when.steps, &when.kept, &when.ends),
             &name,
         )),
     };
@@ -136,9 +150,9 @@ fn label(target: &Target) -> String {
 }
 
 fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    type State = BTreeMap<(u64, usize), (f64, Option<String>, Place, String)>;
+    type State = BTreeMap<(u64, usize), Given<f64>>;
     let (mut state, mut by_step) = (State::new(), Vec::new());
-    for step in &job.deck.steps {
+    for (i, step) in job.deck.steps.iter().enumerate() {
         // The first force of a step replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
         for action in &step.actions {
@@ -152,19 +166,20 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     place,
                 } => {
                     for node in job.nodes(target) {
-                        let entry = state.entry((node, *component)).or_insert((
-                            0.0,
-                            None,
-                            *place,
-                            label(target),
-                        ));
-                        let first = touched.insert((node, *component));
-                        let before = if first { 0.0 } else { entry.0 };
-                        if !first && entry.1 != *amplitude {
+                        let again = !touched.insert((node, *component));
+                        let before = state.get(&(node, *component)).filter(|_| again);
+                        if before.is_some_and(|b| b.amplitude != *amplitude) {
                             two_courses(job, *place);
                             return;
                         }
-                        *entry = (before + value, amplitude.clone(), *place, label(target));
+                        let given = Given {
+                            what: value + before.map_or(0.0, |b| b.what),
+                            amplitude: amplitude.clone(),
+                            place: *place,
+                            label: label(target),
+                            step: i,
+                        };
+                        state.insert((node, *component), given);
                     }
                 }
                 _ => {}
@@ -252,9 +267,9 @@ fn stand_in(job: &Job, bodies: &Bodies, node: u64) -> Option<u64> {
 }
 
 fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    type State = BTreeMap<(usize, FacetRef), (f64, Option<String>, Place, String)>;
+    type State = BTreeMap<(usize, FacetRef), Given<f64>>;
     let (mut state, mut by_step) = (State::new(), Vec::new());
-    for step in &job.deck.steps {
+    for (i, step) in job.deck.steps.iter().enumerate() {
         // As forces: the first pressure of a step on a face replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
         for action in &step.actions {
@@ -293,15 +308,18 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 for facet in list {
                     let again = !touched.insert((body, facet));
                     let before = state.get(&(body, facet)).filter(|_| again);
-                    let sum = value + before.map_or(0.0, |b| b.0);
-                    if before.is_some_and(|b| b.1 != *amplitude) {
+                    if before.is_some_and(|b| b.amplitude != *amplitude) {
                         two_courses(job, *place);
                         return;
                     }
-                    state.insert(
-                        (body, facet),
-                        (sum, amplitude.clone(), *place, label.clone()),
-                    );
+                    let given = Given {
+                        what: value + before.map_or(0.0, |b| b.what),
+                        amplitude: amplitude.clone(),
+                        place: *place,
+                        label: label.clone(),
+                        step: i,
+                    };
+                    state.insert((body, facet), given);
                 }
             }
         }

@@ -42,7 +42,7 @@ pub(super) fn jump(
     user: &str,
 ) -> Option<String> {
     let deck = job.deck;
-    let (mut jumps, mut usual) = (false, false);
+    let (mut jumps, mut grows) = (false, false);
     for (i, step) in deck.steps.iter().enumerate() {
         let begins = active[i] && (i == 0 || !active[i - 1]);
         let dynamic = matches!(step.procedure, Procedure::Dynamic { .. });
@@ -50,8 +50,22 @@ pub(super) fn jump(
             (false, ..) => {}
             // Where nothing has moved yet, zero is zero at once.
             _ if value == 0.0 && i == 0 => {}
+            (_, false, _) => grows = true,
             (_, true, false) if value != 0.0 => jumps = true,
-            (_, at_once, dynamic) if at_once == dynamic => usual = true,
+            // What moved a little before is held at its place from now on.
+            (_, true, true) if value == 0.0 => jumps = true,
+            (_, true, true) => {
+                job.error(
+                    place,
+                    format!(
+                        "what is prescribed here jumps at the start of step {}: values without an amplitude act at once in a *DYNAMIC step",
+                        i + 1
+                    ),
+                    "a displacement that jumps has no end to its velocity: give the *BOUNDARY an AMPLITUDE, or let all loads of the step grow by \
+                     *STEP, AMPLITUDE=RAMP",
+                );
+                return None;
+            }
             _ => {
                 job.error(
                     place,
@@ -65,7 +79,7 @@ pub(super) fn jump(
             }
         }
     }
-    if jumps && usual {
+    if jumps && grows {
         job.error(
             place,
             "what is prescribed here jumps in one step and grows in another",
@@ -85,8 +99,14 @@ pub(super) fn jump(
     Some(name)
 }
 
-/// An amplitude of the deck over the time of the analysis, as a table of its own for what acts in these steps. Its name.
-pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) -> String {
+/// An amplitude of the deck over the time of the analysis, as a table of its own for what acts in these steps. Its name. Where a step keeps what the
+/// one before gave, an amplitude over the time of a step has run to its end: its last value stays.
+pub(super) fn amplitude(
+    job: &mut Job,
+    name: &str,
+    (active, kept): (&[bool], &[bool]),
+    user: &str,
+) -> String {
     let Some(a) = job.deck.amplitudes.get(name) else {
         return name.to_string();
     };
@@ -95,7 +115,12 @@ pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) 
         rows.clone_from(&a.rows);
     } else {
         // Time starts anew in every step.
-        for ([start, length], _) in job.spans.clone().iter().zip(active).filter(|(_, on)| **on) {
+        let spans = job.spans.iter().zip(active.iter().zip(kept));
+        for ([start, length], (_, kept)) in spans.filter(|(_, (on, _))| **on) {
+            if let (true, Some(last)) = (*kept, rows.last().copied()) {
+                push(&mut rows, [start + length, last[1]]);
+                continue;
+            }
             push(&mut rows, [*start, value(&a.rows, 0.0)]);
             for row in a.rows.iter().filter(|r| r[0] >= 0.0) {
                 if row[0] <= *length * (1.0 + 1e-12) {
@@ -122,7 +147,7 @@ pub(super) fn amplitude(job: &mut Job, name: &str, active: &[bool], user: &str) 
 pub(super) fn ending(
     job: &mut Job,
     name: Option<&String>,
-    (active, ends): (&[bool], &[bool]),
+    (active, kept, ends): (&[bool], &[bool], &[bool]),
     user: &str,
 ) -> String {
     let given = name.and_then(|n| job.deck.amplitudes.get(n));
@@ -132,6 +157,8 @@ pub(super) fn ending(
         let end = start + length;
         let at_once = abrupt(&job.deck.steps[i]);
         match (given, active[i]) {
+            // It stays as it is.
+            (Some(a), true) if kept[i] && !a.total_time => {}
             (Some(a), true) => {
                 let from = if a.total_time { 0.0 } else { start };
                 push(&mut rows, [start, value(&a.rows, start - from)]);

@@ -17,6 +17,8 @@ pub(super) struct Value {
     place: Place,
     /// The set it was given for.
     label: String,
+    /// The step that gives it; the first, too, for what stands before.
+    step: usize,
 }
 
 impl Value {
@@ -34,9 +36,12 @@ impl Value {
 pub(super) type State = BTreeMap<(u64, usize), Value>;
 
 /// A support under way: what is prescribed along the axes, when.
-type Alike = (Vec<bool>, Option<String>, [Option<(u64, bool)>; 3]);
+type Alike = (When, Option<String>, [Option<(u64, bool)>; 3]);
 
-fn apply(job: &Job, state: &mut State, b: &Boundary) {
+/// In which steps something is prescribed, and in which of them it comes from the one before.
+type When = (Vec<bool>, Vec<bool>);
+
+fn apply(job: &Job, state: &mut State, b: &Boundary, step: usize) {
     let label = match &b.target {
         Target::Set(name) => name.clone(),
         Target::One(n) => format!("node-{n}"),
@@ -51,6 +56,7 @@ fn apply(job: &Job, state: &mut State, b: &Boundary) {
                     fixed: b.fixed,
                     place: b.place,
                     label: label.clone(),
+                    step,
                 },
             );
         }
@@ -61,14 +67,14 @@ fn apply(job: &Job, state: &mut State, b: &Boundary) {
 pub(super) fn by_step(job: &Job) -> Vec<State> {
     let mut state = State::new();
     for b in &job.deck.supports {
-        apply(job, &mut state, b);
+        apply(job, &mut state, b, 0);
     }
     let mut out = Vec::new();
-    for step in &job.deck.steps {
+    for (i, step) in job.deck.steps.iter().enumerate() {
         for action in &step.actions {
             match action {
                 Action::ClearBoundaries => state.clear(),
-                Action::Boundary(b) => apply(job, &mut state, b),
+                Action::Boundary(b) => apply(job, &mut state, b, i),
                 _ => {}
             }
         }
@@ -82,11 +88,11 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let count = states.len();
     let dofs: BTreeSet<(u64, usize)> = states.iter().flat_map(|s| s.keys().copied()).collect();
     // Every value of every displacement, with the steps in which it holds.
-    type When = (u64, Vec<bool>, Option<String>);
-    let mut lines: BTreeMap<When, [Option<Value>; 3]> = BTreeMap::new();
+    type Line = (u64, When, Option<String>);
+    let mut lines: BTreeMap<Line, [Option<Value>; 3]> = BTreeMap::new();
     let mut wrong = BTreeSet::new();
     for (node, component) in dofs {
-        let mut values: Vec<(Value, Vec<bool>)> = Vec::new();
+        let mut values: Vec<(Value, When)> = Vec::new();
         for (i, state) in states.iter().enumerate() {
             let Some(v) = state.get(&(node, component)) else {
                 continue;
@@ -95,10 +101,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 .iter()
                 .position(|(w, _)| w.key() == v.key())
                 .unwrap_or_else(|| {
-                    values.push((v.clone(), vec![false; count]));
+                    values.push((v.clone(), (vec![false; count], vec![false; count])));
                     values.len() - 1
                 });
-            values[at].1[i] = true;
+            values[at].1.0[i] = true;
+            // Without an amplitude it is the same, given anew or not.
+            values[at].1.1[i] = v.step < i && v.amplitude.is_some();
         }
         for (v, steps) in values {
             if component >= bodies.dim() {
@@ -178,7 +186,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             .flatten()
             .map(|(bits, _)| f64::from_bits(*bits));
         let largest = given.fold(0.0, |m: f64, v| m.max(v.abs()));
-        let factor = course(job, &amplitude, &steps, (largest, first.place), &name);
+        // What is held where it is does not move.
+        let still = values.iter().flatten().all(|(_, fixed)| *fixed);
+        let factor = match still {
+            true => None,
+            false => course(job, &amplitude, &steps, (largest, first.place), &name),
+        };
         job.table("support", &name, first.place);
         job.out.line(&format!("set = {}", toml::text(&set)));
         let mut held = Vec::new();
@@ -198,7 +211,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             job.out
                 .line(&format!("amplitude = {}", toml::text(&factor)));
         }
-        job.active.push(("supports", name, steps));
+        job.active.push(("supports", name, steps.0));
     }
 }
 
@@ -206,14 +219,13 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 fn course(
     job: &mut Job,
     amplitude: &Option<String>,
-    active: &[bool],
+    (active, kept): &When,
     (value, place): (f64, Place),
     user: &str,
 ) -> Option<String> {
     match amplitude {
-        Some(a) => Some(steps::amplitude(job, a, active, user)),
-        None if steps::unusual(job.deck) => steps::jump(job, active, (value, place), user),
-        None => None,
+        Some(a) => Some(steps::amplitude(job, a, (active, kept), user)),
+        None => steps::jump(job, active, (value, place), user),
     }
 }
 
@@ -222,7 +234,7 @@ fn reference(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (node, steps, amplitude): (u64, &[bool], &Option<String>),
+    (node, when, amplitude): (u64, &When, &Option<String>),
     values: &[Option<Value>; 3],
     states: &[State],
 ) {
@@ -254,7 +266,7 @@ fn reference(
     };
     let still = states
         .iter()
-        .zip(steps)
+        .zip(&when.0)
         .filter(|(_, on)| **on)
         .all(|(s, _)| {
             (0..dim).all(|c| s.contains_key(&(node, c)))
@@ -279,7 +291,7 @@ fn reference(
     let place = first.place;
     let given = values.iter().flatten().map(|v| v.value.abs());
     let largest = given.fold(0.0, f64::max);
-    let factor = course(job, amplitude, steps, (largest, place), &name);
+    let factor = course(job, amplitude, when, (largest, place), &name);
     job.table("support", &name, place);
     job.out.line(&format!("set = {}", toml::text(&set)));
     for (axis, v) in ["x", "y", "z"][..dim].iter().zip(values) {
@@ -291,7 +303,7 @@ fn reference(
         job.out
             .line(&format!("amplitude = {}", toml::text(&factor)));
     }
-    job.active.push(("supports", name, steps.to_vec()));
+    job.active.push(("supports", name, when.0.clone()));
 }
 
 /// The local axes of a node in a `*TRANSFORM`.
@@ -311,7 +323,7 @@ fn local(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (node, steps, amplitude): (u64, &[bool], &Option<String>),
+    (node, when, amplitude): (u64, &When, &Option<String>),
     (values, transform): (&[Option<Value>; 3], Transform),
 ) {
     let Some(first) = values.iter().flatten().next().cloned() else {
@@ -337,7 +349,7 @@ fn local(
             return;
         }
         let name = job.fresh("coupling", &toml::name(&format!("{}-{node}", v.label)));
-        let factor = course(job, amplitude, steps, (v.value, v.place), &name);
+        let factor = course(job, amplitude, when, (v.value, v.place), &name);
         let terms: Vec<String> = ["x", "y", "z"][..bodies.dim()]
             .iter()
             .zip(axis)
@@ -360,6 +372,6 @@ fn local(
             job.out
                 .line(&format!("amplitude = {}", toml::text(&factor)));
         }
-        job.active.push(("couplings", name, steps.to_vec()));
+        job.active.push(("couplings", name, when.0.clone()));
     }
 }

@@ -60,7 +60,7 @@ fn accelerations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     type Key = (String, Vec<u64>);
     type State = BTreeMap<Key, Given<Acceleration>>;
     let (mut state, mut by_step) = (State::new(), Vec::new());
-    for step in &job.deck.steps {
+    for (i, step) in job.deck.steps.iter().enumerate() {
         let mut touched: BTreeSet<Key> = BTreeSet::new();
         for action in &step.actions {
             if *action == Action::ClearDistributed {
@@ -84,16 +84,23 @@ fn accelerations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             let key = (name.clone(), field.bits());
             let again = !touched.insert(key.clone());
             let before = state.get(&key).filter(|_| again);
-            if before.is_some_and(|b| b.1 != *amplitude) {
+            if before.is_some_and(|b| b.amplitude != *amplitude) {
                 two_courses(job, *place);
                 return;
             }
             let what = Acceleration {
                 elements: elements.clone(),
-                value: value + before.map_or(0.0, |b| b.0.value),
+                value: value + before.map_or(0.0, |b| b.what.value),
                 field,
             };
-            state.insert(key, (what, amplitude.clone(), *place, label.into()));
+            let given = Given {
+                what,
+                amplitude: amplitude.clone(),
+                place: *place,
+                label: label.into(),
+                step: i,
+            };
+            state.insert(key, given);
         }
         by_step.push(state.clone());
     }
@@ -173,7 +180,7 @@ fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets, a: &Acting<Accelerati
 fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     type State = BTreeMap<(u64, usize), Given<f64>>;
     let (mut state, mut by_step) = (State::new(), Vec::new());
-    for step in &job.deck.steps {
+    for (i, step) in job.deck.steps.iter().enumerate() {
         let mut touched = BTreeSet::new();
         for action in &step.actions {
             if *action == Action::ClearDistributed {
@@ -190,12 +197,17 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             for e in elements {
                 let again = !touched.insert((*e, *axis));
                 let before = state.get(&(*e, *axis)).filter(|_| again);
-                if before.is_some_and(|b| b.1 != *amplitude) {
+                if before.is_some_and(|b| b.amplitude != *amplitude) {
                     two_courses(job, *place);
                     return;
                 }
-                let sum = force + before.map_or(0.0, |b| b.0);
-                let given = (sum, amplitude.clone(), *place, "body-force".to_string());
+                let given = Given {
+                    what: force + before.map_or(0.0, |b| b.what),
+                    amplitude: amplitude.clone(),
+                    place: *place,
+                    label: "body-force".to_string(),
+                    step: i,
+                };
                 state.insert((*e, *axis), given);
             }
         }

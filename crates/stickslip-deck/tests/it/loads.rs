@@ -191,7 +191,7 @@ fn masses_bear_the_loads_of_their_own_elements() {
 
 #[test]
 fn a_time_delay_shifts_the_amplitude() {
-    // A rod of 1000; the amplitude is 1 + t, and half a second late it stays 1 at first.
+    // A rod of 1000; the amplitude is 1 + t, and half a second late it stays 1 at first. The step after keeps the value, as in CalculiX 2.20.
     let text = |delay: &str| {
         format!(
             "{}*AMPLITUDE, NAME=A\n0., 1., 2., 3.\n*STEP\n*STATIC, DIRECT\n.25, 1.\n*CLOAD, AMPLITUDE=A{delay}\nNTOP, 3, 2.5\n\
@@ -200,7 +200,7 @@ fn a_time_delay_shifts_the_amplitude() {
         )
     };
     let course = run("delay", &text(", TIME DELAY=.5")).course("displacements", 3);
-    let wanted = [0.01, 0.01, 0.0125, 0.015, 0.01, 0.015];
+    let wanted = [0.01, 0.01, 0.0125, 0.015, 0.015, 0.015];
     assert_eq!(course.len(), wanted.len(), "{course:?}");
     for ((_, u), w) in course.iter().zip(wanted) {
         near(*u, w, 1e-8);
@@ -334,4 +334,53 @@ fn elements_print_in_global_axes_if_asked_to_and_totals_always_do() {
     let rows = &r.all("forces")[0].2;
     let along: f64 = rows.iter().map(|row| row[1]).sum();
     assert!((along + 10.0).abs() > 1.0, "{rows:?}");
+}
+
+#[test]
+fn sums_over_sets_that_name_something_twice_are_refused() {
+    // CalculiX loads and prints a node as often as its set names it, Abaqus once.
+    let deck =
+        |sets: &str, step: &str| format!("{}{sets}*STEP\n*STATIC\n{step}*END STEP\n", column());
+    let twice = "*NSET, NSET=T\n5, 6, 5\n";
+    for (sets, step, what) in [
+        (twice, "*CLOAD\nT, 3, 1.\n", "node 5 stands in the set T"),
+        (
+            "*NSET, NSET=T\n5, 6\n*NSET, NSET=T\n6\n",
+            "*CLOAD\nT, 3, 1.\n",
+            "node 6 stands in the set T",
+        ),
+        (
+            "*NSET, NSET=P\n5, 6\n*NSET, NSET=T\nP, NTOP\n*NSET, NSET=U\nT\n",
+            "*CLOAD\nU, 3, 1.\n",
+            "stands in the set U",
+        ),
+        (twice, "*NODE PRINT, NSET=T, TOTALS=YES\nRF\n", "node 5"),
+        (
+            "*ELSET, ELSET=T\nEN, 1\n",
+            "*DLOAD\nT, GRAV, 1., 0., 0., 1.\n",
+            "element 1 stands in the set T",
+        ),
+        (
+            "*ELSET, ELSET=T\nEN, 1\n",
+            "*EL PRINT, ELSET=T, TOTALS=ONLY\nEVOL\n",
+            "element 1",
+        ),
+        (
+            "*SURFACE, NAME=T\nEN, S2\n1, S2\n",
+            "*DSLOAD\nT, P, 1.\n",
+            "face 2 of element 1 stands in the surface T",
+        ),
+    ] {
+        let message = refused(&deck(sets, step));
+        assert!(message.contains(what), "{message}");
+        assert!(
+            message.contains("once in Abaqus") && message.contains("name each"),
+            "{message}"
+        );
+    }
+    // What is only held, printed one by one, or made of cells that share nodes is the same either way.
+    translate(&deck(
+        &format!("{twice}*NSET, NSET=C, ELSET=EN\n"),
+        "*BOUNDARY\nT, 3\n*NODE PRINT, NSET=T\nU\n*CLOAD\nC, 3, 1.\n",
+    ));
 }

@@ -255,3 +255,21 @@ fn keywords_that_do_not_matter_are_noted_and_others_refused() {
         );
     }
 }
+
+#[test]
+fn names_are_given_once() {
+    for card in [
+        "*AMPLITUDE, NAME=X\n0., 0., 1., 1.\n",
+        "*TIME POINTS, NAME=X\n1.\n",
+        "*ORIENTATION, NAME=X\n1., 0., 0., 0., 1., 0.\n",
+        "*MATERIAL, NAME=X\n*ELASTIC\n1., .3\n",
+        "*SURFACE INTERACTION, NAME=X\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n",
+        "*SURFACE, NAME=X\nEN, S1\n",
+    ] {
+        let message = refused(&format!("{}{card}{card}", crate::support::column()));
+        assert!(
+            message.contains("X") && message.contains("given twice"),
+            "{message}"
+        );
+    }
+}

@@ -1,6 +1,6 @@
 //! Steps: how values go from one to the next, amplitudes, dynamics, and when something is printed.
 
-use crate::support::{column, cube, near, run, sections, translate};
+use crate::support::{column, cube, near, refused, run, sections, translate};
 
 /// A rod with E A = 1000 and length 1 through these steps; the displacement of its end.
 fn rod(name: &str, steps: &str) -> Vec<(f64, f64)> {
@@ -94,6 +94,94 @@ fn amplitudes_run_over_the_time_of_the_step_or_of_the_analysis() {
         &rod("amplitude-total", &steps(", TIME=TOTAL TIME")),
         &course([4.0, 8.0, 8.0, 8.0, 16.0, 8.0]),
     );
+}
+
+#[test]
+fn an_amplitude_of_a_step_that_is_over_leaves_its_last_value() {
+    // A step that only keeps what the one before gave does not run through the amplitude again; CalculiX 2.20 gives the same.
+    let table = "0., 0., .5, 1., 1., .25";
+    let step = |card: &str| format!("*STEP\n*STATIC, DIRECT\n.5, 1.\n{card}{PRINT}");
+    for (name, card, line) in [
+        ("force", "*CLOAD", "NTOP, 3, 1."),
+        ("moved", "*BOUNDARY", "NTOP, 3, 3, .004"),
+        ("pressed", "*DLOAD", "EN, P2, -4."),
+        ("weight", "*DLOAD", "EN, GRAV, 8., 0., 0., 1."),
+        ("volume", "*DLOAD", "EN, BZ, 8."),
+    ] {
+        let steps = format!(
+            "*AMPLITUDE, NAME=A\n{table}\n{}{}{}",
+            step(&format!("{card}, AMPLITUDE=A\n{line}\n")),
+            step(""),
+            step(&format!("{card}\n{line}\n"))
+        );
+        let wanted = [4.0, 1.0, 1.0, 1.0, 2.5, 4.0];
+        let wanted: Vec<(f64, f64)> = (1..).map(|i| 0.5 * i as f64).zip(wanted).collect();
+        is(&rod(&format!("over-{name}"), &steps), &wanted);
+    }
+    // Given anew, or over the time of the analysis, it goes on.
+    let again = format!(
+        "*AMPLITUDE, NAME=A\n{table}\n{}{}",
+        step("*CLOAD, AMPLITUDE=A\nNTOP, 3, 1.\n"),
+        step("*CLOAD, AMPLITUDE=A\nNTOP, 3, 1.\n")
+    );
+    is(
+        &rod("over-again", &again),
+        &[(0.5, 4.0), (1.0, 1.0), (1.5, 4.0), (2.0, 1.0)],
+    );
+    let total = format!(
+        "*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n0., 0., 2., 1.\n{}{}",
+        step("*CLOAD, AMPLITUDE=A\nNTOP, 3, 1.\n"),
+        step("")
+    );
+    is(
+        &rod("over-total", &total),
+        &[(0.5, 1.0), (1.0, 2.0), (1.5, 3.0), (2.0, 4.0)],
+    );
+}
+
+#[test]
+fn displacements_that_would_jump_in_a_dynamic_step_are_refused() {
+    let text = |step: &str, amplitude: &str| {
+        format!(
+            "{}*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*STEP{step}\n*DYNAMIC, DIRECT\n.01, .1\n*BOUNDARY{amplitude}\nNTOP, 3, 3, .01\n*END STEP\n",
+            column()
+        )
+    };
+    let message = refused(&text("", ""));
+    assert!(
+        message.contains("job.inp:23: error: what is prescribed here jumps"),
+        "{message}"
+    );
+    assert!(refused(&text(", AMPLITUDE=STEP", "")).contains("jumps"));
+    translate(&text("", ", AMPLITUDE=A"));
+    let grows = run(
+        "dynamic-ramp",
+        &text(", AMPLITUDE=RAMP", "").replace("*END", "*NODE PRINT, NSET=NTOP\nU\n*END"),
+    );
+    near(grows.course("displacements", 3)[0].1, 1e-3, 1e-9);
+    // What a step before has moved stays.
+    let stays = text("", "").replace(
+        "*STEP\n*DYNAMIC",
+        "*STEP\n*STATIC\n*BOUNDARY\nNTOP, 3, 3, .01\n*END STEP\n*STEP\n*DYNAMIC",
+    );
+    translate(&stays);
+}
+
+#[test]
+fn what_is_printed_goes_on_until_cards_of_its_kind_say_otherwise() {
+    let step = |cards: &str| format!("*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n{cards}*END STEP\n");
+    let steps = [
+        "*NODE PRINT, NSET=N\nU\n*EL PRINT, ELSET=EN\nS\n",
+        "",
+        "*NODE PRINT, NSET=NTOP\nRF\n",
+        "*EL PRINT, ELSET=EN, FREQUENCY=0\nS\n",
+    ];
+    let steps: String = steps.iter().map(|s| step(s)).collect();
+    let r = run("prints-go-on", &format!("{}{steps}", column()));
+    let times = |title: &str| -> Vec<f64> { r.all(title).iter().map(|b| b.1).collect() };
+    assert_eq!(times("displacements"), [1.0, 2.0]);
+    assert_eq!(times("forces"), [3.0, 4.0]);
+    assert_eq!(times("stresses"), [1.0, 2.0, 3.0]);
 }
 
 #[test]
