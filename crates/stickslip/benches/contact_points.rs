@@ -157,6 +157,7 @@ fn interface(
         belt: Vec::new(),
         schedule: Schedule::always(),
         edge_tolerance: 1e-3,
+        origin: [0.0; 3],
         initial: Initial::default(),
         memory: Memory::default(),
     }

@@ -8,7 +8,7 @@ use super::run::Simulation;
 use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::error::RunError;
-use crate::math::{Vec3, symmetric_eigen};
+use crate::math::{Vec3, add, symmetric_eigen};
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
@@ -361,7 +361,7 @@ fn inspect(interface: &Interface, gaps: &[f64]) -> InterfaceReport {
         median: gap(finite.get(finite.len() / 2), f64::INFINITY),
         largest: gap(finite.last(), f64::NEG_INFINITY),
         nearest_node: nearest.and_then(|p| Some(interface.node_ids[p.node()?])),
-        nearest_at: nearest.map(|p| p.place(&interface.reference)),
+        nearest_at: nearest.map(|p| add(p.place(&interface.reference), interface.origin)),
         overlapping: finite.iter().filter(|(gap, _)| *gap < 0.0).count(),
         laws: interface.laws.describe(),
     }

@@ -155,7 +155,7 @@ impl Resisted<'_> {
             if ours == theirs {
                 continue;
             }
-            let x = point.position(&interface.reference);
+            let x = interface.place(point);
             for &d in directions {
                 let each = self.modes.iter().enumerate();
                 let values = each.filter_map(|(i, m)| {

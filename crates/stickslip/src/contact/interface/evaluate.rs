@@ -754,7 +754,7 @@ impl Interface {
             stencil.slip[1] = 0.0;
         }
         // Surfaces that just touch must not be in contact or apart by the rounding of the integrals.
-        let rounding = ROUNDING * f64::EPSILON * reach.sqrt();
+        let rounding = ROUNDING * f64::EPSILON * (reach.sqrt() + norm(self.origin));
         if self.memory.untouched && gap.abs() <= rounding {
             gap = 0.0;
         }

@@ -4,7 +4,7 @@ use super::evaluate::TOUCHING;
 use super::{Interface, Primary};
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
-use crate::contact::surface::{Facet, triangulate};
+use crate::contact::surface::{ContactPoint, Facet, triangulate};
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 
 /// Where two surfaces meet along a motion.
@@ -71,6 +71,11 @@ impl Interface {
             norm(sub(last.outward(first.inward(x)), x))
         });
         ways.fold(0.0, f64::max)
+    }
+
+    /// Where a point lies in space in the reference configuration `[m]`.
+    pub fn place(&self, point: &ContactPoint) -> Vec3 {
+        add(point.position(&self.reference), self.origin)
     }
 
     /// Points of the mesh and outward normals of both surfaces there, facet by facet of the primary.

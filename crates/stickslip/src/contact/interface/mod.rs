@@ -78,6 +78,9 @@ pub struct Interface {
     pub primary_nodes: usize,
     /// Their user's numbers.
     pub node_ids: Vec<u64>,
+    /// The place in space from which all coordinates of the interface are counted, those of an obstacle too `[m]`: near enough that gaps, which are
+    /// differences of coordinates, do not lose their digits where a model lies far from where the user counts from.
+    pub origin: Vec3,
     /// Their reference coordinates.
     pub reference: Vec<Vec3>,
     /// Points of the secondary.

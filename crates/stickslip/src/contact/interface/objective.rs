@@ -184,6 +184,7 @@ fn drum(
         belt: Vec::new(),
         schedule: Schedule::always(),
         edge_tolerance: 1e-3,
+        origin: [0.0; 3],
         initial: Initial::default(),
         memory: Memory::default(),
     }

@@ -78,7 +78,7 @@ impl Interface {
         );
         // What rounding of the coordinates may leave is no violation.
         let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
-        let rounding = 16.0 * f64::EPSILON * reach;
+        let rounding = 16.0 * f64::EPSILON * (reach + norm(self.origin));
         let (mut bridged, mut pressed) = (0.0, 0.0);
         let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
         let committed = self.memory.committed.iter();

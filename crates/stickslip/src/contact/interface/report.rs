@@ -120,9 +120,11 @@ impl Interface {
             r.normal = sub(all, r.shear);
         }
         r.centre = match signed.abs() > CANCELLED * r.total {
-            true => scale(1.0 / signed, r.centre),
+            true => add(scale(1.0 / signed, r.centre), self.origin),
             false => [0.0; 3],
         };
+        // As the user counts.
+        r.moment = add(r.moment, cross(self.origin, add(r.normal, r.shear)));
         r
     }
 
@@ -139,7 +141,7 @@ impl Interface {
             }
         }
         if area > 0.0 {
-            centre = scale(1.0 / area, centre);
+            centre = add(scale(1.0 / area, centre), self.origin);
         }
         (centre, normalize(normal).unwrap_or_default())
     }
@@ -296,7 +298,8 @@ impl Interface {
             .map(|(i, (p, h))| {
                 let area = self.area_of(i);
                 let x = p.place(&self.reference);
-                let now = p.place(&moved);
+                let now = sub(p.place(&moved), x);
+                let x = add(x, self.origin);
                 let normal = if h.normal == [0.0; 3] {
                     scale(-1.0, p.normal)
                 } else {
@@ -320,9 +323,9 @@ impl Interface {
                     h.pressure * area,
                     shear[0] * area,
                     shear[1] * area,
-                    now[0] - x[0],
-                    now[1] - x[1],
-                    now[2] - x[2],
+                    now[0],
+                    now[1],
+                    now[2],
                     h.dissipated,
                     wear * h.rubbed,
                 ]

@@ -3,7 +3,7 @@
 use super::{Interface, Primary};
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::response::Status;
-use crate::math::{distance, norm};
+use crate::math::{add, distance, norm};
 use crate::system::{Culprit, Evidence};
 
 /// Most culprits of one interface.
@@ -38,7 +38,7 @@ impl Interface {
             interface: self.name.clone(),
             node: point.node().map(|one| self.node_ids[one]),
             points: point.nodes.iter().map(|&n| self.nodes[n]).collect(),
-            position: point.position(&self.reference),
+            position: add(point.position(&self.reference), self.origin),
             normal: point.normal.map(|c| -c),
             kink: 1.0,
             ..Evidence::default()

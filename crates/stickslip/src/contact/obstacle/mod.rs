@@ -57,6 +57,29 @@ crate::family! {
     }
 }
 
+impl ObstacleShape {
+    /// The same shape elsewhere.
+    pub fn moved(&self, by: Vec3) -> Self {
+        let mut shape = self.clone();
+        moved(
+            match &mut shape {
+                ObstacleShape::Plane(plane) => &mut plane.point,
+                ObstacleShape::Cylinder(cylinder) => &mut cylinder.centre,
+                ObstacleShape::Sphere(sphere) => &mut sphere.centre,
+            },
+            by,
+        );
+        shape
+    }
+}
+
+/// Moves a point given by two or three numbers.
+fn moved(point: &mut [f64], by: Vec3) {
+    for (x, by) in point.iter_mut().zip(by) {
+        *x += by;
+    }
+}
+
 /// A point given by two numbers in a plane problem, three in space.
 pub(crate) fn to_vec3(v: &[f64]) -> Vec3 {
     std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))

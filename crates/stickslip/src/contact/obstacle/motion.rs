@@ -116,6 +116,15 @@ impl Motion {
         pose
     }
 
+    /// The same motion about a centre elsewhere.
+    pub fn moved(&self, by: Vec3) -> Self {
+        let mut motion = self.clone();
+        if let Some(rotation) = &mut motion.rotation {
+            super::moved(&mut rotation.centre, by);
+        }
+        motion
+    }
+
     /// The way from one time to another: shift of the centre of rotation, and the angle turned about it along the axis.
     pub fn way(&self, from: f64, to: f64) -> [Vec3; 2] {
         let shift = sub(self.pose(to).shift, self.pose(from).shift);

@@ -15,11 +15,14 @@ use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};
-use crate::math::{Vec3, add_scaled, cross, norm, normalize};
+use crate::math::{Vec3, add_scaled, cross, norm, normalize, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
 use crate::shape::ElementKind;
 use crate::simulation::Body;
 use crate::system::{Dofs, Schedule};
+
+/// Multiple of its size by which a model lies away before its interfaces count coordinates from somewhere nearer.
+const FAR: f64 = 16.0;
 
 /// How far a point may overhang the outer edge of the primary, relative to the facet.
 const EDGE_TOLERANCE: f64 = 1e-3;
@@ -127,10 +130,15 @@ impl Make<'_> {
             surfaces.simple(&secondary.1, &facets)?;
         }
         let mut numbering = Numbering::default();
+        let origin = surfaces.origin();
         let opposite = match self.problem.obstacle.get(primary.0) {
             Some(obstacle) => Primary::Rigid(
-                obstacle.shape.clone(),
-                obstacle.motion.clone().unwrap_or_default(),
+                obstacle.shape.moved(scale(-1.0, origin)),
+                obstacle
+                    .motion
+                    .clone()
+                    .unwrap_or_default()
+                    .moved(scale(-1.0, origin)),
             ),
             None => {
                 let theirs = self.sets.facets(primary.0, &primary.1)?;
@@ -187,7 +195,7 @@ impl Make<'_> {
         let mesh = surfaces.mesh;
         let beneath = surfaces.facets(&facets, &mut numbering);
         let nodes = numbering.nodes;
-        let reference: Vec<Vec3> = nodes.iter().map(|&n| mesh.points[n]).collect();
+        let reference: Vec<Vec3> = nodes.iter().map(|&n| sub(mesh.points[n], origin)).collect();
         let faces = mortar
             .as_ref()
             .map(|m| m.faces.iter().map(|f| f.points.clone()));
@@ -205,6 +213,7 @@ impl Make<'_> {
                 Some(_) => Vec::new(),
                 None => skin(beneath, &points, own.as_deref()),
             },
+            origin,
             reference,
             nodes,
             primary_nodes,
@@ -279,6 +288,30 @@ impl Surfaces<'_> {
             .find(|b| b.blocks.contains(&block))
             .and_then(|b| b.elastic.constrained_modulus(block))
             .unwrap_or(0.0)
+    }
+
+    /// Where the coordinates of interfaces are counted from: near the middle of a model that lies many times its size away from where the user counts
+    /// from, with so few digits that nothing is lost where it is taken off. Never another radius.
+    fn origin(&self) -> Vec3 {
+        let Some(&first) = self.mesh.points.first() else {
+            return [0.0; 3];
+        };
+        let (mut low, mut high) = (first, first);
+        for x in &self.mesh.points {
+            low = std::array::from_fn(|c| low[c].min(x[c]));
+            high = std::array::from_fn(|c| high[c].max(x[c]));
+        }
+        let size = norm(sub(high, low));
+        let unit = size.log2().ceil().exp2();
+        std::array::from_fn(|c| {
+            let middle = 0.5 * (low[c] + high[c]);
+            let far = middle.abs() > FAR * size && unit.is_normal();
+            let radius = c == 0 && self.space == Space::Axisymmetric;
+            match far && !radius {
+                true => unit * (middle / unit).round(),
+                false => 0.0,
+            }
+        })
     }
 
     fn coordinates(&self, nodes: &[usize]) -> Vec<Vec3> {

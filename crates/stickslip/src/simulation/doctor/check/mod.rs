@@ -155,7 +155,7 @@ fn secondary(interface: &Interface, i: usize, remark: String) -> Guilty {
         remark,
         ..Guilty::default()
     }
-    .at(point.position(&interface.reference))
+    .at(interface.place(point))
 }
 
 /// Lowest and highest coordinates.
