@@ -56,7 +56,11 @@ pub fn points(results: &Results, pair: &Pair) -> Vec<usize> {
             let set = set
                 .and_then(|s| results.mesh.set(&results.case, s))
                 .unwrap_or_default();
-            if name != pair.name || side == "primary" {
+            let checked = match pair.exchanged {
+                true => "primary",
+                false => "secondary",
+            };
+            if name != pair.name || side != checked {
                 shared.extend(set);
             }
         }
@@ -330,7 +334,11 @@ pub fn reactions(results: &Results, pairs: &[Pair], report: &mut Report) {
                 names.push(format!("{}-reverse", pair.name));
             }
             for (k, name) in names.iter().enumerate() {
-                let sign = if k == 0 { 1.0 } else { -1.0 };
+                let sign = if (k == 0) != pair.exchanged {
+                    1.0
+                } else {
+                    -1.0
+                };
                 let force: Vec3 = std::array::from_fn(|i| {
                     let of = |part: &str| results.at(&format!("{name}.{part}{}", i + 1), state);
                     if i < dim {

@@ -167,7 +167,12 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                 }
             };
             let own = tangential(sub(moved, carried), normal);
-            Some(frame(normal, dim).map(|e| dot(own, e)))
+            let mut frame = frame(normal, dim);
+            if pair.exchanged {
+                // Both the motion and the normal of what is written are the other way round: the second direction turns with the normal.
+                frame[0] = scale(-1.0, frame[0]);
+            }
+            Some(frame.map(|e| dot(own, e)))
         };
         for node in nodes
             .iter()

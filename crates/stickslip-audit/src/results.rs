@@ -102,6 +102,13 @@ impl Results {
         })
     }
 
+    /// Whether the summary says that the points of an interface are those of the side that is named primary.
+    pub fn exchanged(&self, interface: &str) -> bool {
+        let all = self.summary["interfaces"].as_array();
+        let mut all = all.into_iter().flatten();
+        all.any(|i| i["name"] == interface && i["exchanged"] == true)
+    }
+
     /// The state before this one, if no increment lies between them: the one that was written, or that of rest at the start.
     pub fn before(&self, i: usize) -> Option<Before<'_>> {
         let row = self.states[i].row?;

@@ -251,15 +251,26 @@ pub struct Pair {
     pub damped: bool,
     /// Whether the material of the primary moves by itself.
     pub belt: bool,
+    /// Whether the side that the problem calls secondary is `primary` here. What is written of forces and slip is that of the sides as they are named.
+    pub exchanged: bool,
 }
 
 impl Pair {
-    /// Reads an interface.
-    pub fn new(case: &Case, mesh: &Mesh, name: &str, table: &Table) -> Option<Pair> {
+    /// Reads an interface, of which the points may be those of the side that is named primary (`exchanged`).
+    pub fn new(
+        case: &Case,
+        mesh: &Mesh,
+        (name, table): (&str, &Table),
+        exchanged: bool,
+    ) -> Option<Pair> {
+        let mut keys = ["secondary", "primary"];
+        if exchanged {
+            keys.reverse();
+        }
         let kinematics = kind(table, "kinematics")
             .map_or("convective", |k| k.0)
             .to_string();
-        let primary = Side::named(case, mesh, text_of(table, "primary")?)?;
+        let primary = Side::named(case, mesh, text_of(table, keys[1])?)?;
         let discretisation = kind(table, "discretisation");
         let triangles = text_of(table, "facets") == Some("triangles");
         let mortar = match discretisation {
@@ -269,7 +280,7 @@ impl Pair {
         let flag =
             |table: &Table, key: &str| table.get(key).and_then(toml::Value::as_bool) == Some(true);
         let initial = text_of(table, "initial").unwrap_or("as-meshed");
-        let secondary = Side::named(case, mesh, text_of(table, "secondary")?)?;
+        let secondary = Side::named(case, mesh, text_of(table, keys[0])?)?;
         // Of quadratic faces in space points are means over the faces around them, on obstacles too.
         let solid = |(kind, _): &(Kind, _)| kind.quadratic() && kind.dim() == 3;
         let mortar =
@@ -291,6 +302,7 @@ impl Pair {
             damped: kind(table, "damping").is_some_and(|d| d.0 != "none"),
             belt: table.contains_key("primary-velocity")
                 || table.contains_key("primary-velocity-table"),
+            exchanged,
         })
     }
 
@@ -333,6 +345,7 @@ impl Pair {
             kinematics: String::new(),
             as_meshed: true,
             damped: false,
+            exchanged: false,
             belt: false,
         }
     }

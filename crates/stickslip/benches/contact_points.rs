@@ -151,6 +151,7 @@ fn interface(
         points,
         mortar: None,
         share: 1.0,
+        exchanged: false,
         primary: Primary::Facets(facets),
         laws,
         kinematics,

@@ -48,6 +48,7 @@ friction.coulomb = { mu = 0.3 }
 [interface.middle]
 secondary = "second.bottom"
 primary = "first.top"
+roles = "as-named"
 friction.coulomb = { mu = 0.3 }
 
 [interface.high]

@@ -264,6 +264,9 @@ step = [{{ name = "press", increments = {{ fixed = 2 }} }}]"#
     ))
 }
 
+/// The sides of an interface as they are named, whatever their meshes.
+const AS_NAMED: &str = ", roles = \"as-named\"";
+
 fn force(simulation: &Simulation) -> f64 {
     let interface = &simulation.model.interfaces[0];
     interface.resultant(&simulation.state.u).total
@@ -280,11 +283,12 @@ fn contact_that_a_coarse_secondary_misses_is_found_or_said() {
     });
     assert!(fine.windows(2).all(|f| f[1] < f[0]), "{fine:?}");
     assert!(fine[4] > 0.75 * fine[0], "{fine:?}");
-    // The other way round forces are right within a part, or the gate says so: where nothing is found, and where a mean over large faces finds
+    // With the sides kept the other way round forces are right within a part, or the gate says so: where nothing is found, and where a mean over large faces finds
     // too much.
     for cells in [5, 6, 7, 8, 10, 12, 16, 20] {
         for more in ["", ", discretisation.node-to-facet = {}"] {
-            let simulation = disc(cells, sides.1, sides.0, more);
+            let more = format!("{AS_NAMED}{more}");
+            let simulation = disc(cells, sides.1, sides.0, &more);
             if simulation.summary.quality.met {
                 let error = force(&simulation) / fine[4] - 1.0;
                 assert!(error.abs() < 0.25, "{cells}{more}: {error}");
@@ -296,8 +300,59 @@ fn contact_that_a_coarse_secondary_misses_is_found_or_said() {
 }
 
 #[test]
+fn the_finer_side_is_secondary_whichever_is_named_so() {
+    let more = ", wear = { coefficient = 1e-12, primary-coefficient = 3e-12 }, primary-velocity = [0.01, 0]";
+    for cells in [5, 6, 8, 12, 20] {
+        let named = disc(cells, "disc.arc", "block.top", more);
+        // A belt the other way is the same belt seen from the other side.
+        let more = more.replace("0.01", "-0.01").replace(
+            "1e-12, primary-coefficient = 3e-12",
+            "3e-12, primary-coefficient = 1e-12",
+        );
+        let other = disc(cells, "block.top", "disc.arc", &more);
+        assert!(!named.summary.interfaces[0].exchanged && other.summary.interfaces[0].exchanged);
+        assert!(other.summary.quality.met, "{:#?}", violated(&other));
+        let [a, b] = [&named, &other].map(|s| {
+            let i = &s.model.interfaces[0];
+            (
+                i.resultant(&s.state.u),
+                i.wear().expect("is followed"),
+                i.centre_and_normal(&s.state.u),
+            )
+        });
+        let same = |p: [f64; 3], q: [f64; 3], size: f64| {
+            for (p, q) in p.iter().zip(q) {
+                assert!((p - q).abs() <= 1e-9 * size, "{cells}: {p} {q}");
+            }
+        };
+        // Forces are those on the side that is named secondary, whichever carries the points.
+        let turned = |v: [f64; 3]| v.map(|v| -v);
+        assert!(
+            b.0.normal[1] < -1e7 && a.0.normal[1] > 1e7,
+            "{cells}: {a:?} {b:?}"
+        );
+        same(a.0.normal, turned(b.0.normal), a.0.total);
+        same(a.0.shear, turned(b.0.shear), a.0.total);
+        same(a.0.moment, turned(b.0.moment), a.0.total);
+        same(a.2.0, b.2.0, 1.0);
+        same(a.2.1, turned(b.2.1), 1.0);
+        let (a, b) = (a.1, b.1);
+        assert!(
+            a.volume[0] > 0.0 && (a.volume[1] / a.volume[0] - 3.0).abs() < 1e-9,
+            "{a:?}"
+        );
+        assert!((b.volume[0] / b.volume[1] - 3.0).abs() < 1e-9, "{b:?}");
+        same(
+            [a.depth[0], a.depth[1], 0.0],
+            [b.depth[1], b.depth[0], 0.0],
+            a.depth[1],
+        );
+    }
+}
+
+#[test]
 fn an_interface_that_never_carried_is_named() {
-    let simulation = disc(5, "block.top", "disc.arc", "");
+    let simulation = disc(5, "block.top", "disc.arc", AS_NAMED);
     assert_eq!(force(&simulation), 0.0);
     let causes: Vec<DoctorCause> = (simulation.summary.findings.iter())
         .map(|f| f.cause)
@@ -317,14 +372,14 @@ fn contact_at_one_point_is_called_coarse() {
 }
 
 /// A block on the floor or on another body that is narrower than one of its faces.
-fn narrow(below: &str, secondary: &str, primary: &str) -> Simulation {
+fn narrow(below: &str, secondary: &str, primary: &str, more: &str) -> Simulation {
     run(&format!(
         r#"format = 1
 model.space = "solid"
 body.upper = {{ generate.box = {{ from = [0, 0, 1], to = [2, 2, 2], cells = [1, 1, 2] }}, material = "soft" }}
 material.soft.isotropic = {{ young = 1e3, poisson = 0.3 }}
 {below}
-interface.joint = {{ secondary = "{secondary}", primary = "{primary}", discretisation.node-to-facet = {{}} }}
+interface.joint = {{ secondary = "{secondary}", primary = "{primary}", discretisation.node-to-facet = {{}}{more} }}
 support.top = {{ set = "upper.top", x = 0, y = 0, z = -2e-2 }}
 step = [{{ name = "press", increments = {{ fixed = 1 }} }}]"#
     ))
@@ -339,21 +394,23 @@ support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
         )
     };
     for element in ["hex8", "tet4", "hex20"] {
-        let simulation = narrow(&body(element), "upper.bottom", "lower.top");
+        let simulation = narrow(&body(element), "upper.bottom", "lower.top", AS_NAMED);
         assert_eq!(force(&simulation), 0.0);
         trips(&simulation, "unseen-to-approach");
-        // With the narrow body as secondary nothing is missed.
-        let simulation = narrow(&body(element), "lower.top", "upper.bottom");
-        assert!(force(&simulation) > 0.0);
-        assert!(
-            simulation.summary.quality.met,
-            "{:#?}",
-            violated(&simulation)
-        );
+        // With the narrow body as secondary nothing is missed; its cells make it that.
+        for (secondary, primary) in [("lower.top", "upper.bottom"), ("upper.bottom", "lower.top")] {
+            let simulation = narrow(&body(element), secondary, primary, "");
+            assert!(force(&simulation) > 0.0);
+            assert!(
+                simulation.summary.quality.met,
+                "{:#?}",
+                violated(&simulation)
+            );
+        }
     }
     // A ball smaller than the face above it.
     let ball = "obstacle.ball.sphere = { centre = [1, 1, 0.7], radius = 0.3 }";
-    let simulation = narrow(ball, "upper.bottom", "ball");
+    let simulation = narrow(ball, "upper.bottom", "ball", "");
     assert_eq!(force(&simulation), 0.0);
     trips(&simulation, "unseen-to-approach");
 }

@@ -366,7 +366,7 @@ model.space = "plane-strain"
 body.base = {{ generate.rectangle = {{ to = [2, 1], cells = [6, 3] }}, material = "m" }}
 body.upper = {{ generate.rectangle = {{ from = [0.4, 1], to = [1.6, 1.5], cells = [5, 2] }}, material = "m" {upper} }}
 material.m.isotropic = {{ young = 1e3, poisson = 0.3, density = 1.0 }}
-interface.joint = {{ {sides}, friction.coulomb = {{ mu = 0.2 }} }}
+interface.joint = {{ {sides}, roles = "as-named", friction.coulomb = {{ mu = 0.2 }} }}
 support.ground = {{ set = "base.bottom", x = 0, y = 0 }}
 probe.corner = {{ of = "upper", point = [0.4, 1.5] }}
 probe.side = {{ of = "base", point = [2, 1] }}

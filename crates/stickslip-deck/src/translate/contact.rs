@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::bodies::Bodies;
 use super::sets::Sets;
 use super::{Job, toml};
-use crate::deck::{Action, Adjust, Behavior, Friction, Interaction, Pair, SurfaceParts, Target};
+use crate::deck::{
+    Action, Adjust, Behavior, Deck, Friction, Interaction, Pair, Print, SurfaceParts, Target,
+};
 use crate::source::Place;
 
 /// `(body, name of the set)` of each part of a surface.
@@ -236,6 +238,10 @@ fn interface(
             toml::number(d)
         ));
     }
+    if printed_by_node(deck) {
+        // What is printed are the nodes of the slave, whichever side has the smaller cells.
+        job.out.line("roles = \"as-named\"");
+    }
     // CalculiX integrates penalty springs over the faces; on quadratic ones that is what the points of the faces do here.
     let quadratic = compliant(interaction) && curved(job, pair);
     if !by_points(job, &pair.slave) && (pair.by_nodes || quadratic) {
@@ -315,6 +321,17 @@ fn adjust(job: &mut Job, bodies: &Bodies, sets: &mut Sets, pair: &Pair) {
             job.out.line(&format!("initial-set = {}", toml::text(&set)));
         }
     }
+}
+
+/// Whether `*CONTACT PRINT` asks for values at the nodes of slaves.
+fn printed_by_node(deck: &Deck) -> bool {
+    let nodal = |print: &Print| match print {
+        Print::Contact { keys, .. } => keys
+            .iter()
+            .any(|k| k.starts_with("CDIS") || k.starts_with("CSTR")),
+        _ => false,
+    };
+    deck.steps.iter().any(|s| s.prints.iter().any(nodal))
 }
 
 /// Whether the law is a spring.

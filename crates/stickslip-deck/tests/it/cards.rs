@@ -1,6 +1,6 @@
 //! Keywords one by one, against what can be computed by hand. CalculiX 2.20 gives the same numbers where that is said.
 
-use crate::support::{column, cube, near, near3, pair, refused, run, sections};
+use crate::support::{column, cube, near, near3, pair, refused, run, sections, translate};
 
 /// A cube under a stress of 10 along x, with this material; symmetric supports.
 fn pulled(material: &str) -> String {
@@ -236,6 +236,19 @@ fn clearances_count_from_what_the_deck_says() {
     let adjusted = pair(0.001, "SURFACE TO SURFACE", "")
         .replace("SURFACE\nSLAVE", "SURFACE, ADJUST=.002\nSLAVE");
     near(run("adjust", &(adjusted + PRESS)).u(17)[2], -0.008, 2e-3);
+}
+
+#[test]
+fn printed_at_slave_nodes_the_slave_keeps_its_role() {
+    let text = pair(0.0, "SURFACE TO SURFACE", "") + PRESS;
+    let kept = |text: &str| translate(text).toml.contains("roles = \"as-named\"");
+    assert!(!kept(&text));
+    assert!(kept(
+        &text.replace("*END STEP", "*CONTACT PRINT\nCSTR\n*END STEP")
+    ));
+    assert!(!kept(
+        &text.replace("*END STEP", "*CONTACT PRINT\nCNUM\n*END STEP")
+    ));
 }
 
 #[test]

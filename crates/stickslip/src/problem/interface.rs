@@ -16,10 +16,13 @@ use crate::contact::law::slip::SlipModel;
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Interface {
     /// The surface whose points are kept from entering the primary: `body.set` or a `[set.NAME]`. Choose the softer
-    /// or more finely meshed of the two.
+    /// of the two; the more finely meshed one takes its place unless `roles` say otherwise.
     pub secondary: String,
     /// The surface that carries the normal: `body.set`, a `[set.NAME]`, or an obstacle.
     pub primary: String,
+    /// Whether the surfaces keep the roles they are named for.
+    #[serde(default, skip_serializing_if = "by_mesh")]
+    pub roles: Roles,
     /// How the surfaces resist being pressed together.
     #[serde(default)]
     pub normal: NormalModel,
@@ -79,6 +82,10 @@ pub struct Interface {
     pub initial_set: Option<String>,
 }
 
+fn by_mesh(roles: &Roles) -> bool {
+    *roles == Roles::ByMesh
+}
+
 fn as_meshed(start: &Start) -> bool {
     *start == Start::AsMeshed
 }
@@ -100,6 +107,19 @@ impl Interface {
             None => DiscretisationModel::default(),
         }
     }
+}
+
+/// Which of two surfaces is kept from entering the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Roles {
+    /// The points of the more finely meshed surface, if the cells of the other are larger by more than a quarter where the two are nearest to each other at the
+    /// start; a note says so. Forces, slip and wear are reported as of the sides as they are named. Surfaces that are tied, two-sided or moved by
+    /// `initial`, and rigid primaries, keep their roles.
+    #[default]
+    ByMesh,
+    /// The points of the surface that is named secondary.
+    AsNamed,
 }
 
 /// How quadrilateral facets of a primary surface are taken.

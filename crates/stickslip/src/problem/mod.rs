@@ -53,7 +53,7 @@ pub use document::Document;
 pub use dynamic::Dynamic;
 pub use families::{FamilyListing, ModelListing, families};
 pub use initial::Initial;
-pub use interface::{FacetShape, Interface};
+pub use interface::{FacetShape, Interface, Roles};
 pub use load::Load;
 pub use mass::Mass;
 pub use model::{Model, SpaceKind};

@@ -333,6 +333,7 @@ pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
         let factor = interface.numerical_factor();
         InterfaceSummary {
             name: interface.name.clone(),
+            exchanged: interface.exchanged,
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),

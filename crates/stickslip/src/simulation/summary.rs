@@ -157,6 +157,10 @@ pub struct Phases {
 pub struct InterfaceSummary {
     /// Name.
     pub name: String,
+    /// Whether contact points are those of the side that the problem calls primary, see [`Interface::exchanged`].
+    ///
+    /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
+    pub exchanged: bool,
     /// Largest unwanted penetration and false slip.
     pub quality: Quality,
     /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's

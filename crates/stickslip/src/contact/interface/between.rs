@@ -79,7 +79,7 @@ fn gather(facet: &Facet, x: &[Vec3]) -> Vec<Vec3> {
 }
 
 /// One side, to be asked for the gap of a place on the other.
-struct Side<'a> {
+pub(super) struct Side<'a> {
     facets: Vec<&'a Facet>,
     /// Heights of the cells beneath, where they are known.
     sizes: Vec<f64>,
@@ -92,7 +92,7 @@ struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    fn new(
+    pub(super) fn new(
         facets: Vec<&'a Facet>,
         (sizes, deep): (Vec<f64>, f64),
         x: &'a [Vec3],
@@ -111,6 +111,13 @@ impl<'a> Side<'a> {
             x,
             reference,
         }
+    }
+
+    /// The facet opposite the centre of one of the other side, and the gap.
+    pub(super) fn opposite(&self, facet: &Facet) -> Option<(usize, f64)> {
+        let [s, t, _] = facet.kind.centre();
+        let place = place(facet, self.x, self.reference, [s, t]);
+        self.gap(&place, &mut Vec::new())
     }
 
     /// The nearest facet that faces a place, and the gap; `None` where there is none, or where the place lies beneath facets but beside all of
@@ -165,16 +172,19 @@ fn places<'a>(
     x: &'a [Vec3],
     reference: &'a [Vec3],
 ) -> impl Iterator<Item = Place> + 'a {
-    let (now, then) = (gather(facet, x), gather(facet, reference));
-    grid(facet.kind).iter().map(move |&xi| {
-        let p = evaluate(facet.kind, &now, xi);
-        let from = then.iter().zip(&p.n);
-        Place {
-            x: p.x,
-            from: from.fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x)),
-            normal: p.normal,
-        }
-    })
+    let at = move |&xi: &[f64; 2]| place(facet, x, reference, xi);
+    grid(facet.kind).iter().map(at)
+}
+
+/// A place on a facet.
+fn place(facet: &Facet, x: &[Vec3], reference: &[Vec3], xi: [f64; 2]) -> Place {
+    let p = evaluate(facet.kind, &gather(facet, x), xi);
+    let from = facet.nodes.iter().zip(&p.n);
+    Place {
+        x: p.x,
+        from: from.fold([0.0; 3], |s, (&node, &n)| add_scaled(s, n, reference[node])),
+        normal: p.normal,
+    }
 }
 
 impl Interface {

@@ -14,6 +14,7 @@ mod reach;
 mod report;
 mod resolution;
 mod sides;
+mod spacing;
 mod springs;
 mod start;
 mod steady;
@@ -95,6 +96,9 @@ pub struct Interface {
     pub primary: Primary,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
     pub share: f64,
+    /// The points are those of the side that the problem calls primary, because its cells are smaller. What is reported of forces, slip and normals
+    /// is that of the sides as they are named.
+    pub exchanged: bool,
     /// Normal law, friction, slip rule, enforcement.
     pub laws: Laws,
     /// How gap and slip are measured.

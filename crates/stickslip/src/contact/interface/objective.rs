@@ -174,6 +174,7 @@ fn drum(
         primary: Primary::Facets(facets),
         skin,
         share: 1.0,
+        exchanged: false,
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),
             enforcement: EnforcementModel::Penalty(Penalty::default()),

@@ -6,7 +6,7 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale, sub};
 use crate::system::{Fields, Force, Location, Stage};
 
-/// Forces of an interface on its secondary.
+/// Forces of an interface on what the problem calls its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Resultant {
     /// Sum of pressure forces `[N]`.
@@ -89,7 +89,7 @@ impl Interface {
         }
     }
 
-    /// Forces on the secondary at the last committed state `u`.
+    /// Forces on the secondary, as it is named, at the last committed state `u`.
     pub fn resultant(&self, u: &[f64]) -> Resultant {
         let x = self.coordinates(u);
         let mut r = Resultant::default();
@@ -125,7 +125,20 @@ impl Interface {
         };
         // As the user counts.
         r.moment = add(r.moment, cross(self.origin, add(r.normal, r.shear)));
+        for v in [&mut r.normal, &mut r.shear, &mut r.moment] {
+            *v = scale(self.named(), *v);
+        }
         r
+    }
+
+    /// Normal of the primary, shear on the secondary and slip of it at a point, of the sides as they are named.
+    fn vectors(&self, i: usize) -> [Vec3; 3] {
+        let h = &self.memory.committed[i];
+        let normal = match h.normal == [0.0; 3] {
+            true => scale(-1.0, self.points[i].normal),
+            false => h.normal,
+        };
+        [normal, h.shear, h.slip].map(|v| scale(self.named(), v))
     }
 
     /// Centre of the area in contact at the displacements `u` `[m]`, and the mean outward normal of the secondary there; zero where nothing touches.
@@ -143,7 +156,8 @@ impl Interface {
         if area > 0.0 {
             centre = add(scale(1.0 / area, centre), self.origin);
         }
-        (centre, normalize(normal).unwrap_or_default())
+        let normal = normalize(normal).unwrap_or_default();
+        (centre, scale(self.named(), normal))
     }
 
     /// Forces on the nodes in the last evaluation: those that the bodies resist, gradients of gap and slip and all. Pressure and shear times the
@@ -174,15 +188,9 @@ impl Interface {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let mut sums = vec![[0.0; 7]; self.nodes.len()];
         let mut statuses = vec![(0.0, 0.0); self.nodes.len()];
-        for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
-            let frame = output_frame(
-                if h.normal == [0.0; 3] {
-                    scale(-1.0, p.normal)
-                } else {
-                    h.normal
-                },
-                dim,
-            );
+        for (i, h) in self.memory.committed.iter().enumerate() {
+            let [normal, shear, slip] = self.vectors(i);
+            let frame = output_frame(normal, dim);
             let status = match h.status {
                 Status::Open => 0.0,
                 Status::Stick => 1.0,
@@ -190,11 +198,11 @@ impl Interface {
             };
             let values = [
                 h.pressure,
-                dot(h.shear, frame[0]),
-                dot(h.shear, frame[1]),
+                dot(shear, frame[0]),
+                dot(shear, frame[1]),
                 h.gap,
-                dot(h.slip, frame[0]),
-                dot(h.slip, frame[1]),
+                dot(slip, frame[0]),
+                dot(slip, frame[1]),
             ];
             let area = self.area_of(i);
             let mut give = |node: usize, weight: f64| {
@@ -281,7 +289,7 @@ impl Interface {
         }
     }
 
-    /// The table of the secondary: names of columns and the columns, one entry a point, for `interfaces/<name>.csv`.
+    /// The table of the contact points: names of columns and the columns, one entry a point, for `interfaces/<name>.csv`.
     pub fn table(&self, u: &[f64]) -> (Vec<String>, Vec<Vec<f64>>) {
         let header = [
             "node", "x", "y", "z", "CPRESS", "CSHEAR1", "CSHEAR2", "COPEN", "CSLIP1", "CSLIP2",
@@ -300,13 +308,9 @@ impl Interface {
                 let x = p.place(&self.reference);
                 let now = sub(p.place(&moved), x);
                 let x = add(x, self.origin);
-                let normal = if h.normal == [0.0; 3] {
-                    scale(-1.0, p.normal)
-                } else {
-                    h.normal
-                };
+                let [normal, shear, slip] = self.vectors(i);
                 let frame = output_frame(normal, dim);
-                let shear = [dot(h.shear, frame[0]), dot(h.shear, frame[1])];
+                let shear = [dot(shear, frame[0]), dot(shear, frame[1])];
                 let id = p.node().map_or(f64::NAN, |n| self.node_ids[n] as f64);
                 vec![
                     id,
@@ -317,8 +321,8 @@ impl Interface {
                     shear[0],
                     shear[1],
                     h.gap,
-                    dot(h.slip, frame[0]),
-                    dot(h.slip, frame[1]),
+                    dot(slip, frame[0]),
+                    dot(slip, frame[1]),
                     f64::from(h.status as u8),
                     h.pressure * area,
                     shear[0] * area,

@@ -12,6 +12,11 @@ pub struct WearReport {
 }
 
 impl Interface {
+    /// Factor of vectors on the secondary that makes them those on the side that the problem calls so.
+    pub(super) fn named(&self) -> f64 {
+        if self.exchanged { -1.0 } else { 1.0 }
+    }
+
     /// Area that a point stands for `[m²]`, at the last committed state; what it would stand for with the whole primary opposite where
     /// nothing is.
     pub(super) fn area_of(&self, i: usize) -> f64 {
@@ -92,12 +97,17 @@ impl Interface {
         let primary = self.memory.traces.iter().map(|t| t[1]);
         let k = [wear.coefficient, wear.primary_coefficient];
         let total = self.memory.rubbed;
-        Some(WearReport {
+        let mut report = WearReport {
             depth: [
                 k[0] * secondary.fold(0.0, f64::max),
                 k[1] * primary.fold(0.0, f64::max),
             ],
             volume: [k[0] * total, k[1] * total],
-        })
+        };
+        if self.exchanged {
+            report.depth.reverse();
+            report.volume.reverse();
+        }
+        Some(report)
     }
 }

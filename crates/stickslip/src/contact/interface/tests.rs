@@ -78,6 +78,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         skin: Vec::new(),
         primary: Primary::Facets(facets),
         share: 1.0,
+        exchanged: false,
         laws: Laws {
             friction: FrictionModel::Coulomb(Coulomb { mu: 0.3, cap: None }),
             enforcement: EnforcementModel::Penalty(Penalty::default()),

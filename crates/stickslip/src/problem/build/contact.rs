@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{FacetShape, Interface as Table, Problem};
+use super::super::{FacetShape, Interface as Table, Problem, Roles};
 use super::faces::FaceGroups;
 use super::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
-use crate::contact::interface::{Initial, Interface, Memory, Primary, neighbours};
+use crate::contact::interface::{Initial, Interface, Memory, Primary, Start, neighbours};
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -58,17 +58,37 @@ pub(super) fn build(
             out.push(make.interface(name.clone(), &secondary, &primary, 0.5)?);
             let mut reverse =
                 make.interface(format!("{name}-reverse"), &primary, &secondary, 0.5)?;
-            for row in &mut reverse.belt {
-                for v in &mut row[1..] {
-                    *v = -*v;
-                }
-            }
+            self::reverse(&mut reverse.belt);
             out.push(reverse);
-        } else {
-            out.push(make.interface(name.clone(), &secondary, &primary, 1.0)?);
+            continue;
         }
+        let named = make.interface(name.clone(), &secondary, &primary, 1.0)?;
+        out.push(match make.to_exchange(&named) {
+            true => exchanged(make.interface(name.clone(), &primary, &secondary, 1.0)?),
+            false => named,
+        });
     }
     Ok(out)
+}
+
+/// Spacing of the points of the secondary over that of the nodes of the primary from which on the sides are exchanged.
+const COARSER: f64 = 1.25;
+
+/// An interface made with its sides exchanged: what the problem says of one side is said of the other.
+fn exchanged(mut interface: Interface) -> Interface {
+    interface.exchanged = true;
+    reverse(&mut interface.belt);
+    if let Some(wear) = &mut interface.laws.wear {
+        std::mem::swap(&mut wear.coefficient, &mut wear.primary_coefficient);
+    }
+    interface
+}
+
+/// The other side of a belt comes the other way.
+fn reverse(belt: &mut [[f64; 4]]) {
+    for v in belt.iter_mut().flat_map(|row| &mut row[1..]) {
+        *v = -*v;
+    }
 }
 
 /// What an interface is made from.
@@ -103,6 +123,26 @@ impl Make<'_> {
             true => Ok((found?, None)),
             false => Ok((facets, Some(points))),
         }
+    }
+
+    /// Whether the side that is named primary becomes the secondary, because its cells are smaller: points see what is opposite them, and between points that are
+    /// far apart a finer surface would enter unseen. Not where the problem says more of the points than what they are on: which of them move, which take part;
+    /// and points of a rigid body, which cannot give way one by one, are no secondary.
+    fn to_exchange(&self, named: &Interface) -> bool {
+        let table = self.table;
+        let settled = table.roles == Roles::AsNamed
+            || table.tied
+            || table.initial == Start::Snap
+            || table.initial_set.is_some();
+        if settled {
+            return false;
+        }
+        let bodies = self.surfaces.bodies;
+        let rigid = named.nodes[..named.primary_nodes].first().is_some_and(|n| {
+            let body = bodies.iter().find(|b| b.points.contains(n));
+            body.is_some_and(|b| b.rigid.is_some())
+        });
+        !rigid && named.coarser().is_some_and(|ratio| ratio > COARSER)
     }
 
     /// How an interface starts; `key` is that of its secondary.
@@ -221,6 +261,7 @@ impl Make<'_> {
             mortar,
             primary: opposite,
             share,
+            exchanged: false,
             laws: Laws {
                 normal: table.normal.clone(),
                 damping: table.damping.clone(),

@@ -58,6 +58,17 @@ impl Problem {
         self.build_moved(folder, meshes, moves)
     }
 
+    /// What is said of an interface whose sides were exchanged.
+    fn exchange_note(&self, interface: &crate::contact::interface::Interface) -> Option<String> {
+        let table = self.interface.get(&interface.name)?;
+        interface.exchanged.then(|| {
+            format!(
+                "interface {}: {} has the larger cells, so the points of {} are kept from entering it; forces and slip are reported as of the sides as they are named (`roles = \"as-named\"` keeps them)",
+                interface.name, table.secondary, table.primary
+            )
+        })
+    }
+
     /// The model with some points of the mesh moved.
     fn build_moved(
         &self,
@@ -126,6 +137,8 @@ impl Problem {
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;
+        let mut notes = moves.notes;
+        notes.extend(interfaces.iter().filter_map(|i| self.exchange_note(i)));
         Ok(Model {
             title: self.title.clone().unwrap_or_default(),
             space,
@@ -156,7 +169,7 @@ impl Problem {
             method: self.solver.method,
             energy_limit: self.solver.energy_limit,
             follow: self.solver.follow_loose_bodies,
-            notes: moves.notes,
+            notes,
             quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,

@@ -293,6 +293,7 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
         let plain = Interface {
             secondary: interface.secondary.clone(),
             primary: interface.primary.clone(),
+            roles: interface.roles,
             enforcement: enforcement.clone(),
             discretisation: interface.discretisation.clone(),
             kinematics: interface.kinematics.clone(),

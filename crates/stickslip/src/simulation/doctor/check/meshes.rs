@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
-use super::{Measured, median, sides};
+use super::{Measured, median, roles, sides};
 use crate::contact::interface::Interface;
 use crate::simulation::model::Model;
 use crate::simulation::run::Simulation;
@@ -126,6 +126,7 @@ pub(super) fn check(
     near.truncate((near.len() / 4).max(4));
     let size = median(near.iter().map(|n| n.1).collect());
     let mut out = Vec::new();
+    let [own, other] = roles(interface);
     let swap = format!(
         "swap `secondary` and `primary` of interface {}",
         interface.name
@@ -151,7 +152,7 @@ pub(super) fn check(
                 DoctorCause::MeshMismatch,
                 Severity::Warning,
                 format!(
-                    "interface {}: the cells of the primary (body {theirs}) are {size:.1} times as large as those of the secondary (body {ours})",
+                    "interface {}: the cells of the {other} (body {theirs}) are {size:.1} times as large as those of the {own} (body {ours})",
                     interface.name
                 ),
             )
@@ -162,6 +163,7 @@ pub(super) fn check(
     }
     if let Some(ratio) = softer(model, &ours, &theirs)
         && ratio < SOFTER
+        && !interface.exchanged
         && size < 1.5
     {
         out.push(

@@ -191,6 +191,14 @@ fn sides(model: &Model, interface: &Interface) -> [Option<String>; 2] {
     [secondary, primary]
 }
 
+/// What the problem calls the side of the points and the side of the facets.
+fn roles(interface: &Interface) -> [&'static str; 2] {
+    match interface.exchanged {
+        true => ["primary", "secondary"],
+        false => ["secondary", "primary"],
+    }
+}
+
 /// The middle one of some numbers; NaN of none.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! Surfaces that do not face each other.
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
-use super::{Measured, secondary, sides};
+use super::{Measured, roles, secondary, sides};
 use crate::contact::interface::{Interface, Primary};
 use crate::math::dot;
 use crate::simulation::run::Simulation;
@@ -24,8 +24,9 @@ pub(super) fn check(
     let (i, cosine) = best.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let [ours, theirs] = sides(&simulation.model, interface);
     let ours = ours.unwrap_or_default();
+    let [own, other] = roles(interface);
     let what = match &theirs {
-        Some(body) => format!("the primary on body {body}"),
+        Some(body) => format!("the {other} on body {body}"),
         None => "the obstacle".to_string(),
     };
     if cosine > FACING {
@@ -38,7 +39,7 @@ pub(super) fn check(
             DoctorCause::NormalsNotOpposed,
             Severity::Warning,
             format!(
-                "interface {}: the secondary on body {ours} and {what} {how}: they cannot touch",
+                "interface {}: the {own} on body {ours} and {what} {how}: they cannot touch",
                 interface.name
             ),
         )
@@ -58,7 +59,7 @@ pub(super) fn check(
                     id: Some(facet.cell),
                     body: theirs,
                     interface: Some(interface.name.clone()),
-                    remark: "a facet of the primary".into(),
+                    remark: format!("a facet of the {other}"),
                     ..Guilty::default()
                 }
                 .at(x[0]),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
-use super::sides;
+use super::{roles, sides};
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::math::Vec3;
@@ -22,16 +22,17 @@ struct Surface<'a> {
     points: Vec<(usize, Vec3)>,
 }
 
-/// The surfaces of elastic bodies, secondary first.
+/// The surfaces of elastic bodies, that of the points first.
 fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
     let names = sides(model, interface);
+    let [own, other] = roles(interface);
     let mut normals: BTreeMap<usize, Vec3> = Default::default();
     for p in &interface.points {
         for &n in &p.nodes {
             normals.entry(interface.nodes[n]).or_insert(p.normal);
         }
     }
-    let mut all = vec![("secondary", &names[0], normals)];
+    let mut all = vec![(own, &names[0], normals)];
     if let Primary::Facets(facets) = &interface.primary {
         let mut normals: BTreeMap<usize, Vec3> = Default::default();
         for facet in facets {
@@ -41,7 +42,7 @@ fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
                 normals.entry(interface.nodes[n]).or_insert(normal);
             }
         }
-        all.push(("primary", &names[1], normals));
+        all.push((other, &names[1], normals));
     }
     let surface =
         |(side, name, normals): (&'static str, &Option<String>, BTreeMap<usize, Vec3>)| {
