@@ -415,6 +415,31 @@ support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
     trips(&simulation, "unseen-to-approach");
 }
 
+#[test]
+fn laws_that_yield_are_integrated_over_a_part_of_a_quadratic_face() {
+    // Nothing deforms: overlap times stiffness times the area in common is the force.
+    let (overlap, stiffness) = (1e-3, 1e6);
+    for element in ["hex20", "tet10"] {
+        for width in [0.15, 0.45, 0.8] {
+            let simulation = run(&format!(
+                r#"format = 1
+model.space = "solid"
+body.lower = {{ generate.box = {{ to = [{width}, 1, 1], cells = [1, 1, 1] }}, material = "soft" }}
+body.upper = {{ generate.box = {{ from = [0, 0, 1], to = [1, 1, 2], cells = [1, 1, 1], element = "{element}" }}, material = "soft" }}
+material.soft.isotropic = {{ young = 1e3, poisson = 0.3 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", roles = "as-named", discretisation.node-to-facet = {{}}, normal.linear = {{ c = {stiffness:e} }} }}
+support.lower = {{ set = "lower", x = 0, y = 0, z = 0 }}
+support.upper = {{ set = "upper", x = 0, y = 0, z = -{overlap} }}
+quality.gate = "off"
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}]"#
+            ));
+            let wanted = overlap * stiffness * width;
+            let error = force(&simulation) / wanted - 1.0;
+            assert!(error.abs() < 0.25, "{element} {width}: {error}");
+        }
+    }
+}
+
 /// Two half-discs pressed together and pulled aside.
 fn discs(more: &str) -> Simulation {
     run(&format!(

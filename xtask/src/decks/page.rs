@@ -9,8 +9,8 @@ const REASONS: &[(&str, &str)] = &[
     (
         "punch1",
         "One row of quadratic faces touches, and its pressure rises at the rim: the result depends on the points at which springs of 1e7 act. \
-         CalculiX cuts the faces along each other first and has more of them. With springs of 1e6 in both programs they agree to 0.3 %, and \
-         CalculiX with the nodes moved by hand instead of by ADJUST agrees with itself to 0.05 %.",
+         CalculiX cuts the faces along each other first, and has others. With the nodes moved by hand instead of by ADJUST it agrees with itself \
+         to 0.05 %.",
     ),
     ("contact4", "Hard contact: see the column before."),
     (

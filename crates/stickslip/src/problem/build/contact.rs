@@ -9,6 +9,7 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
+use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{Initial, Interface, Memory, Primary, Start, neighbours};
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::pairing::evaluate;
@@ -17,7 +18,7 @@ use crate::contact::surface::{ContactPoint, Facet, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add_scaled, cross, norm, normalize, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
-use crate::shape::ElementKind;
+use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
 use crate::simulation::Body;
 use crate::system::{Dofs, Schedule};
 
@@ -212,7 +213,8 @@ impl Make<'_> {
             }
             None => {
                 let obstacle = matches!(opposite, Primary::Rigid(..));
-                let points = surfaces.points(&facets, (modulus, obstacle), &mut numbering);
+                let points =
+                    surfaces.points(&facets, (modulus, obstacle, yields(table)), &mut numbering);
                 (points, None)
             }
         };
@@ -279,6 +281,41 @@ impl Make<'_> {
             initial: self.initial(&secondary.1)?,
             memory: Memory::default(),
         })
+    }
+}
+
+/// Whether the laws give way under any pressure and shear, so that there may be more points than a face has freedoms.
+fn yields(table: &Table) -> bool {
+    let compliant = table.normal.as_dyn().pressure(0.0).is_some();
+    let friction = table.friction.as_dyn().frictional() && table.slip.as_dyn().sticks();
+    let springs = table.enforcement.as_dyn().multipliers() == Multipliers::None;
+    compliant && !table.tied && (springs || !friction)
+}
+
+/// Divisions of a quadrilateral, each way, with 2 × 2 points in each part.
+const DIVISIONS: usize = 3;
+
+/// Points of a quadratic face. 2 × 2 points integrate the serendipity functions exactly, and more would overconstrain the face. Where laws yield
+/// it is the pressure that is integrated, which may act on a part of the face only and would go unseen between so few.
+fn face_rule(kind: ElementKind, yields: bool) -> Vec<QuadraturePoint> {
+    let plain = ElementKind::Quad4.reference().quadrature();
+    match (kind, yields) {
+        (ElementKind::Quad8, false) => plain.to_vec(),
+        (_, false) => kind.reference().quadrature().to_vec(),
+        (ElementKind::Quad8, true) => {
+            let h = 1.0 / DIVISIONS as f64;
+            let middle = |k: usize| (2 * k + 1) as f64 * h - 1.0;
+            let parts =
+                (0..DIVISIONS * DIVISIONS).map(|k| [middle(k / DIVISIONS), middle(k % DIVISIONS)]);
+            let points = parts.flat_map(|[s, t]| {
+                plain.iter().map(move |q| QuadraturePoint {
+                    xi: [s + h * q.xi[0], t + h * q.xi[1], 0.0],
+                    weight: h * h * q.weight,
+                })
+            });
+            points.collect()
+        }
+        (_, true) => mass_rule(kind),
     }
 }
 
@@ -407,7 +444,7 @@ impl Surfaces<'_> {
     fn points(
         &self,
         facets: &[FacetRef],
-        (primary, obstacle): (f64, bool),
+        (primary, obstacle, yields): (f64, bool, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
         let ring = matches!(self.space, Space::Axisymmetric);
@@ -422,7 +459,7 @@ impl Surfaces<'_> {
         let mut out = self.nodal_points(&plain, primary, numbering);
         out.extend(match obstacle || ring {
             true => self.mean_points(&curved, primary, numbering),
-            false => self.quadrature_points(&curved, primary, numbering),
+            false => self.quadrature_points(&curved, (primary, yields), numbering),
         });
         out
     }
@@ -510,7 +547,7 @@ impl Surfaces<'_> {
     fn quadrature_points(
         &self,
         facets: &[FacetRef],
-        primary: f64,
+        (primary, yields): (f64, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
         let mut out = Vec::new();
@@ -518,11 +555,7 @@ impl Surfaces<'_> {
             let b = self.beneath(facet);
             let (kind, nodes) = self.mesh.facet_points(facet);
             let x = self.coordinates(&nodes);
-            // 2 × 2 points integrate the serendipity functions exactly; more would overconstrain the face
-            let rule = match kind {
-                ElementKind::Quad8 => ElementKind::Quad4.reference().quadrature(),
-                _ => kind.reference().quadrature(),
-            };
+            let rule = face_rule(kind, yields);
             let local: Vec<usize> = nodes.iter().map(|&n| numbering.of(n)).collect();
             for q in rule {
                 let p = evaluate(kind, &x, [q.xi[0], q.xi[1]]);
