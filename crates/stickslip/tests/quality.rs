@@ -440,6 +440,24 @@ step = [{{ name = "press", increments = {{ fixed = 1 }} }}]"#
     }
 }
 
+#[test]
+fn cells_that_no_contact_can_be_resolved_by_are_named_before_the_run() {
+    let found = |cells: usize, more: &str| {
+        let simulation = disc(cells, "disc.arc", "block.top", more);
+        let found = simulation.summary.findings.iter();
+        found
+            .filter(|f| f.cause == DoctorCause::CoarseContact && f.time.is_none())
+            .map(|f| f.message.clone())
+            .collect::<Vec<_>>()
+    };
+    let said = found(5, "");
+    assert!(
+        said.len() == 1 && said[0].contains("the primary (body block) are 0.5"),
+        "{said:?}"
+    );
+    assert!(found(20, "").is_empty());
+}
+
 /// Two half-discs pressed together and pulled aside.
 fn discs(more: &str) -> Simulation {
     run(&format!(

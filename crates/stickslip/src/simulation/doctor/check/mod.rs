@@ -2,6 +2,7 @@
 
 mod cells;
 mod conditions;
+mod curved;
 mod driven;
 mod friction;
 mod gaps;
@@ -70,6 +71,7 @@ pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>])
                 out.extend(strains::pressed(model, interface, measured));
                 out.extend(meshes::check(simulation, interface, measured));
                 out.extend(surfaces::check(model, interface));
+                out.extend(curved::check(model, interface, t));
             }
         }
         out.extend(friction::check(simulation, interface, measured));
