@@ -162,7 +162,7 @@ fn names_do_not_leave_the_folder() {
         std::fs::write(folder.join("case.toml"), text).expect("a file");
         let (code, text) = run(&folder, &["run", "case.toml"]);
         assert_eq!(code, Some(1), "{name}: {text}");
-        let wanted = format!("cannot be the name of a interface: {why}");
+        let wanted = format!("cannot be the name of an interface: {why}");
         assert!(text.contains(&wanted), "{name}: {text}");
         assert!(text.contains("case.toml:6:"), "{name}: {text}");
     }
@@ -328,6 +328,81 @@ fn a_folder_belongs_to_one_run_at_a_time() {
 }
 
 #[test]
+fn a_folder_that_is_removed_ends_the_run() {
+    let folder = place("removed");
+    let mut first = endless(&folder);
+    // Files appear while it goes.
+    while folder.join("case.out/run.lock").exists() {
+        let _ = std::fs::remove_dir_all(folder.join("case.out"));
+    }
+    let begun = std::time::Instant::now();
+    let status = loop {
+        match first.0.try_wait().expect("it can be asked") {
+            Some(status) => break status,
+            None if begun.elapsed() > Duration::from_secs(20) => panic!("it goes on"),
+            None => std::thread::sleep(Duration::from_millis(20)),
+        }
+    };
+    assert!(matches!(status.code(), Some(1 | 3)), "{status}");
+}
+
+#[test]
+fn a_table_of_a_sweep_is_written_by_one_at_a_time() {
+    let folder = place("two-sweeps");
+    std::fs::write(folder.join("t.csv"), "mine\n").expect("a file");
+    // Whoever holds the lock writes the table.
+    let held = std::fs::File::create(folder.join("t.csv.lock")).expect("a file");
+    held.lock().expect("a lock");
+    std::fs::write(folder.join("t.csv.lock"), "4711 elsewhere\n").expect("a file");
+    let sweep = [
+        "sweep",
+        "case.toml",
+        "-q",
+        "-o",
+        "t.csv",
+        "--set",
+        "support.top.y=-1e-5,-2e-5",
+    ];
+    let (code, text) = run(&folder, &sweep);
+    assert_eq!(code, Some(1), "{text}");
+    assert_eq!(
+        text,
+        "error: t.csv: process N on HOST writes this file: wait for it, or choose another; if that is over, remove t.csv.lock\n"
+    );
+    assert_eq!(
+        std::fs::read(folder.join("t.csv")).expect("a file"),
+        b"mine\n"
+    );
+    drop(held);
+    let (code, text) = run(&folder, &sweep);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(!folder.join("t.csv.lock").exists());
+    let rows = std::fs::read_to_string(folder.join("t.csv")).expect("a file");
+    assert_eq!(rows.lines().count(), 3);
+}
+
+#[test]
+fn a_file_in_the_way_of_the_folder_is_told() {
+    let folder = place("in-the-way");
+    std::fs::write(folder.join("file"), "mine\n").expect("a file");
+    std::os::unix::fs::symlink("nowhere", folder.join("link")).expect("a link");
+    for out in ["file", "link"] {
+        let (code, text) = run(&folder, &["run", "case.toml", "-q", "-o", out]);
+        assert_eq!(code, Some(1), "{text}");
+        assert_eq!(
+            text,
+            format!(
+                "error: {out}: the results need a folder here, and a file or a link to nothing is in its way: choose another folder, or remove it\n"
+            )
+        );
+    }
+    assert_eq!(
+        std::fs::read(folder.join("file")).expect("a file"),
+        b"mine\n"
+    );
+}
+
+#[test]
 fn a_run_killed_at_any_moment_is_known_for_that() {
     let folder = place("killed");
     for pause in [0, 1, 3, 10, 30] {
@@ -407,7 +482,7 @@ fn what_cannot_be_written_to_is_told_before_the_run() {
     assert_eq!(code, Some(1));
     assert_eq!(
         lines(&text, &["error"]),
-        "error: file/out: Not a directory (os error 20)\n"
+        "error: file/out: the results need a folder here, and a file or a link to nothing is in its way: choose another folder, or remove it\n"
     );
     // A file system of which even root cannot write.
     let (code, text) = run(&folder, &["run", "case.toml", "-o", "/proc/stickslip.out"]);

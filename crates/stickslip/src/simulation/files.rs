@@ -148,6 +148,9 @@ impl Observer for ResultFiles {
     fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
         // A run that was stopped may go on.
         self.folder.resume()?;
+        if matches!(event, Event::Output | Event::End) {
+            self.folder.check()?;
+        }
         match event {
             Event::Increment(row) => {
                 if self.history.is_none() {

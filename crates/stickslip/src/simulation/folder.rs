@@ -35,7 +35,7 @@ impl Folder {
     /// # Errors
     /// [`Error::Io`]: what the system says; another run is in it; it holds an input, or files that no run has written, under names of results.
     pub fn take(directory: &Path, claim: &Claim) -> Result<Folder, Error> {
-        fs::create_dir_all(directory).map_err(|e| Error::io(directory, e))?;
+        fs::create_dir_all(directory).map_err(|e| no_folder(directory, e))?;
         for input in &claim.inputs {
             spare(directory, input, claim)?;
         }
@@ -66,6 +66,23 @@ impl Folder {
     /// Gives the folder back: all is written.
     pub fn release(&mut self) {
         self.lock = None;
+    }
+
+    /// Whether it is still ours and what was written is still there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the folder, or the file that says whose it is, was removed.
+    pub fn check(&self) -> Result<(), Error> {
+        match &self.lock {
+            Some(lock) if !lock.stands() => Err(fault(
+                &self.directory,
+                format!(
+                    "the folder, or the {} in it, was removed while the run wrote to it: results before this time are lost; run again into another folder",
+                    lock::NAME
+                ),
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// Takes it once more: a run that was stopped goes on.
@@ -198,6 +215,47 @@ fn spare(directory: &Path, input: &Path, claim: &Claim) -> Result<(), Error> {
             ),
         )),
         false => Ok(()),
+    }
+}
+
+fn no_folder(directory: &Path, e: std::io::Error) -> Error {
+    use std::io::ErrorKind::{AlreadyExists, NotADirectory};
+    match e.kind() {
+        AlreadyExists | NotADirectory => fault(
+            directory,
+            "the results need a folder here, and a file or a link to nothing is in its way: choose another folder, or remove it".into(),
+        ),
+        _ => Error::io(directory, e),
+    }
+}
+
+/// A file that is written again and again by one process: no other may write it meanwhile. A file beside it, with `.lock` behind the name, says so; it
+/// is gone when this is dropped.
+#[derive(Debug)]
+pub struct FileClaim {
+    _lock: Lock,
+}
+
+impl FileClaim {
+    /// Takes the file, which need not exist.
+    ///
+    /// # Errors
+    /// [`Error::Io`]: what the system says; another process has it.
+    pub fn take(file: &Path) -> Result<FileClaim, Error> {
+        let mut beside = file.as_os_str().to_owned();
+        beside.push(".lock");
+        let beside = PathBuf::from(beside);
+        match Lock::take_file(beside.clone()) {
+            Ok(lock) => Ok(FileClaim { _lock: lock }),
+            Err(Refused::Io(e)) => Err(Error::io(&beside, e)),
+            Err(Refused::Taken(holder)) => Err(fault(
+                file,
+                format!(
+                    "{holder} writes this file: wait for it, or choose another; if that is over, remove {}",
+                    beside.display()
+                ),
+            )),
+        }
     }
 }
 

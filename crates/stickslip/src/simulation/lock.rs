@@ -80,7 +80,11 @@ impl From<io::Error> for Refused {
 impl Lock {
     /// Takes the folder.
     pub fn take(directory: &Path) -> Result<Lock, Refused> {
-        let path = directory.join(NAME);
+        Lock::take_file(directory.join(NAME))
+    }
+
+    /// Takes what this file stands for.
+    pub fn take_file(path: PathBuf) -> Result<Lock, Refused> {
         loop {
             let mut file = open(&path)?;
             let mut text = String::new();
@@ -116,6 +120,12 @@ impl Lock {
                 stale: before,
             });
         }
+    }
+
+    /// Whether the file is still there: it is gone where somebody has removed it, and the folder may be another's.
+    pub fn stands(&self) -> bool {
+        let file = self.file.as_ref();
+        file.is_some_and(|file| is_at(file, &self.path))
     }
 
     /// Who is in a folder, if anybody is.

@@ -36,7 +36,7 @@ mod unheld;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use files::{ResultFiles, fields};
-pub use folder::{Claim, running};
+pub use folder::{Claim, FileClaim, running};
 pub use history::Row;
 pub use ledger::EnergyLedger;
 pub use limits::{GateMode, Limits};

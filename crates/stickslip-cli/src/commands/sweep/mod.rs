@@ -14,7 +14,9 @@ use stickslip::Error;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
 use stickslip::simulation::doctor::Severity;
-use stickslip::simulation::{Claim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary};
+use stickslip::simulation::{
+    Claim, FileClaim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary,
+};
 
 use super::{Failure, Outcome, library, located, spare, use_threads};
 use crate::progress::{found, say};
@@ -84,6 +86,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut table = Table::new(output, axes, &arguments.column);
     // That the file cannot be written should not be found after the first run.
     table.try_file()?;
+    let _claim = FileClaim::take(&table.path)?;
     let tell = |text: &str| {
         if !arguments.quiet {
             say(text);

@@ -101,10 +101,14 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
         let mut seen: BTreeMap<String, &str> = BTreeMap::new();
         for name in names {
             if let Some(why) = misspelled(name) {
+                let article = match table.starts_with(['a', 'e', 'i', 'o', 'u']) {
+                    true => "an",
+                    false => "a",
+                };
                 findings.add(
                     &[table, name],
                     format!(
-                        "`{}` cannot be the name of a {table}: {why}",
+                        "`{}` cannot be the name of {article} {table}: {why}",
                         name.escape_debug()
                     ),
                     "letters, digits, - and _ make good names",
