@@ -402,7 +402,13 @@ impl Printer {
                         let Some((_, slave, master)) = named else {
                             continue;
                         };
-                        statistics(simulation, interface, out, (slave, master, self.time));
+                        let part = match key.as_str() {
+                            "CFN" => Part::Normal,
+                            "CFS" => Part::Shear,
+                            _ => Part::Whole,
+                        };
+                        let names = (slave.as_str(), master.as_str());
+                        statistics(simulation, interface, out, (part, names, self.time));
                     }
                 }
                 _ => {}
@@ -422,25 +428,37 @@ fn tensor(v: &[f64; 6], shear: f64, axes: Option<&[Vec3; 3]>) -> [f64; 6] {
     [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(0, 2), at(1, 2)]
 }
 
-/// What `CF` prints of a pair.
+/// Which forces of a pair are summed.
+#[derive(Debug, Clone, Copy)]
+enum Part {
+    Whole,
+    Normal,
+    Shear,
+}
+
+/// What `CF`, `CFN` and `CFS` print of a pair.
 fn statistics(
     simulation: &Simulation,
     interface: &Interface,
     out: &mut String,
-    (slave, master, t): (&str, &str, f64),
+    (part, (slave, master), t): (Part, (&str, &str), f64),
 ) {
     let u = &simulation.state.u;
     let r = interface.resultant(u);
-    let force = add(r.normal, r.shear);
+    let (force, moment) = match part {
+        Part::Whole => (add(r.normal, r.shear), r.moment),
+        Part::Normal => (r.normal, sub(r.moment, r.moment_of_shear)),
+        Part::Shear => (r.shear, r.moment_of_shear),
+    };
     let (centre, normal) = interface.centre_and_normal(u);
-    let about = sub(r.moment, cross(centre, force));
+    let about = sub(moment, cross(centre, force));
     let _ = write!(
         out,
         "\n statistics for slave set {slave}, master set {master} and time {}\n",
         time(t)
     );
     out.push_str("\n   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)\n\n");
-    row(out, "  ", &[force, r.moment].concat());
+    row(out, "  ", &[force, moment].concat());
     out.push_str("\n   center of gravity and mean normal\n\n");
     row(out, "  ", &[centre, normal].concat());
     out.push_str("\n   moment about the center of gravity(mx,my,mz)\n\n");

@@ -859,3 +859,15 @@ step = [{{ increments.fixed = 1 }}]
         );
     }
 }
+
+#[test]
+fn a_body_that_leaves_without_any_force_has_a_balance() {
+    // The upper block rises by twice its cells and nothing resists: energies are rounding, and no part of anything.
+    let text = BLOCKS
+        .replace("x = 1e-4, y = -1e-2", "x = 0.0, y = 2e-3")
+        .replace("friction.coulomb.mu = 0.3", "normal.linear.c = 1e4");
+    let simulation = run(&text);
+    let gate = &simulation.summary.quality;
+    assert!(gate.met && !gate.failed(), "{:#?}", violated(&simulation));
+    assert!(simulation.summary.energy.strain.abs() < 1e-16);
+}

@@ -101,6 +101,27 @@ impl Reader<'_> {
                     );
                     return;
                 }
+                if rows[0][1] > 0.0 {
+                    self.error(
+                        card.data[0].place,
+                        format!(
+                            "the table begins with a pressure of {}: it would act at any distance",
+                            rows[0][1]
+                        ),
+                        "let the first row have no pressure: 0., overclosure at which contact begins",
+                    );
+                    return;
+                }
+                if let Some(last) = rows.last() {
+                    self.warn(
+                        card.place,
+                        format!(
+                            "beyond an overclosure of {} the pressure goes on with the slope of the last two rows; CalculiX keeps it at {}",
+                            last[0], last[1]
+                        ),
+                        "let the table reach as far as the surfaces may penetrate",
+                    );
+                }
                 Behavior::Tabular(rows)
             }
             "TIED" => {

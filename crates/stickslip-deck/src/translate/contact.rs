@@ -226,6 +226,17 @@ fn interface(
     if let Some(line) = normal(interaction.behavior.as_ref(), pair.by_nodes) {
         job.out.line(&line);
     }
+    let nodes = deck.surfaces.get(&pair.slave);
+    if compliant(interaction) && nodes.is_some_and(|s| matches!(s.parts, SurfaceParts::Nodes(_))) {
+        job.warn(
+            pair.place,
+            format!(
+                "the nodes of {} have the areas of the faces between them; CalculiX adds those of all other faces at them, Abaqus gives each an area of 1",
+                pair.slave
+            ),
+            "where pressure depends on overclosure forces depend on it: name faces as the slave surface (TYPE=ELEMENT)",
+        );
+    }
     if let Some(f) = &interaction.friction {
         job.out.line(&friction(f));
     }

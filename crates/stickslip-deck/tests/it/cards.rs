@@ -350,3 +350,69 @@ fn a_rigid_set_of_nodes_follows_its_reference_node() {
     near3(r.u(7), [0.0, 0.0, 0.01], 1e-9);
     near(r.last("total force")[2], 10.0, 1e-6);
 }
+
+#[test]
+fn normal_and_shear_forces_of_contact_are_printed_apart() {
+    let text = pair(
+        0.0,
+        "SURFACE TO SURFACE",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E5\n*FRICTION\n.5, 1.E4\n",
+    ) + "*STEP\n*STATIC\n*BOUNDARY\nB, 1, 1, .000001\nATOP, 1\nBTOP, 3, 3, -.0001\n*CONTACT PRINT, SLAVE=SLAVE, MASTER=MASTER\nCF\nCFN\nCFS\n*END STEP\n";
+    let r = run("contact-forces", &text);
+    let forces: Vec<Vec<f64>> = r
+        .all("total surface force")
+        .iter()
+        .map(|b| b.2[0].clone())
+        .collect();
+    let [all, normal, shear] = forces.try_into().unwrap_or_else(|f| panic!("{f:?}"));
+    // Forces and moments about the origin add up; pressure is along z and shear along x.
+    for k in 0..6 {
+        assert!(
+            (all[k] - normal[k] - shear[k]).abs() <= 2e-6 * all[2],
+            "{k}"
+        );
+    }
+    near(normal[2], all[2], 1e-6);
+    near(shear[0], all[0], 1e-6);
+    assert!(normal[2] > 0.0 && shear[0] < 0.0 && shear[2].abs() < 1e-9);
+    let sizes = r.all("area,");
+    assert!(sizes[1].2[0][2].abs() < 1e-9 && sizes[2].2[0][1].abs() < 1e-9);
+    near(sizes[2].2[0][2], -all[0], 1e-6);
+}
+
+#[test]
+fn laws_that_programs_read_differently_are_said_or_refused() {
+    let table = |rows: &str| format!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n{rows}");
+    let deck = |interaction: &str| {
+        pair(0.0, "NODE TO SURFACE", interaction)
+            + "*STEP\n*STATIC\n*BOUNDARY\nBTOP, 3, 3, -.001\n*END STEP\n"
+    };
+    let message = crate::support::refused(&deck(&table("5., 0.\n10., .001\n")));
+    assert!(message.contains("begins with a pressure of 5"), "{message}");
+    let said = |text: &str| -> String {
+        let notes = crate::support::translate(text).notes;
+        notes.iter().map(|n| n.to_string()).collect()
+    };
+    // CalculiX 2.20: two such cubes, between nodes and faces and pressed by 0.01, carry 3.
+    let beyond = said(&deck(&table("0., 0.\n1., .0005\n3., .002\n")));
+    assert!(
+        beyond.contains("beyond an overclosure of 0.002") && beyond.contains("keeps it at 3"),
+        "{beyond}"
+    );
+    // CalculiX 2.20: the four nodes below a cube have three times its face.
+    let nodes = |law: &str| {
+        deck(law).replace(
+            "*SURFACE, NAME=SLAVE\nEB, S1\n",
+            "*SURFACE, NAME=SLAVE, TYPE=NODE\nBBOT\n",
+        )
+    };
+    let linear = said(&nodes(
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E5\n",
+    ));
+    assert!(
+        linear.contains("the nodes of SLAVE have the areas"),
+        "{linear}"
+    );
+    let hard = said(&nodes("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"));
+    assert!(!hard.contains("have the areas"), "{hard}");
+}

@@ -18,6 +18,9 @@ struct Torsor {
 /// Roundings of stiffness times displacement that sums of forces may be off.
 const ROUNDINGS: f64 = 1e3;
 
+/// Part of the forces that would stop the motion which is no force to speak of.
+const TRIFLE: f64 = 1e-6;
+
 /// What acts on a body.
 #[derive(Debug, Clone, Copy, Default)]
 struct Acting {
@@ -51,6 +54,7 @@ impl Simulation {
         let stiff = self.diagonal.iter().zip(&self.state.u);
         let rounding = stiff.map(|(k, u)| (k * u).powi(2)).sum::<f64>().sqrt();
         let rounding = ROUNDINGS * f64::EPSILON * rounding;
+        let stopping = self.stopping();
         for (body, a) in self.model.bodies.iter().zip(&acting) {
             let moment = if a.arm > 0.0 {
                 norm(a.left.moment) / a.arm
@@ -59,12 +63,31 @@ impl Simulation {
             };
             let left = (norm(a.left.force).max(moment) - rounding).max(0.0);
             let place = format!("body {}", body.name);
-            let (pair, limit, t) = ([left, a.scale], limits.equilibrium, self.state.t);
+            // A body that flies freely has no forces to compare with.
+            let dofs = body.points.clone().flat_map(|p| {
+                let all = 0..self.model.dofs.dim;
+                all.map(move |c| self.model.dofs.of(p, c))
+            });
+            let stop: f64 = dofs.filter_map(|dof| stopping.get(dof)).sum();
+            let scale = a.scale.max(TRIFLE * stop);
+            let (pair, limit, t) = ([left, scale], limits.equilibrium, self.state.t);
             match self.motion.is_some() {
                 true => gate.note_in_motion(&EQUILIBRIUM, &place, pair, limit, t),
                 false => gate.note(&EQUILIBRIUM, &place, pair, limit, t),
             }
         }
+    }
+
+    /// Forces `[N]` by which the stiffness would stop the fastest motion at each dof, `v √(k m)`; nothing where nothing is in motion.
+    fn stopping(&self) -> Vec<f64> {
+        let Some(motion) = &self.motion else {
+            return Vec::new();
+        };
+        let fastest = self.state.v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let masses = motion.inertia.mass_times(&vec![1.0; self.state.u.len()]);
+        let both = self.diagonal.iter().zip(masses);
+        both.map(|(k, m)| fastest * (k * m).max(0.0).sqrt())
+            .collect()
     }
 
     /// `inside`: forces of inertia and elastic forces, where there is motion.

@@ -175,6 +175,9 @@ const OPEN: f64 = 1e-3;
 /// The same of what is not known of friction.
 const UNKNOWN: f64 = 1e-2;
 
+/// Energies below this part of what the model would store if it strained as far as it moves are rounding.
+const ROUNDED: f64 = 1e-13;
+
 /// Forces that move by less than this part of the size of the model do no work worth a balance.
 const STILL: f64 = 1e-6;
 
@@ -192,6 +195,19 @@ impl Simulation {
         let interfaces = self.model.interfaces.iter();
         let compliant = interfaces.map(Interface::law_energy).sum::<f64>();
         self.summary.energy.strain + compliant
+    }
+
+    /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
+    pub(in crate::simulation) fn strain_force(&self) -> f64 {
+        let size = self.model.mesh.diameter();
+        let u = self.state.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        let blocks = 0..self.model.mesh.blocks.len();
+        let moduli = self.model.elastic().flat_map(|b| {
+            let of = |k: usize| b.elastic.constrained_modulus(k);
+            blocks.clone().filter_map(of)
+        });
+        let stiffest = moduli.fold(0.0_f64, f64::max);
+        stiffest * size.powi(self.model.mesh.dim as i32 - 2) * u
     }
 
     /// Judges the last accepted state.
@@ -276,6 +292,8 @@ impl Simulation {
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
         let forces = self.summary.quality.largest(&EQUILIBRIUM, None);
         let least = STILL * self.model.mesh.diameter() * forces;
+        let moved = self.state.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        let least = least.max(ROUNDED * self.strain_force() * moved);
         let pair = [quality.largest, quality.scale.max(least)];
         let t = self.state.t;
         let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));

@@ -119,6 +119,18 @@ pub const CONDITIONS: &[Defect] = &[
         Found(DoctorCause::LoadOnContact, "weight"),
     ).also(&[DoctorCause::SlidesAway]),
     defect(
+        "both bodies move alike",
+        PRESS,
+        &[("set = \"lower.bottom\", x = 0, y = 0", "set = \"lower.bottom\", x = 0, y = -1e-5")],
+        Found(DoctorCause::NeverCarried, "joint"),
+    ),
+    defect(
+        "a flight that ends before the floor",
+        THROW,
+        &[("duration = 2e-5", "duration = 2e-7")],
+        Found(DoctorCause::InitialGap, "base"),
+    ),
+    defect(
         "an amplitude that jumps within one increment",
         SLIDE,
         &[("[[1, 0], [2, 1]]", "[[1, 0], [1.5, 0], [1.5000001, 1], [2, 1]]")],

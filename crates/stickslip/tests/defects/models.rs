@@ -138,7 +138,35 @@ step = [{ name = "press" }]
 "#;
 
 /// All models that have nothing wrong with them.
-pub const SOUND: [(&str, &str); 8] = [
+/// Two blocks that are glued together and pulled, the upper one by an equation.
+pub const GLUED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", tied = true }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = 1e-5 }
+step = [{ name = "pull" }]
+"#;
+
+/// A block that an equation alone pulls.
+pub const LED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+set.corner.of = "block"
+set.corner.box = { from = [0.039, 0.019], to = [0.041, 0.021] }
+support.base = { set = "block.bottom", x = 0, y = 0 }
+coupling.pull.equation = { terms = [{ set = "corner", component = "x", factor = 1 }, { set = "corner", component = "y", factor = 1 }], value = 1e-6 }
+step = [{ name = "pull" }]
+"#;
+
+pub const SOUND: [(&str, &str); 10] = [
+    ("glued", GLUED),
+    ("led", LED),
     ("press", PRESS),
     ("load", LOAD),
     ("cubes", CUBES),

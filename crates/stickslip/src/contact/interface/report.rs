@@ -17,6 +17,8 @@ pub struct Resultant {
     pub centre: Vec3,
     /// Moment of all forces about the origin `[N m]`.
     pub moment: Vec3,
+    /// The part of it that shear has `[N m]`.
+    pub moment_of_shear: Vec3,
     /// Area in contact `[m²]`.
     pub area: f64,
     /// Largest pressure `[Pa]`.
@@ -106,6 +108,7 @@ impl Interface {
             r.normal = add(r.normal, normal);
             r.shear = add(r.shear, shear);
             r.moment = add(r.moment, cross(place, add(normal, shear)));
+            r.moment_of_shear = add(r.moment_of_shear, cross(place, shear));
             r.centre = add_scaled(r.centre, h.pressure * area, place);
             signed += h.pressure * area;
             r.total += h.pressure.abs() * area;

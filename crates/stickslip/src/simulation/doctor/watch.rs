@@ -24,6 +24,9 @@ const TURNED: f64 = 0.02;
 /// Part of the force that has to be carried where contact is three points across.
 const RESOLVED: f64 = 0.5;
 
+/// Part of the force that the displacements would make as strains below which a force is rounding.
+const NOTHING: f64 = 1e-11;
+
 impl Watch {
     /// Looks at the last accepted state, of which `force` is the sum of the magnitudes of all forces.
     pub fn note(&mut self, interface: &Interface, force: f64, (u, t): (&[f64], f64)) {
@@ -45,9 +48,10 @@ impl Watch {
 pub(in crate::simulation) fn watched(simulation: &Simulation) -> Vec<Finding> {
     let interfaces = simulation.model.interfaces.iter();
     let pairs = interfaces.zip(&simulation.watches);
+    let nothing = NOTHING * simulation.strain_force();
     pairs
         .filter(|(_, watch)| watch.acted)
-        .flat_map(|(interface, watch)| match watch.force > 0.0 {
+        .flat_map(|(interface, watch)| match watch.force > nothing {
             // One half of a pair may be idle where the other one carries.
             false if interface.share < 1.0 => [None, None],
             false => [

@@ -21,6 +21,7 @@ pub(super) use meshes::disconnected;
 
 use super::finding::{Finding, Guilty, What};
 use super::surfaces::Opposite;
+use crate::body::couplings::Tie;
 use crate::contact::interface::Interface;
 use crate::math::Vec3;
 use crate::simulation::model::Model;
@@ -233,6 +234,14 @@ fn travel(model: &Model) -> f64 {
                 let moved = crate::math::distance(motion.pose(t).outward(there), x);
                 largest = largest.max(moved);
             }
+        }
+    }
+    for coupling in model.couplings.all() {
+        let Tie::Equation { value } = coupling.tie else {
+            continue;
+        };
+        for &t in times.iter().filter(|&&t| coupling.schedule.active(t)) {
+            largest = largest.max((value * coupling.schedule.at(t)).abs());
         }
     }
     for initial in &model.initials {

@@ -105,8 +105,22 @@ fn rates(model: &Model, value: impl Fn(f64) -> f64, active: impl Fn(f64) -> bool
     fastest
 }
 
+/// Whether equations or springs act on a body of an interface.
+fn coupled(model: &Model, interface: &Interface) -> bool {
+    let sides = super::driven::pair(model, interface);
+    let mine = |p: usize| {
+        let mut bodies = sides.iter().flatten();
+        bodies.any(|&b| model.bodies[b].points.contains(&p))
+    };
+    model.couplings.points().any(mine)
+}
+
 /// An interface that everything prescribed opens.
 pub(super) fn apart(model: &Model, interface: &Interface, measured: &Measured) -> Option<Finding> {
+    // Glued sides are meant to pull at each other, and equations and springs move bodies as supports do.
+    if interface.laws.tied || coupled(model, interface) {
+        return None;
+    }
     let gaps = measured.gaps.iter().enumerate().filter(|g| g.1.is_finite());
     let (i, &gap) = gaps.min_by(|a, b| a.1.total_cmp(b.1))?;
     let size = interface.points[i].size;
