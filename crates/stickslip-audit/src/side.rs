@@ -137,8 +137,63 @@ impl Obstacle {
     }
 }
 
-/// The nearest foot on facets whose normals look at the point or away from it; only feet inside a facet count.
+/// The nearest foot on facets whose normals look at the point or away from it; only feet inside a facet count, and the tip of a notch above a point that is
+/// inside the body.
 pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot> {
+    let inside = foot_inside(mesh, facets, at, x);
+    let away = |node: &usize| norm(sub(x, at[*node]));
+    let nodes = facets.iter().flat_map(|f| &f.nodes);
+    let tip = nodes.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let distance = away(tip);
+    if inside
+        .as_ref()
+        .is_some_and(|f| f.gap.abs() <= distance * (1.0 + 1e-9))
+    {
+        return inside;
+    }
+    // No facet is as near as this node: beyond an edge there is no foot, beneath a notch all facets around face away from the point.
+    let around = facets.iter().filter(|f| f.nodes.contains(tip));
+    let deep = around.clone().all(|f| {
+        let corners: Vec<Vec3> = f.nodes.iter().map(|n| at[*n]).collect();
+        let normal = stretch(f.kind, &corners, f.kind.middle());
+        sense(mesh, f, at) * dot(sub(x, at[*tip]), normal) < 0.0
+    });
+    let within = deep && !on_border(around.collect::<Vec<_>>().as_slice(), *tip);
+    within.then(|| Foot {
+        gap: -distance,
+        normal: unit(sub(at[*tip], x)),
+        weights: vec![(*tip, 1.0)],
+        place: at[*tip],
+    })
+}
+
+/// Whether the surface ends at a node, by the facets around it: at an edge that only one of them has, or of lines at a node that only one has.
+fn on_border(around: &[&Facet], node: usize) -> bool {
+    let mut edges: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for facet in around {
+        let n = facet.kind.corners();
+        let Some(at) = facet.nodes.iter().position(|p| *p == node) else {
+            continue;
+        };
+        let edge = |a: usize, b: usize| {
+            let [a, b] = [facet.nodes[a % n], facet.nodes[b % n]];
+            [a.min(b), a.max(b)]
+        };
+        let own = match (facet.kind.dim(), at < n) {
+            (1, true) => vec![[node, node]],
+            (1, false) => Vec::new(),
+            (_, true) => vec![edge(at, at + 1), edge(at, at + n - 1)],
+            (_, false) => vec![edge(at, at + 1)],
+        };
+        for edge in own {
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    edges.values().any(|count| *count < 2)
+}
+
+/// The nearest foot inside a facet.
+fn foot_inside(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot> {
     let mut best: Option<Foot> = None;
     for facet in facets {
         let corners: Vec<Vec3> = facet.nodes.iter().map(|n| at[*n]).collect();
@@ -236,8 +291,8 @@ pub struct Pair {
     pub primary: Side,
     /// `mortar` or `node-to-facet`.
     pub mortar: bool,
-    /// Nodes whose points are means over their faces, each with the ends of its edge: the middle ones of quadratic faces, but for points of plane edges that
-    /// are nodes themselves. See [`Pair::mean`].
+    /// Nodes whose points are means over their faces, each with the ends of its edge: the middle ones of quadratic faces in mortar contact, and in space and on
+    /// rings on obstacles. See [`Pair::mean`].
     pub means: BTreeMap<usize, [usize; 2]>,
     /// Whether both sides are secondary.
     pub two_sided: bool,
@@ -281,12 +336,14 @@ impl Pair {
             |table: &Table, key: &str| table.get(key).and_then(toml::Value::as_bool) == Some(true);
         let initial = text_of(table, "initial").unwrap_or("as-meshed");
         let secondary = Side::named(case, mesh, text_of(table, keys[0])?)?;
-        // Of quadratic faces in space points are means over the faces around them, on obstacles too.
-        let solid = |(kind, _): &(Kind, _)| kind.quadratic() && kind.dim() == 3;
-        let mortar =
-            mortar && (matches!(primary, Side::Body { .. }) || mesh.cells.iter().any(solid));
-        let means = match &secondary {
-            Side::Body { facets, .. } if mortar || case.space == Space::Ring => middles(facets),
+        let obstacle = matches!(primary, Side::Rigid(_));
+        let mortar = mortar && !obstacle;
+        // On obstacles points of quadratic faces are means over the faces around them in space, and of edges around an axis.
+        let means = match (&secondary, case.space) {
+            (Side::Body { facets, .. }, Space::Solid | Space::Ring) if mortar || obstacle => {
+                middles(facets)
+            }
+            (Side::Body { facets, .. }, _) if mortar => middles(facets),
             _ => BTreeMap::new(),
         };
         Some(Pair {
@@ -375,5 +432,31 @@ mod tests {
         assert!((middle + 2.0 / 3.0).abs() < 1e-12, "{middle}");
         let nothing = |node: usize| (node != 4).then_some(0.0);
         assert_eq!(pair.mean(5, nothing), None);
+    }
+
+    /// Only within a surface is a node the tip of a notch.
+    #[test]
+    fn a_surface_ends_where_facets_have_no_neighbour() {
+        let facet = |a: usize, b: usize| Facet {
+            kind: Kind::Line(2),
+            nodes: vec![a, b],
+            cell: 0,
+            body: 0,
+        };
+        let facets = [facet(0, 1), facet(1, 2)];
+        let around: Vec<&Facet> = facets.iter().collect();
+        assert!(!on_border(&around, 1));
+        assert!(on_border(&around[..1], 0));
+        let face = |nodes: [usize; 4]| Facet {
+            kind: Kind::Quad(4),
+            nodes: nodes.to_vec(),
+            cell: 0,
+            body: 0,
+        };
+        // Four faces around node 4 of a grid of nine.
+        let faces = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]].map(face);
+        let all: Vec<&Facet> = faces.iter().collect();
+        assert!(!on_border(&all, 4));
+        assert!(on_border(&all[..2], 1));
     }
 }

@@ -129,7 +129,7 @@ impl Explicit {
         let mass = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[0]));
         // damping lags by half an increment
         let ratio = 0.5 * (stiffness * omega + mass / omega);
-        2.0 / omega * ((1.0 + ratio * ratio).sqrt() - ratio)
+        2.0 / omega / ((1.0 + ratio * ratio).sqrt() + ratio)
     }
 
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {

@@ -173,9 +173,12 @@ impl Simulation {
             self.recede(&mut running, (trial, chart, failure), observers)?;
             return Ok(Some(running));
         }
+        let attempt = running.attempt;
         let Running { step, stepper, .. } = &mut running;
-        if let Some(bound) = self.bound() {
-            stepper.bound(bound);
+        match self.bound() {
+            Some(bound) if attempt == 1 => stepper.bound(bound),
+            Some(bound) => stepper.bound_again(bound),
+            None => {}
         }
         let Some(trial) = stepper.next() else {
             return Ok(None);

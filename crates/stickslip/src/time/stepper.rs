@@ -80,6 +80,11 @@ impl Stepper {
         self.wish = wish.min(self.increments.largest);
     }
 
+    /// The same where an attempt has failed: what that one has left is not made longer.
+    pub fn bound_again(&mut self, wish: f64) {
+        self.wish = self.wish.min(wish);
+    }
+
     /// The next increment to try; `None` at the end.
     pub fn next(&self) -> Option<Trial> {
         let target = *self.milestones.iter().find(|&&t| t > self.now)?;
@@ -125,6 +130,17 @@ mod tests {
             smallest: 1e-3,
             largest,
         }
+    }
+
+    #[test]
+    fn a_bound_does_not_undo_what_a_failure_has_halved() {
+        let mut s = Stepper::new(0.0, vec![1.0], increments(1.0, 1.0));
+        s.bound(0.25);
+        let failed = s.next().unwrap_or(Trial { from: 0.0, to: 0.0 });
+        assert!(s.reject(failed));
+        s.bound_again(0.25);
+        let next = s.next().map_or(f64::NAN, |t| t.to);
+        assert!((next - 0.125).abs() < 1e-12, "{next}");
     }
 
     #[test]

@@ -28,6 +28,9 @@ const FAR: f64 = 16.0;
 /// How far a point may overhang the outer edge of the primary, relative to the facet.
 const EDGE_TOLERANCE: f64 = 1e-3;
 
+/// Radius of a node on the axis, relative to those of its edge.
+const ON_AXIS: f64 = 1e-9;
+
 pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
@@ -301,6 +304,7 @@ fn face_rule(kind: ElementKind, yields: bool) -> Vec<QuadraturePoint> {
     let plain = ElementKind::Quad4.reference().quadrature();
     match (kind, yields) {
         (ElementKind::Quad8, false) => plain.to_vec(),
+        (ElementKind::Line3, false) => ElementKind::Line2.reference().quadrature().to_vec(),
         (_, false) => kind.reference().quadrature().to_vec(),
         (ElementKind::Quad8, true) => {
             let h = 1.0 / DIVISIONS as f64;
@@ -439,29 +443,41 @@ impl Surfaces<'_> {
     }
 
     /// Contact points: the nodes, each with its share of the area. Corners of quadratic faces in space have no share or a negative one, those of quadratic
-    /// edges one in proportion to their radius where the edges are turned about an axis, and on the axis none: there points are means over the faces around
-    /// each node on an `obstacle` or in a plane, and quadrature points on facets in space.
+    /// edges that are turned about an axis one in proportion to their radius, which is none on the axis: there points are means over the faces around each
+    /// node on an `obstacle`, and quadrature points on facets.
     fn points(
         &self,
         facets: &[FacetRef],
         (primary, obstacle, yields): (f64, bool, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
-        let ring = matches!(self.space, Space::Axisymmetric);
-        let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) =
-            facets
-                .iter()
-                .partition(|&&f| match self.mesh.facet_kind(f) {
-                    ElementKind::Tri6 | ElementKind::Quad8 => true,
-                    ElementKind::Line3 => ring,
-                    _ => false,
-                });
+        let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) = facets.iter().partition(|&&f| {
+            match self.mesh.facet_kind(f) {
+                ElementKind::Tri6 | ElementKind::Quad8 => true,
+                // Means are those of the whole surface; quadrature points are needed where a node has nothing.
+                ElementKind::Line3 => self.turned(obstacle, f),
+                _ => false,
+            }
+        });
         let mut out = self.nodal_points(&plain, primary, numbering);
-        out.extend(match obstacle || ring {
+        out.extend(match obstacle {
             true => self.mean_points(&curved, primary, numbering),
             false => self.quadrature_points(&curved, (primary, yields), numbering),
         });
         out
+    }
+
+    /// Whether an edge is turned about an axis, of facets whether it begins or ends there.
+    fn turned(&self, obstacle: bool, facet: FacetRef) -> bool {
+        let (_, nodes) = self.mesh.facet_points(facet);
+        let extents = || {
+            nodes
+                .iter()
+                .map(|&n| self.space.extent(self.mesh.points[n]))
+        };
+        let most = extents().fold(0.0, f64::max);
+        matches!(self.space, Space::Axisymmetric)
+            && (obstacle || extents().any(|e| e <= ON_AXIS * most))
     }
 
     /// One point a node, the mean over the quadratic faces around it weighted by its dual function: as many points as a body can follow, with
