@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Interface, Primary};
-use crate::contact::surface::ContactPoint;
+use crate::contact::surface::{ContactPoint, skin};
 use crate::math::{Vec3, add_scaled, dot, normalize, scale, sub};
 use crate::system::Stage;
 
@@ -132,8 +132,12 @@ impl Interface {
 
     /// How the points of the secondary have to move to lie on the primary, where they are within the tolerance of it at time `t`.
     pub fn snaps(&self, t: f64) -> Vec<(usize, Vec3)> {
+        let points = self.nodal_points();
+        let facets = self.skin.iter().map(|s| s.facet.clone()).collect();
         let mut nodal = Interface {
-            points: self.nodal_points(),
+            // Faces know their points by number.
+            skin: skin(facets, &points, None),
+            points,
             ..self.clone()
         };
         let x = nodal.reference.clone();
