@@ -5,22 +5,16 @@
 //! one key, its kind: `normal.power-law = { c = 1e20, m = 2.0 }`. Internally tagged forms are avoided because they
 //! lose the place of an error and the check for unknown keys.
 
-/// What `stickslip models` lists about one entry of a family.
-#[derive(Debug, Clone, Copy)]
-pub struct Entry {
-    /// The key in the problem file.
-    pub name: &'static str,
-    /// The JSON schema of its parameters, from which units and defaults are printed.
-    pub schema: fn() -> schemars::Schema,
-}
-
 /// A family of interchangeable models: its key in the problem file and its entries.
 pub trait Family: Sized {
     /// The key under which the problem file chooses from this family.
     const KEY: &'static str;
 
-    /// The entries, in the order of the registry.
-    fn entries() -> Vec<Entry>;
+    /// The name of the enum, under which its entries stand in the JSON schema.
+    const NAME: &'static str;
+
+    /// The keys of the entries, in the order of the registry.
+    const KINDS: &'static [&'static str];
 
     /// One instance or more of every entry, for the tests that run over all of them.
     fn samples() -> Vec<Self>;
@@ -42,7 +36,8 @@ macro_rules! family {
         $( $(#[$vdoc:meta])* $variant:ident($model:path) = $kind:literal ),+ $(,)?
     }) => {
         $(#[$doc])*
-        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum $name {
             $( $(#[$vdoc])* #[serde(rename = $kind)] $variant($model) ),+
         }
@@ -56,13 +51,8 @@ macro_rules! family {
 
         impl $crate::registry::Family for $name {
             const KEY: &'static str = $key;
-
-            fn entries() -> Vec<$crate::registry::Entry> {
-                vec![$( $crate::registry::Entry {
-                    name: $kind,
-                    schema: || schemars::schema_for!($model),
-                } ),+]
-            }
+            const NAME: &'static str = stringify!($name);
+            const KINDS: &'static [&'static str] = &[$( $kind ),+];
 
             fn samples() -> Vec<Self> {
                 let mut all = Vec::new();

@@ -8,17 +8,8 @@ use crate::mesh::{Block, Mesh};
 use crate::shape::mass_rule;
 
 /// How the mass of a cell is given to its nodes.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum MassKind {
     /// `∫ ρ N_a N_b`: what the shape functions say.

@@ -5,7 +5,8 @@ use crate::registry::Samples;
 /// The full tensor `a_ijkl` of [`pop_1995`](crate::references::pop_1995), eq. (2).
 ///
 /// The symmetries `a_ijkl = a_jikl = a_klij` and ellipticity are checked.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Anisotropic {
     /// The stiffness `[Pa]`, stresses and engineering strains in the order xx yy zz xy yz xz: six rows of six, or a
@@ -18,7 +19,8 @@ pub struct Anisotropic {
 }
 
 /// Entries of a stiffness, in rows or in one list.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(
     untagged,
     expecting = "expected six rows of six numbers, or a list of 21, 36 or 81 numbers"

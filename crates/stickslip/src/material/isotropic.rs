@@ -3,7 +3,8 @@ use super::{Elasticity, Stiffness};
 use crate::registry::Samples;
 
 /// The same in all directions.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Isotropic {
     /// Young's modulus `[Pa]`, positive.

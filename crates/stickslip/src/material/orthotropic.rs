@@ -7,7 +7,8 @@ use crate::registry::Samples;
 /// Three orthogonal planes of symmetry.
 ///
 /// `nu12` is the contraction along axis 2 under stress along axis 1, so that `nu12 / e1 = nu21 / e2`.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Orthotropic {
     /// Young's modulus along axis 1 `[Pa]`.

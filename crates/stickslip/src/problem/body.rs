@@ -1,14 +1,14 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Formulation;
 use crate::mesh::generators::Generator;
 
 /// `[body.NAME]`: an elastic or rigid body: its mesh and what it is made of.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Body {
     /// The `[material.NAME]` of all cells that are in none of the `regions`.
@@ -30,7 +30,7 @@ pub struct Body {
     #[serde(default)]
     pub formulation: Formulation,
     /// Factor on the coordinates of the mesh, applied before `translate`: 1e-3 for a mesh in mm and a problem in m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default = "one")]
     pub scale: f64,
     /// Shift of the mesh `[length]`.
@@ -49,19 +49,21 @@ fn one() -> f64 {
 }
 
 /// Rayleigh damping `C = mass M + stiffness K`: the damping ratio at the angular frequency ω is `mass / (2 ω) + stiffness ω / 2`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Rayleigh {
     /// Factor of the mass matrix `[1/time]`.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     pub mass: f64,
     /// Factor of the stiffness matrix `[time]`.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     pub stiffness: f64,
 }
 
 /// Where the mesh of a body comes from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum MeshSource {
     /// Built in: `generate.rectangle = { to = [0.04, 0.02], cells = [20, 10] }`.
@@ -71,7 +73,8 @@ pub enum MeshSource {
 }
 
 /// A mesh file of Gmsh. Its physical groups become sets.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct GmshFile {
     /// The file, relative to the folder of the problem file.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::couplings::CouplingKind;
@@ -8,7 +7,8 @@ use crate::body::couplings::CouplingKind;
 /// Over the step in which it becomes active an equation leads its sum linearly from what it is to the value, unless an amplitude says otherwise; in a step
 /// that does not list it, it lets go like a support. A spring that is active in the first step acts in full from the beginning; later the
 /// stiffness grows and falls linearly over a quasi-static step, like a load.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Coupling {
     /// An `[amplitude.NAME]` over the time of the analysis, by which the value of an equation, or the stiffness of a spring, is multiplied.

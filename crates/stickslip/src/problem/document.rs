@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use toml::Spanned;
 
 use super::tree::{self, Table};
@@ -286,18 +287,15 @@ fn other_format(root: &Table) -> Option<Diagnostic> {
     Some(finding)
 }
 
-/// The last stage. [`structure`] has found what people get wrong; what it does not know about still has a place.
+/// The last stage. [`structure`] has found what people get wrong; what it does not know about still has a place, and the key that stands there.
 fn deserialize(tree: Spanned<Table<'_>>) -> Result<Problem, Diagnostic> {
-    let deserializer = toml::de::Deserializer::from(tree);
-    serde_path_to_error::deserialize(deserializer).map_err(|e| {
-        let segments: Vec<String> = e.path().iter().map(|s| s.to_string()).collect();
-        let segments: Vec<&str> = (segments.iter())
-            .map(|s| s.trim_matches(['[', ']']))
-            .collect();
-        let span = e.inner().span().and_then(tree::place);
+    let places = tree.clone();
+    Problem::deserialize(toml::de::Deserializer::from(tree)).map_err(|e| {
+        let span = e.span().and_then(tree::place);
+        let path = span.as_ref().map(|span| tree::path(places.get_ref(), span));
         Diagnostic {
-            message: e.inner().message().to_string(),
-            key: key::join(&segments),
+            message: e.message().to_string(),
+            key: key::join(&path.unwrap_or_default()),
             span: span.filter(|s| !s.is_empty()),
             help: None,
         }

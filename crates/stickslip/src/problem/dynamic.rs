@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::MassKind;
@@ -10,7 +9,8 @@ use crate::time::{ContactAt, ContactMass};
 /// The velocities at its start are those of the step before (zero after a quasi-static one) or those of `[initial.NAME]`; the
 /// accelerations follow from the equations of motion. A load without an amplitude acts at once in full, and a support
 /// or load that is not listed any more lets go at once.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Dynamic {
     /// How the equations of motion are integrated.
@@ -25,12 +25,12 @@ pub struct Dynamic {
     pub contact_at: ContactAt,
     /// Largest local error of the displacements over an increment, relative to the motion since the start of the step; an increment with
     /// more is halved. Not checked if not given.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Time `[time]` to which opening, closing, sticking and slipping are located: an increment over which a point changes
     /// status is halved until it is no longer than this. Not located if not given.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub events: Option<f64>,
 }

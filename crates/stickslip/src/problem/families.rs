@@ -13,7 +13,7 @@ use crate::contact::law::slip::SlipModel;
 use crate::contact::obstacle::ObstacleShape;
 use crate::material::Material;
 use crate::mesh::generators::Generator;
-use crate::registry::{Entry, Family};
+use crate::registry::Family;
 use crate::time::scheme::SchemeModel;
 
 /// A model family as the problem file sees it.
@@ -39,19 +39,18 @@ pub struct ModelListing {
 }
 
 fn listing<F: Family>(place: &'static str) -> FamilyListing {
+    let model = |&name| {
+        let schema = schema::of_entry(F::NAME, name);
+        ModelListing {
+            name,
+            summary: prose::first_sentence(schema["description"].as_str().unwrap_or_default()),
+            schema,
+        }
+    };
     FamilyListing {
         key: F::KEY,
         place,
-        entries: F::entries().into_iter().map(model).collect(),
-    }
-}
-
-fn model(entry: Entry) -> ModelListing {
-    let schema = schema::plain((entry.schema)().to_value());
-    ModelListing {
-        name: entry.name,
-        summary: prose::first_sentence(schema["description"].as_str().unwrap_or_default()),
-        schema,
+        entries: F::KINDS.iter().map(model).collect(),
     }
 }
 

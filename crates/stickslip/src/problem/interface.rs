@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
@@ -12,7 +11,8 @@ use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
 
 /// `[interface.NAME]`: two surfaces that may touch, and their laws.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Interface {
     /// The surface whose points are kept from entering the primary: `body.set` or a `[set.NAME]`. Choose the softer
@@ -69,12 +69,12 @@ pub struct Interface {
     pub initial: Start,
     /// Gap up to which `initial` takes hold of a point, as a fraction of the height of the cell beneath; a tenth if not given. Without
     /// meaning for `as-meshed` and `ramp`, unless the surfaces are `tied`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_tolerance: Option<f64>,
     /// The same as a length `[length]`, instead of `initial-tolerance`. `snap` moves points that overlap by more than that out as well, up to
     /// the height of the cell.
-    #[schemars(extend("minimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_distance: Option<f64>,
     /// Points to which `snap` is restricted: `body.set` or a `[set.NAME]`. Default: all of the secondary.
@@ -123,7 +123,8 @@ pub enum Roles {
 }
 
 /// How quadrilateral facets of a primary surface are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum FacetShape {
     /// As the bilinear (for quadratic cells: quadratic) surfaces that they are.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::loads::LoadKind;
@@ -6,7 +5,8 @@ use crate::body::loads::LoadKind;
 /// `[load.NAME]`: a force or springs on a set.
 ///
 /// Over the step in which it becomes active, a load grows linearly from zero, unless an amplitude says otherwise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Load {
     /// Where it acts: `body.set`, a `[set.NAME]`, or a body.

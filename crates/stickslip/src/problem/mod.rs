@@ -39,7 +39,6 @@ mod tree;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Diagnostic, Error, ProblemError};
@@ -62,6 +61,8 @@ pub use obstacle::Obstacle;
 pub use output::Output;
 pub use probe::Probe;
 pub use quality::Quality;
+#[cfg(feature = "schema")]
+pub use schema::derived as derived_schema;
 pub use schema::schema;
 pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
@@ -74,9 +75,10 @@ pub const FORMAT: u32 = 1;
 /// A problem as plain data: bodies, what holds and loads them, interfaces, steps, solver, output.
 ///
 /// It can be filled in by hand or read from TOML; [`Problem::check`] applies the same rules to both.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-#[schemars(title = "stickslip problem file")]
+#[cfg_attr(feature = "schema", schemars(title = "stickslip problem file"))]
 pub struct Problem {
     /// The format of the file: 1.
     pub format: u32,
@@ -118,7 +120,7 @@ pub struct Problem {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub initial: BTreeMap<String, Initial>,
     /// The steps of the analysis, in order.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub step: Vec<Step>,
     /// Tolerances and limits of the solution.
     #[serde(default)]

@@ -1,20 +1,21 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[model]`: the space in which the bodies live.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Model {
     /// Plane strain, plane stress, axisymmetric or solid (3D).
     pub space: SpaceKind,
     /// Thickness `[length]` of a plane problem, 1 if not given. Forces are those of this thickness.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
 }
 
 /// The space in which the bodies live.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum SpaceKind {
     /// In the plane x, y; no strain along z.

@@ -2,6 +2,7 @@
 
 /// `[text](target)` and `` [`text`](target) `` become `text`, and units, which rustdoc wants as code, lose their
 /// backticks; everything else stays.
+#[cfg(any(test, feature = "schema"))]
 pub(super) fn without_links(text: &str) -> String {
     let text = text.replace("`[", "[").replace("]`", "]");
     let mut out = String::new();

@@ -2,29 +2,57 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use super::{Problem, prose};
+/// What [`derived`] gave when the schema was written last; a test holds the two together.
+const PUBLISHED: &str = include_str!("../../../../stickslip.schema.json");
 
 /// The JSON schema (draft 2020-12) of the problem file, for editors: put `#:schema ./stickslip.schema.json` in the
 /// first line of a problem file.
 pub fn schema() -> Value {
-    plain(schemars::schema_for!(Problem).to_value())
+    shared().clone()
 }
 
-/// The schema, made once.
+/// The schema, read once.
 pub(super) fn shared() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+    static SCHEMA: LazyLock<Value> =
+        LazyLock::new(|| serde_json::from_str(PUBLISHED).expect("the published schema is JSON"));
     &SCHEMA
 }
 
-/// The same schema with the links of the Rust documentation taken out of its descriptions.
-pub(super) fn plain(mut schema: Value) -> Value {
+/// The schema of an entry of a family, with all definitions that it may refer to.
+pub(super) fn of_entry(family: &str, kind: &str) -> Value {
+    let all = &shared()["$defs"];
+    let entries = all[family]["oneOf"].as_array();
+    let properties = entries
+        .into_iter()
+        .flatten()
+        .map(|entry| &entry["properties"][kind]);
+    let mut names = properties.filter_map(|property| property["$ref"].as_str());
+    let name = names
+        .next()
+        .and_then(|path| path.rsplit('/').next())
+        .unwrap_or_else(|| {
+            panic!("the published schema has no {family}.{kind}: run `cargo xtask schema`")
+        });
+    let mut schema = all[name].clone();
+    schema["$defs"] = all.clone();
+    schema
+}
+
+/// The schema as it follows from the structs, with the links of their documentation taken out of its descriptions.
+#[cfg(feature = "schema")]
+pub fn derived() -> Value {
+    plain(schemars::schema_for!(super::Problem).to_value())
+}
+
+#[cfg(feature = "schema")]
+fn plain(mut schema: Value) -> Value {
     match &mut schema {
         Value::Object(map) => {
             for (key, value) in map.iter_mut() {
                 let inner = value.take();
                 *value = match inner {
                     Value::String(text) if key == "description" => {
-                        Value::String(prose::without_links(&text))
+                        Value::String(super::prose::without_links(&text))
                     }
                     other => plain(other),
                 };

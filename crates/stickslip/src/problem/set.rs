@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[set.NAME]`: a set of points chosen by geometry, before any deformation. Where facets are wanted (pressure,
@@ -6,14 +5,15 @@ use serde::{Deserialize, Serialize};
 /// the set.
 ///
 /// Meshes bring sets of their own, `body.set`; the name of a body alone stands for all of it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Set {
     /// The body, or the set `body.set`, from which points are chosen. Needed by all but `union`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
     /// How far a point may lie from the place described, as a fraction of the body's diagonal.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
     /// Which points.
@@ -26,7 +26,8 @@ fn default_tolerance() -> f64 {
 }
 
 /// How the points of a [`Set`] are chosen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Select {
     /// The one point at these coordinates `[length]`; an error if there is none within the tolerance.
@@ -44,7 +45,8 @@ pub enum Select {
 }
 
 /// A box with sides along the axes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct BoxRegion {
     /// Corner with the smallest coordinates `[length]`.
@@ -54,7 +56,8 @@ pub struct BoxRegion {
 }
 
 /// A plane; in 2D a line.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct PlaneRegion {
     /// A point on it `[length]`.
@@ -64,12 +67,13 @@ pub struct PlaneRegion {
 }
 
 /// A ball; in 2D a disc.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct BallRegion {
     /// Its centre `[length]`.
     pub centre: Vec<f64>,
     /// Its radius `[length]`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub radius: f64,
 }

@@ -1,28 +1,28 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::simulation::Solution;
 
 /// `[solver]`: when an increment counts as solved, and how equations are solved. All dimensionless.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Solver {
     /// Largest out-of-balance force, as a fraction of the forces in play.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
     pub tolerance: f64,
     /// Newton iterations after which an increment is cut.
-    #[schemars(range(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub max_iterations: usize,
     /// Halvings of a Newton step that does not reduce the out-of-balance forces; 0 takes every step in full.
     pub line_search: usize,
     /// Largest change of displacement over one increment, as a fraction of the size of the model; an increment that
     /// changes more is cut. No limit if not given.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_change: Option<f64>,
     /// Largest residual of the energy balance, as a fraction of the energies in play, that counts as good; the summary says whether it was
     /// kept.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub energy_limit: f64,
     /// Whether bodies that supports leave free, and that loads push, are moved in quasi-static steps until they touch, and held by weak
     /// springs that follow them until contact holds them and the springs carry nothing.
@@ -50,14 +50,15 @@ impl Default for Solver {
 }
 
 /// `[solver.linear]`: how systems of linear equations are solved.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Linear {
     /// Largest residual of a linear system, as a fraction of its right-hand side.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
     pub tolerance: f64,
     /// Krylov iterations with one factorisation after which the matrix is factored anew.
-    #[schemars(range(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub patience: usize,
 }
 

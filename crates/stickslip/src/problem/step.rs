@@ -1,6 +1,5 @@
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Dynamic;
@@ -8,14 +7,15 @@ use crate::contact::interface::Change;
 
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
 /// order of the file; a step starts from the state at the end of the one before.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Step {
     /// A name for messages and results; `step 1`, `step 2` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// How long it lasts `[time]`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default = "one")]
     pub duration: f64,
     /// The supports active in this step; all if not given.
@@ -47,21 +47,22 @@ fn one() -> f64 {
 }
 
 /// How a step is divided into increments. All sizes are fractions of the duration of the step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Increments {
     /// This many equal increments, never cut or grown: one that fails ends the analysis. Excludes the other keys.
-    #[schemars(range(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<usize>,
     /// Size of the first increment `[fraction of the duration]`.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub initial: f64,
     /// Size below which the analysis gives up `[fraction of the duration]`.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub smallest: f64,
     /// Size that is never exceeded `[fraction of the duration]`.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub largest: f64,
 }
 

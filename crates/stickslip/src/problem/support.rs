@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use crate::system::Component;
@@ -7,7 +6,8 @@ pub use crate::system::Component;
 ///
 /// Over the step in which it becomes active, a support moves linearly from the displacement the points have to the
 /// one prescribed, unless an amplitude says otherwise. In a step that does not list it, it lets go.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Support {
     /// The points: `body.set`, a `[set.NAME]`, or a body.

@@ -43,6 +43,35 @@ pub(super) fn find(root: &Table, path: &[String]) -> Option<Range<usize>> {
     best.and_then(place)
 }
 
+/// The path to the innermost value whose place in the text holds another.
+pub(super) fn path(root: &Table, place: &Range<usize>) -> Vec<String> {
+    let mut path = Vec::new();
+    let mut children: Vec<(String, &Spanned<Value>)> = entries(root);
+    let holds = |value: &Spanned<Value>| {
+        let span = value.span();
+        span.start <= place.start && place.end <= span.end
+    };
+    while let Some((name, value)) = children.into_iter().find(|(_, value)| holds(value)) {
+        path.push(name);
+        children = match value.get_ref() {
+            DeValue::Table(table) => entries(table),
+            DeValue::Array(list) => {
+                let numbers = list.iter().enumerate();
+                numbers.map(|(i, value)| (i.to_string(), value)).collect()
+            }
+            _ => break,
+        };
+    }
+    path
+}
+
+fn entries<'a, 'i>(table: &'a Table<'i>) -> Vec<(String, &'a Spanned<Value<'i>>)> {
+    let entries = table.iter();
+    entries
+        .map(|(key, value)| (key.get_ref().to_string(), value))
+        .collect()
+}
+
 /// The bytes to underline for a finding about a value: the key of a table or list of tables, otherwise the value.
 pub(super) fn show(key: Range<usize>, value: &Spanned<Value>) -> Range<usize> {
     match value.get_ref() {

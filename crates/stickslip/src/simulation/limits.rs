@@ -1,10 +1,10 @@
 //! What counts as a good solution: the `[quality]` table.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What becomes of a figure above its limit.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum GateMode {
     /// The run ends with exit code 2 and a sentence for each; its results are kept.
@@ -18,75 +18,76 @@ pub enum GateMode {
 
 /// `[quality]`: the quality gate. Every accepted increment that gives a row of the history is judged by figures that have no dimension; the worst
 /// of each must not exceed its limit. `inf` switches a limit off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Limits {
     /// What becomes of a figure above its limit.
     pub gate: GateMode,
     /// Penetration that the normal law did not ask for, `max(h(p) - g)` over the height of the cell beneath. Not judged in an explicit
     /// step, which presses by springs.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub penetration_to_size: f64,
     /// The same penetration over the elastic approach: `2 U / F` of the elastic energy of bodies and compliant interfaces and the force of
     /// the interface, at least the compression of one layer of cells under the largest pressure. In motion the largest so far of both are
     /// compared. Not judged in an explicit step.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub penetration_to_approach: f64,
     /// False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
     /// sticks.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub false_slip: f64,
     /// Complementarity: mean gap that pressure bridges, `Σ A p max(0, g - h(p)) / Σ A p height`. Not judged in an explicit step.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub complementarity: f64,
     /// Depth by which the surfaces enter each other between contact points, beyond what the points say, over the height of the cell beneath: nodes of
     /// the primary in faces of the secondary, and places all over these faces in the primary. Measured from the geometry alone.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub unseen_to_size: f64,
     /// The same depth, or the distance by which the surfaces stand apart all around a point that carries pressure, over itself plus the elastic
     /// approach: the part of the approach that contact points do not see. 1 where surfaces enter each other and nothing presses them
     /// apart. The largest so far of both are compared.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub unseen_to_approach: f64,
     /// Oscillation index of the pressure: the part of it that goes up and down from each point of the secondary to the next, over its mean;
     /// 1 for a checkerboard of zero and twice the mean.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub oscillation: f64,
     /// Shear beyond the limit of friction, over the largest limit of the interface.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub excess_shear: f64,
     /// Friction obeyed: by how much the shear of points that slip is not their limit or acts along their slip, and that of points that stick is above it,
     /// over the largest limit of the interface. Found from the tractions that are reported and from how the points have moved.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub friction_law: f64,
     /// Action against reaction: sum of the forces on both sides, over the sum of the magnitudes of those on one.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub action_reaction: f64,
     /// Sum of the moments of the forces on both sides, over the sum of their magnitudes on one times the size of the interface. What
     /// faces each other across a gap, or slides where sliding is taken as small, has a moment.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub moment: f64,
     /// Balance of each body: resultant force and moment of interfaces, loads, springs and supports (in motion also of inertia and damping),
     /// over the largest of them (in motion: the largest so far). Moments are taken with the positions of the reference, as the bodies are linear. Not judged in an
     /// explicit step, where accelerations are made to balance.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub equilibrium: f64,
     /// Rotation of each body in radians, an elastic one by its mean displacement gradient. Strains and rotations are taken as small: a body that
     /// turns by `θ` grows by `θ²/2`, and forces are balanced as if it had not turned, an error of a part in a thousand to one in a hundred
     /// at 0.05.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub rotation: f64,
     /// Rotation of the cell of each body that turns most, in radians: parts of a body may turn where it does not as a whole. The false strain there is
     /// half the square. The limit is wider, as cells at corners turn far and carry little.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub local_rotation: f64,
     /// Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
     /// motion bodies may fly as far as they like: there it is a finding.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub displacement: f64,
     /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
     /// quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
-    #[schemars(extend("exclusiveMinimum" = 0, "infinite" = true))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<f64>,
 }

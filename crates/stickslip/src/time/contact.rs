@@ -1,10 +1,10 @@
 //! How interfaces stand in the equations of motion.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Whether points in contact have mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactMass {
     /// The mass of the points of both surfaces is given to their neighbours
@@ -16,7 +16,8 @@ pub enum ContactMass {
 }
 
 /// Where in the increment the forces of the interfaces are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactAt {
     /// At its end: nothing overlaps there and friction opposes the velocity there.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CouplingModel, Row, Tie, pair};
@@ -11,7 +10,8 @@ use crate::registry::Samples;
 /// has to be small.
 ///
 /// Sets of n points stand for n springs, paired in the order of the points in the mesh; a set of one point pairs with all.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct AxialSpring {
     /// Where it begins: `body.set`, a `[set.NAME]`, or a body.
@@ -19,7 +19,7 @@ pub struct AxialSpring {
     /// Where it ends: `body.set`, a `[set.NAME]`, or a body.
     pub to: String,
     /// Stiffness of each spring `[N/m]`: over the whole thickness of a plane body, around the whole circumference of an axisymmetric one.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub stiffness: f64,
 }
 

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CouplingModel, Row, Tie, pair};
@@ -12,11 +11,12 @@ use crate::system::Component;
 /// Sets of n points stand for n equations, paired in the order of the points in the mesh; a set of one point pairs with all, itself left out. Equations that
 /// say the same twice do no harm. In explicit steps equations are springs, so stiff that increments are shorter
 /// by a third at most.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Equation {
     /// What is summed up: `[{ set = "a.left", component = "x" }, { set = "b.right", component = "x", factor = -1 }]`.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub terms: Vec<Term>,
     /// What the sum is `[length]`; zero if not given.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -24,7 +24,8 @@ pub struct Equation {
 }
 
 /// One displacement in a sum.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Term {
     /// The points: `body.set`, a `[set.NAME]`, or a body.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CouplingModel, Row, Term, Tie, equation};
@@ -11,14 +10,15 @@ use crate::system::Component;
 /// terms of opposite factors.
 ///
 /// Sets of n points stand for n springs, as with equations. The springs are free of force where nothing has moved.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Spring {
     /// The elongation: `[{ set = "a.tip", component = "y" }, { set = "b.foot", component = "y", factor = -1 }]`.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub terms: Vec<Term>,
     /// Stiffness of each spring `[N/m]`: over the whole thickness of a plane body, around the whole circumference of an axisymmetric one.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub stiffness: f64,
 }
 

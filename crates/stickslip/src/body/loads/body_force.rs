@@ -3,7 +3,8 @@ use crate::error::Diagnostic;
 use crate::registry::Samples;
 
 /// Force per volume, on cells.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct BodyForce {
     /// Force per volume `[N/m³]`, as many components as the space has.

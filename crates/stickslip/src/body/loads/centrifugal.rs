@@ -12,7 +12,8 @@ use crate::shape::mass_rule;
 ///
 /// An amplitude, and the growth of the load over its first step, multiply the force, which goes with the square of the speed. Point masses at the cells
 /// take part.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Centrifugal {
     /// Angular speed ω `[rad/s]`.

@@ -4,7 +4,8 @@ use crate::math::scale;
 use crate::registry::Samples;
 
 /// Weight: the density of the material times an acceleration, on cells, and that of point masses at them.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Gravity {
     /// Acceleration `[m/s²]`, as many components as the space has: `[0, -9.81]`.

@@ -3,7 +3,8 @@ use crate::error::Diagnostic;
 use crate::registry::Samples;
 
 /// The same force at each point of a set.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct NodalForce {
     /// Force at each point `[N]`, as many components as the space has: over the whole thickness of a plane body, around

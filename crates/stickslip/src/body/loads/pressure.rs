@@ -4,7 +4,8 @@ use crate::math::scale;
 use crate::registry::Samples;
 
 /// Force per area against the outward normal, on boundary facets. The normal is that of the undeformed body.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Pressure {
     /// Pressure `[Pa]`, positive when it pushes.

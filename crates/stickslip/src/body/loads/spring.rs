@@ -3,7 +3,8 @@ use crate::error::Diagnostic;
 use crate::registry::Samples;
 
 /// Springs between each point of a set and the ground, one along each axis. Not scaled by an amplitude.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GroundSpring {
     /// Stiffness along each axis at each point `[N/m]`, zero or more, as many as the space has: over the whole thickness

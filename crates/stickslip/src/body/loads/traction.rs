@@ -3,7 +3,8 @@ use crate::error::Diagnostic;
 use crate::registry::Samples;
 
 /// Force per area with a fixed direction, on boundary facets.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Traction {
     /// Traction `[Pa]`, as many components as the space has; radius and axis in an axisymmetric problem.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Discretisation;
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 ///
 /// A uniform pressure passes between any two meshes without error, and forces do not jump when nodes slide from facet to facet. Linear and
 /// quadratic faces, in 2D and 3D. On an obstacle, which has no facets, contact is checked at points, as with `node-to-facet`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MortarContact {
     /// Angle between neighbouring faces of the secondary `[°]` up to which the surface is taken as smooth there, and normals are

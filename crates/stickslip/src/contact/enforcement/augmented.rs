@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::penalty::stiffness_faults;
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 /// below `error` times the elastic approach ([Simo and Laursen 1992](crate::references::simo_laursen_1992)). The default:
 /// the answer does not depend on the stiffness, only the number of updates does. Where an update gains less than a factor of ten the stiffness
 /// is raised tenfold, up to 10⁶ times the bodies' own, so that even the wrong one gets there.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct AugmentedLagrangian {
     /// Largest penetration, and largest false slip of a sticking point, relative to the elastic approach `[-]`. Default: 10⁻⁴.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Enforcement, Multipliers, Stiffness};
@@ -6,7 +5,8 @@ use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 
 /// Springs against penetration and stick. What they give is reported; nothing removes it.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Penalty {
     /// Stiffness against penetration as a multiple of the bodies' own, `M / h` `[-]`. Default: 100.

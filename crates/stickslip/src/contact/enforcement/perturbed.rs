@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::penalty::stiffness_faults;
@@ -7,7 +6,8 @@ use crate::registry::Samples;
 
 /// Perturbed Lagrangian: the tractions are unknowns of Newton's iteration, coupled to the gaps by the blocks `-1/ω` of
 /// [Pop 1995](crate::references::pop_1995), eq. (27) and (33)-(38). They are eliminated point by point before the solve.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PerturbedLagrangian {
     /// ω against penetration as a multiple of the bodies' own stiffness `M / h` `[-]`. Default: 10⁴.

@@ -1,6 +1,5 @@
 //! What becomes of the gaps that the meshes have when an interface begins to act.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Interface, Primary};
@@ -9,7 +8,8 @@ use crate::math::{Vec3, add_scaled, dot, normalize, scale, sub};
 use crate::system::Stage;
 
 /// What becomes of gaps and overlaps that the meshes have when an interface begins to act.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
     /// They count as they are.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::facet::{MOST_DOFS, Projection, add_relative, add_scaled_row};
@@ -12,7 +11,8 @@ use crate::registry::Samples;
 ///
 /// Slip is objective: a point that rides on a straining or rotating facet has none. Force and moment of a contact element add up
 /// to zero. Works on lines, triangles and quadrilaterals, linear or quadratic. No parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Convective {}
 

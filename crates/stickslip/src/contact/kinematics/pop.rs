@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::facet::{Projection, add_facet, add_relative};
@@ -17,7 +16,8 @@ use crate::registry::Samples;
 /// - it is not objective: a point glued to a facet that shears has a spurious slip of first order.
 ///
 /// Facets must be lines or triangles. No parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Pop1995 {}
 

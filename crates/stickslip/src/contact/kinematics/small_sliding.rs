@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::facet::add_relative;
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 /// Small sliding: every point keeps the facet, the weights and the normal it has in the reference configuration. Gap and slip
 /// are linear in the displacements. For joints that slip by a small part of an element; cheap, and free of geometric
 /// effects. No parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SmallSliding {}
 

@@ -1,11 +1,11 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::normal::positive;
 
 /// Wear after [Archard 1953](crate::references::archard_1953): a surface that slides by `ds` under a pressure `p` loses a layer of
 /// depth `k p |ds|`. The depth is reported; it does not change the geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Wear {
     /// Specific wear rate `k` of the secondary: volume lost over force and path `[1/Pa]`, Archard's dimensionless coefficient over the

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{to_vec3, vector_fault};
@@ -9,7 +8,8 @@ use crate::system::Amplitude;
 
 /// The prescribed motion of an obstacle: a rotation, then a translation, both from tables over time (linear in between,
 /// constant outside).
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Motion {
     /// Rows of `[time, dx, dy]` (plane problems) or `[time, dx, dy, dz]` `[m]`.
@@ -21,7 +21,8 @@ pub struct Motion {
 }
 
 /// Rotation about a fixed axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Rotation {
     /// A point on the axis `[m]`.

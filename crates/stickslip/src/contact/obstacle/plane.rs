@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Foot, Shape, to_vec3, vector_fault};
@@ -6,7 +5,8 @@ use crate::math::{Mat3, Vec3, add_scaled, dot, identity, normalize, sub};
 use crate::registry::Samples;
 
 /// A rigid half-space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Plane {
     /// A point on its surface `[m]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Foot, Shape, radial_foot, radial_slope_derivative, to_vec3, vector_fault};
@@ -7,7 +6,8 @@ use crate::math::{Mat3, Vec3, identity};
 use crate::registry::Samples;
 
 /// A rigid sphere (in an axisymmetric problem with its centre on the axis).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Sphere {
     /// Centre `[m]`.

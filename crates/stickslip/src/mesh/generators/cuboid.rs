@@ -10,7 +10,8 @@ use crate::shape::ElementKind;
 ///
 /// Facet sets: `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z). Point sets: its corners, as in
 /// `bottom-front-left`.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Cuboid {
     /// Corner with the lowest coordinates `[length]`.

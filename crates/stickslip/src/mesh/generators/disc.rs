@@ -11,7 +11,8 @@ use crate::shape::ElementKind;
 ///
 /// Facet sets: `arc` (the rim); `axis` (the cut through the contact point) if `symmetric`. Point sets: `pole` (the
 /// contact point), `centre`. Every point of the rim lies on the circle.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Disc {
     /// Centre `[length]`.

@@ -12,7 +12,8 @@ use crate::shape::ElementKind;
 ///
 /// Facet sets: `arc` (the half-sphere), `flat`; `symmetry-x`, `symmetry-y` (the cuts) by `sector`. Point sets: `pole`
 /// (the contact point), `centre`. Every point of `arc` lies on the sphere.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct HalfBall {
     /// Middle of the flat side `[length]`.

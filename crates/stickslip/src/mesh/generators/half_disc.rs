@@ -13,7 +13,8 @@ use crate::shape::ElementKind;
 ///
 /// Facet sets: `arc`, `flat` (the diameter); `axis` (the cut through the contact point) if `symmetric`. Point sets:
 /// `pole` (the contact point), `centre`. Every point of the arc lies on the circle.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct HalfDisc {
     /// Middle of the flat side `[length]`.

@@ -15,17 +15,8 @@ pub(super) type Key = [usize; 4];
 pub(super) const MOST_CELLS: usize = 20_000_000;
 
 /// Which diagonal splits a quadrilateral into two triangles. Of no effect on other plane elements.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Diagonal {
     /// From lower left to upper right.

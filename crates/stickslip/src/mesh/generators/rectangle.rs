@@ -10,7 +10,8 @@ use crate::shape::ElementKind;
 ///
 /// Facet sets: `left`, `right` (x), `bottom`, `top` (y). Point sets: `bottom-left`, `bottom-right`, `top-left`,
 /// `top-right`.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Rectangle {
     /// Lower left corner `[length]`.

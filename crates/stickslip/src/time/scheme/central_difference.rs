@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Method, Scheme};
@@ -9,7 +8,8 @@ use crate::registry::Samples;
 ///
 /// The increment follows from the highest frequency of the bodies and the stiffness of the contact. `increments.fixed` sets it instead;
 /// more than the stable one is refused. Give `increments.largest` to bound it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default, rename_all = "kebab-case")]
 pub struct CentralDifference {
     /// Fraction of the stable increment that is used `[-]`. Default: 0.9.

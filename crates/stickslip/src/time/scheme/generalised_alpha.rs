@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Alphas, Method, Scheme};
@@ -6,7 +5,8 @@ use crate::registry::Samples;
 
 /// The generalised-α method of Chung and Hulbert ([`chung_hulbert_1993`](crate::references::chung_hulbert_1993)): second
 /// order, damps high frequencies as asked for and low ones as little as possible.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct GeneralisedAlpha {
     /// What one increment leaves of the amplitude of infinitely high frequencies, ρ∞ `[-]`, between 0 and 1. Default: 0.9.

@@ -1,11 +1,11 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Alphas, Method, Scheme};
 use crate::registry::Samples;
 
 /// The method of Hilber, Hughes and Taylor ([`hht_1977`](crate::references::hht_1977)): second order, damps high frequencies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Hht {
     /// α `[-]`, between -1/3 (most damping) and 0 (the trapezoidal rule). Default: -0.05.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Alphas, Method, Scheme};
@@ -6,7 +5,8 @@ use crate::registry::Samples;
 
 /// Newmark's method ([`newmark_1959`](crate::references::newmark_1959)). With the defaults it is the trapezoidal rule:
 /// unconditionally stable, second order, without dissipation in linear motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Newmark {
     /// β `[-]`. Default: 1/4.

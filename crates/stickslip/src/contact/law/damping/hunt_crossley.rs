@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Extra, NormalDamping};
@@ -11,7 +10,8 @@ use crate::registry::Samples;
 /// The extra pressure is zero where contact begins and ends, so that nothing jumps. On a normal law that is a power of the
 /// penetration a rigid mass that strikes at a velocity `v` comes back at about `v (1 - 2/3 coefficient v)`, whatever the
 /// power, if that is a small loss.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct HuntCrossley {
     /// Extra pressure over pressure, per closing velocity `[s/m]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Extra, NormalDamping};
@@ -9,7 +8,8 @@ use crate::registry::Samples;
 ///
 /// It acts in full from the first touch: surfaces that meet at a velocity feel a jump of pressure, and surfaces that part
 /// lose contact before the gap opens. [Hunt and Crossley 1975](crate::references::hunt_crossley_1975) avoid both.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Viscous {
     /// Pressure per closing velocity `[Pa s/m]`.

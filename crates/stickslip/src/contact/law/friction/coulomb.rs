@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -6,7 +5,8 @@ use crate::contact::law::normal::{not_negative, positive};
 use crate::registry::Samples;
 
 /// Coulomb friction: limit `μ p`, at most `cap`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Coulomb {
     /// Coefficient of friction μ `[-]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 ///
 /// With `kinetic` above `static` friction grows with speed. In a quasi-static analysis "speed" is slip per unit of the
 /// problem's time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ExponentialDecay {
     /// Coefficient of friction at rest μ_s `[-]`.

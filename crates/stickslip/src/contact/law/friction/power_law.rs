@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -9,7 +8,8 @@ use crate::registry::Samples;
 ///
 /// With the exponent of the normal compliance it is Coulomb's law with `μ = c / c_n`; otherwise the coefficient
 /// depends on pressure. It needs a compliant normal law: without one the penetration has no meaning.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PowerLaw {
     /// Coefficient c_T `[Pa/m^m]`.

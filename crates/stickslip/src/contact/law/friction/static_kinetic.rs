@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 ///
 /// The limit jumps between two increments, never within one: a point that lets go carries `μ_s p` to the end of its
 /// increment and drops to `μ_k p` in the next. So the increments say how soon after the start of slip the jump comes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StaticKinetic {
     /// Coefficient of static friction μ_s `[-]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 ///
 /// The exponents in use are δ = 1, an exponential, and δ = 2, a Gaussian, which starts without slope. Below 1 the slope at
 /// rest would be infinite. In a quasi-static analysis "speed" is slip per unit of the problem's time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stribeck {
     /// Coefficient of friction at rest μ_s `[-]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrictionLaw, FrictionPoint, Limit};
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 /// One row a pressure, one column a speed. A list that is left out does not matter to friction. Without `pressures` there
 /// is one row: `tabular = { speeds = [0, 0.1, 1], mu = [[0.5, 0.4, 0.3]] }`. Without `speeds` there is one column, which
 /// may be written as a row as well. In a quasi-static analysis "speed" is slip per unit of the problem's time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Tabular {
     /// Pressures of the rows `[Pa]`, increasing. Default: none.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NormalLaw, positive};
@@ -10,7 +9,8 @@ use crate::registry::Samples;
 /// This is the law of `PRESSURE-OVERCLOSURE=EXPONENTIAL` in CalculiX, which drops what little pressure there is beyond `c0`. A jump has no equilibrium:
 /// here the tangent at `c0` goes on until it meets zero, at a clearance of 1.217 `c0`. Beyond a penetration of 5 `c0`, where the pressure is 10¹⁰ `p0`,
 /// the curve goes on as its tangent as well.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Exponential {
     /// Clearance at which the pressure is `p0 / 100` `[m]`.

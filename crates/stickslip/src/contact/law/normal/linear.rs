@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NormalLaw, positive};
@@ -8,7 +7,8 @@ use crate::registry::Samples;
 /// Linear compliance: `p = c δ` with the penetration `δ = max(0, -gap)`.
 ///
 /// A physical compliance, as of a thin soft layer; it is not a penalty and does not depend on the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Linear {
     /// Stiffness per area `[Pa/m]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NormalLaw, positive};
@@ -13,7 +12,8 @@ use crate::registry::Samples;
 /// The formula is even in `d` and would soften below its inflection `d* = 1.363 σ/√(2k)`; there it is continued along
 /// its tangent. Beyond `5 σ` it ends in a parabola, so that the pressure is continuously differentiable and exactly zero
 /// where the asperities no longer touch. The constant 1617646.152 makes the law dimensional: σ must be in metres.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MicroContact {
     /// Vickers correlation coefficient c1 `[Pa]`.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NormalLaw, positive};
@@ -8,7 +7,8 @@ use crate::registry::Samples;
 /// Normal compliance `p = c δ^m` with the penetration `δ = max(0, -gap)`:
 /// [Pop 1995](crate::references::pop_1995), eq. (5); [Oden and Martins 1985](crate::references::oden_martins_1985),
 /// who find `m` between 2 and 3.33 for metal surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PowerLaw {
     /// Coefficient c_n `[Pa/m^m]`.

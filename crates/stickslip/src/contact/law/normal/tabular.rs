@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
@@ -7,7 +6,8 @@ use crate::registry::Samples;
 
 /// A measured curve of pressure over penetration: linear between the rows, continued with the slope of the last piece.
 /// The first row is where contact begins and must have zero pressure; both columns increase.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Tabular {
     /// Rows of `[penetration [m], pressure [Pa]]`.

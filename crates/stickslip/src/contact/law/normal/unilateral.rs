@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
@@ -6,7 +5,8 @@ use crate::math::Slope;
 use crate::registry::Samples;
 
 /// Unilateral contact (Signorini): gap ≥ 0, pressure ≥ 0, and one of them is zero. No parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Unilateral {}
 

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{SlipRule, SlipState, Tangential};
@@ -11,7 +10,8 @@ use crate::registry::Samples;
 /// It never quite sticks: under a steady shear `q` below the limit `T` the interface
 /// [creeps](crate::contact::law::slip::creep) at `ε (1 - √(1 - q/T))`, which it reports in the summary. In a quasi-static
 /// analysis "velocity" is slip per unit of the problem's time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Regularised {
     /// Velocity ε `[m/s]` above which the full limit acts.

@@ -1,4 +1,3 @@
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{SlipRule, SlipState, Tangential};
@@ -7,7 +6,8 @@ use crate::registry::Samples;
 /// Stick until the limit, then slide: the trial traction `base - ω_T slip` is returned radially to the limit
 /// ([Simo and Laursen 1992](crate::references::simo_laursen_1992)). There is no creep; what gives in stick is only the
 /// stiffness of the enforcement, which the augmented Lagrangian removes. No parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ReturnMapping {}
 
