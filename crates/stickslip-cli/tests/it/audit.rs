@@ -1,7 +1,8 @@
 //! A few random problems of every family, run by the binary and audited by what it writes; the audit shares no code with the program. Many
 //! more: `cargo xtask robustness`.
 
-use std::path::{Path, PathBuf};
+use crate::support;
+use std::path::PathBuf;
 use std::process::Command;
 
 use stickslip_audit::audit::audit;
@@ -14,13 +15,7 @@ const NUMBERS: [u64; 12] = [3, 8, 14, 15, 17, 26, 30, 32, 39, 60, 63, 67];
 
 /// Runs a problem file; the folder of its results and the exit code.
 fn run(name: &str, text: &str) -> (PathBuf, Option<i32>) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("audit")
-        .join(name);
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
-    }
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let folder = support::folder("audit", name);
     let (file, out) = (folder.join("case.toml"), folder.join("case.out"));
     std::fs::write(&file, text).expect("the problem file");
     let output = Command::new(env!("CARGO_BIN_EXE_stickslip"))

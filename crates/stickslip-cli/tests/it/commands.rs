@@ -1,22 +1,7 @@
 //! The command from outside: exit codes, and what goes to which stream.
 
+use crate::support::{code, stickslip, text};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn stickslip(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn code(output: &Output) -> Option<i32> {
-    output.status.code()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 /// A problem file in the folder for temporary files of this test.
 fn file(name: &str, content: &str) -> PathBuf {

@@ -1,18 +1,7 @@
 //! `stickslip convert`, `completions` and `man` from outside.
 
+use crate::support::{stickslip, text};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn stickslip(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 fn place(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)

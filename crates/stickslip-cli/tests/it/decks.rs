@@ -1,18 +1,7 @@
 //! Input decks through the command: run as they are, and converted to a problem file first.
 
+use crate::support::{stickslip, text};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn stickslip(arguments: &[&Path]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 fn deck(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,7 +1,7 @@
 //! What goes wrong around a run: full and read-only disks, folders that are taken, names that leave the folder, inputs that would be
 //! overwritten, memory that runs out, runs that are killed. Nothing is lost, and each message is what it was when somebody read it last.
-#![cfg(unix)]
 
+use crate::support;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -21,11 +21,7 @@ step = [{ name = "press", increments = { fixed = 2 } }]
 
 /// A folder of its own for each test, with the case in it.
 fn place(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("faults")
-        .join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let folder = support::folder("faults", name);
     std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
     folder
 }

@@ -1,5 +1,7 @@
 //! What programs and people see of a run while it goes on, and that it can be stopped.
 
+use crate::support;
+use crate::support::text;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -16,13 +18,7 @@ step = [{ name = "press", increments = { fixed = 3 } }]
 "#;
 
 fn place(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("progress")
-        .join(name);
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
-    }
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let folder = support::folder("progress", name);
     std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
     folder
 }
@@ -31,10 +27,6 @@ fn stickslip(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
     command.current_dir(folder);
     command
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 #[test]

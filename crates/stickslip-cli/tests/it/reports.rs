@@ -1,18 +1,8 @@
 //! Reports and pictures from outside: what a run leaves is enough for them.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn stickslip(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
+use crate::support;
+use crate::support::{stickslip, text};
+use std::path::PathBuf;
 
 const CASE: &str = r#"format = 1
 title = "A block"
@@ -27,11 +17,7 @@ step = [{ name = "press", increments = { fixed = 2 } }]
 
 /// The results of the case, with another coefficient of friction, in a folder of its own.
 fn results(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("reports")
-        .join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let folder = support::folder("reports", name);
     let case = folder.join("case.toml");
     std::fs::write(&case, CASE).expect("the case is written");
     let set = "interface.base.friction.coulomb.mu=0.4";

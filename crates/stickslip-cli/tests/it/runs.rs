@@ -1,22 +1,8 @@
 //! Running, comparing and tabulating from outside: results on disk, exit codes 0 to 3.
 
+use crate::support;
+use crate::support::{code, stickslip, text};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn stickslip(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn code(output: &Output) -> Option<i32> {
-    output.status.code()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 const CASE: &str = r#"format = 1
 model.space = "plane-strain"
@@ -47,13 +33,7 @@ struct Place {
 
 impl Place {
     fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-            .join("runs")
-            .join(name);
-        if folder.exists() {
-            std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
-        }
-        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        let folder = support::folder("runs", name);
         let place = Place { folder };
         place.write("case.toml", CASE);
         place.write("expected.toml", EXPECTED);

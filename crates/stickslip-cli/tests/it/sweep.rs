@@ -1,5 +1,6 @@
 //! Sweeps from outside: which runs, in which order, what the table says, and what is refused before anything runs.
 
+use crate::support;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -24,13 +25,7 @@ struct Place {
 
 impl Place {
     fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-            .join("sweep")
-            .join(name);
-        if folder.exists() {
-            std::fs::remove_dir_all(&folder).expect("a folder of an earlier run");
-        }
-        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        let folder = support::folder("sweep", name);
         let place = Place { folder };
         place.write_case(CASE);
         place

@@ -1,7 +1,6 @@
 //! An analysis goes on by one increment at a time, can be interrupted, and takes laws from the program that runs it.
 
-mod support;
-
+use crate::support;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

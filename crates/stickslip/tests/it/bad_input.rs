@@ -2,8 +2,7 @@
 //!
 //! Mistakes that the text of a problem file shows by itself are tested in `problem_files.rs`.
 
-mod support;
-
+use crate::support;
 use std::path::Path;
 
 use stickslip::Error;

@@ -1,10 +1,6 @@
 //! Bodies without their interiors give the results of the whole matrix: on every example that is not explicit, and bit by bit on any
 //! number of threads.
 
-#[macro_use]
-#[path = "support/examples.rs"]
-mod list;
-
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;

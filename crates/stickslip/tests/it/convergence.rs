@@ -4,8 +4,7 @@
 //! Soft bodies (strains of per cent) slide over each other by a good part of a facet, so that a wrong or missing derivative shows: in
 //! the laws, in the frame, or in the second derivatives of gap and slip.
 
-mod support;
-
+use crate::support;
 use std::fmt::Write;
 
 use rayon::prelude::*;

@@ -1,7 +1,6 @@
 //! Equations between displacements and springs between points, alone and beside contact; masses at points, spinning bodies, laws that change.
 
-mod support;
-
+use crate::support;
 use support::{Record, complaint, problem, run};
 
 const METHODS: [&str; 3] = ["sparse", "condensed", "multigrid"];

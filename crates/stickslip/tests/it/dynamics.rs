@@ -1,7 +1,6 @@
 //! Motion: order of accuracy, energy, initial conditions, and what is refused.
 
-mod support;
-
+use crate::support;
 use support::{complaint, problem, run};
 
 /// A rod of four cells, held at one end and pulled at the other at once. `SCHEME` and `STEPS` are filled in.

@@ -1,7 +1,6 @@
 //! The elements of decks: wedges, reduced integration, incompatible modes, and what is printed of a cell.
 
-mod support;
-
+use crate::support;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

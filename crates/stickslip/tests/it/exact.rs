@@ -1,9 +1,7 @@
 //! Exact contact and stick: no numerical stiffness shows in the answer, and points that open, close, stick and slip in turn are no reason to fail.
 
-#[path = "support/resistance.rs"]
-mod resistance;
-mod support;
-
+use crate::support;
+use crate::support::resistance;
 use resistance::{Medium, Space, resist};
 use std::sync::Arc;
 

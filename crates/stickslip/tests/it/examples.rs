@@ -3,10 +3,6 @@
 //! A folder of `examples/` holds a `case.toml` and one `expected*.toml` or more; each of those names the case and the overrides it is
 //! about, so that large cases are tested in a reduced size.
 
-#[macro_use]
-#[path = "support/examples.rs"]
-mod list;
-
 use std::path::{Path, PathBuf};
 
 use stickslip::problem::Document;

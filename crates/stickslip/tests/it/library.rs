@@ -1,7 +1,6 @@
 //! Factors made for one run serve others: what may differ between them, what may not, and what happens to damaged files.
 
-mod support;
-
+use crate::support;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

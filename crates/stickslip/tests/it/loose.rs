@@ -1,7 +1,6 @@
 //! Bodies that only contact can hold: forces close the gaps, whatever their size, and what helped on the way is gone at the end.
 
-mod support;
-
+use crate::support;
 use std::path::Path;
 
 use stickslip::problem::Problem;

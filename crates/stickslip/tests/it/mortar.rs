@@ -1,7 +1,6 @@
 //! Surface-to-surface contact between meshes that do not match: uniform states come out uniform, whatever the cells.
 
-mod support;
-
+use crate::support;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;

@@ -1,7 +1,6 @@
 //! Multigrid finds what the sparse factor finds, in a bounded number of iterations.
 
-mod support;
-
+use crate::support;
 use stickslip::newton::Statistics;
 use support::problem;
 

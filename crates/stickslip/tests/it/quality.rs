@@ -1,7 +1,6 @@
 //! The quality gate: what trips each limit, what passes, and whether the stated dependence on the numerical stiffness is the true one.
 
-mod support;
-
+use crate::support;
 use stickslip::simulation::doctor::DoctorCause;
 use stickslip::simulation::{Figure, GateMode, Simulation};
 

@@ -1,7 +1,6 @@
 //! An attempt that is given up leaves no trace: repeating it gives the same bits, and only a commit moves the history on.
 
-mod support;
-
+use crate::support;
 use stickslip::contact::enforcement::EnforcementModel;
 use stickslip::contact::interface::Interface;
 use stickslip::contact::kinematics::KinematicsModel;

@@ -1,7 +1,6 @@
 //! Rigid bodies: how they move, stand, swing and touch, and what is refused.
 
-mod support;
-
+use crate::support;
 use std::f64::consts::TAU;
 
 use stickslip::simulation::Simulation;

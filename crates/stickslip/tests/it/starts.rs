@@ -1,7 +1,6 @@
 //! What becomes of the gaps that meshes have when an interface begins to act.
 
-mod support;
-
+use crate::support;
 use std::path::Path;
 
 use stickslip::simulation::Simulation;

@@ -1,7 +1,6 @@
 //! Results do not depend on the number of threads, to the last bit.
 
-mod support;
-
+use crate::support;
 use std::path::Path;
 
 use stickslip::simulation::{ResultFiles, Simulation};

@@ -1,7 +1,6 @@
 //! A problem in metres, kilograms and seconds and the same in millimetres, tonnes and seconds take the same way to the same answer.
 
-mod support;
-
+use crate::support;
 use support::Record;
 
 /// Units of length and stress, as multiples of the metre and the pascal of the numbers in the texts below.

@@ -1,7 +1,6 @@
 //! What sliding leaves on both sides: dissipated energy and wear against closed forms, and fields that are uniform where they should be.
 
-mod support;
-
+use crate::support;
 use stickslip::simulation::{Simulation, fields};
 
 const PRESSURE: f64 = 40.0;

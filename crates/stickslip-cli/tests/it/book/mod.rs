@@ -11,6 +11,7 @@
 
 mod asserted;
 
+use crate::support;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -121,11 +122,7 @@ fn copy(from: &Path, to: &Path) {
 fn folder(page: &Path, text: &str) -> PathBuf {
     let name = page.strip_prefix(source()).expect("a page");
     let name = name.with_extension("").to_string_lossy().replace('/', "-");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("book")
-        .join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let folder = support::folder("book", &name);
     for part in text.split("examples/").skip(1) {
         let end = part
             .find(|c: char| !c.is_alphanumeric() && c != '-')

@@ -2,9 +2,9 @@
 
 use stickslip::simulation::doctor::DoctorCause;
 
-use crate::Expected::{Found, Refused};
-use crate::models::{CUBES, LOAD, PRESS, SLIDE, THROW};
-use crate::{Defect, defect};
+use super::Expected::{Found, Refused};
+use super::models::{CUBES, LOAD, PRESS, SLIDE, THROW};
+use super::{Defect, defect};
 
 pub const CONDITIONS: &[Defect] = &[
     defect(

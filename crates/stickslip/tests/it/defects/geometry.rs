@@ -2,9 +2,9 @@
 
 use stickslip::simulation::doctor::DoctorCause;
 
-use crate::Expected::{Found, Refused};
-use crate::models::{CUBES, LOAD, PRESS, RINGS, THROW};
-use crate::{Defect, defect, meshed};
+use super::Expected::{Found, Refused};
+use super::models::{CUBES, LOAD, PRESS, RINGS, THROW};
+use super::{Defect, defect, meshed};
 
 pub const GEOMETRY: &[Defect] = &[
     defect(

@@ -6,8 +6,8 @@ use stickslip::contact::law::own::{LimitFunction, PressureFunction};
 use stickslip::simulation::Model;
 use stickslip::simulation::doctor::DoctorCause;
 
-use crate::models::COMPLIANT;
-use crate::{examined, folder, judged};
+use super::models::COMPLIANT;
+use super::{examined, folder, judged};
 
 /// How many there are.
 pub const COUNT: usize = 4;

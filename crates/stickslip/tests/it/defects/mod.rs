@@ -1,8 +1,5 @@
 //! Planted defects: sound models, each spoilt by one mistake, which an error, `check` or the findings of the run have to name, and nothing else.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod conditions;
 mod examples;
 mod geometry;
@@ -10,6 +7,7 @@ mod laws;
 mod models;
 mod numbers;
 
+use crate::support;
 use std::path::Path;
 
 use stickslip::Error;

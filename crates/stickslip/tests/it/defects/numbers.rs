@@ -2,9 +2,9 @@
 
 use stickslip::simulation::doctor::DoctorCause;
 
-use crate::Expected::{Found, Refused};
-use crate::models::{COMPLIANT, CUBES, LOAD, PRESS, THROW};
-use crate::{Defect, defect};
+use super::Expected::{Found, Refused};
+use super::models::{COMPLIANT, CUBES, LOAD, PRESS, THROW};
+use super::{Defect, defect};
 
 pub const NUMBERS: &[Defect] = &[
     defect(

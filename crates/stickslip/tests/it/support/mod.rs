@@ -1,7 +1,6 @@
-//! What several test programs share: from the text of a problem to a simulation, and a record of its iterations.
+//! What several suites share: from the text of a problem to a simulation, and a record of its iterations.
 
-// Every test program compiles this module for itself and uses a part of it.
-#![allow(dead_code)]
+pub mod resistance;
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +15,7 @@ pub fn problem(text: &str) -> Problem {
     Problem::from_toml(text, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// A folder of this test program for temporary files, empty.
+/// A folder for temporary files, empty.
 pub fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if path.exists() {

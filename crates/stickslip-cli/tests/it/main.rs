@@ -1,0 +1,15 @@
+//! The command from outside: one test program, so that it is linked once.
+
+mod support;
+
+mod audit;
+mod book;
+mod commands;
+mod convert;
+mod decks;
+#[cfg(unix)]
+mod faults;
+mod progress;
+mod reports;
+mod runs;
+mod sweep;

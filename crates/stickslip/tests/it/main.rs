@@ -1,0 +1,33 @@
+//! Verification of the library: one test program, so that it is linked once.
+
+#[macro_use]
+#[path = "support/examples.rs"]
+mod list;
+mod support;
+
+mod advance;
+mod bad_input;
+mod condensed;
+mod convergence;
+mod couplings;
+mod defects;
+mod dynamics;
+mod elements;
+mod exact;
+mod examples;
+mod layers;
+mod library;
+mod loose;
+mod malformed;
+mod mortar;
+mod multigrid;
+mod pairing;
+mod problem_files;
+mod quality;
+mod restep;
+mod rigid;
+mod schema;
+mod starts;
+mod threads;
+mod units;
+mod wear;
