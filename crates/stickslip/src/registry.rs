@@ -10,9 +10,6 @@ pub trait Family: Sized {
     /// The key under which the problem file chooses from this family.
     const KEY: &'static str;
 
-    /// The name of the enum, under which its entries stand in the JSON schema.
-    const NAME: &'static str;
-
     /// The keys of the entries, in the order of the registry.
     const KINDS: &'static [&'static str];
 
@@ -51,7 +48,6 @@ macro_rules! family {
 
         impl $crate::registry::Family for $name {
             const KEY: &'static str = $key;
-            const NAME: &'static str = stringify!($name);
             const KINDS: &'static [&'static str] = &[$( $kind ),+];
 
             fn samples() -> Vec<Self> {

@@ -38,9 +38,10 @@ pub struct ModelListing {
     pub schema: Value,
 }
 
-fn listing<F: Family>(place: &'static str) -> FamilyListing {
+/// `definition`: where the schema has the entries, the family itself or the table into which they are flattened.
+fn listing<F: Family>(definition: &str, place: &'static str) -> FamilyListing {
     let model = |&name| {
-        let schema = schema::of_entry(F::NAME, name);
+        let schema = schema::of_entry(definition, name);
         ModelListing {
             name,
             summary: prose::first_sentence(schema["description"].as_str().unwrap_or_default()),
@@ -57,18 +58,21 @@ fn listing<F: Family>(place: &'static str) -> FamilyListing {
 /// All model families of the problem file, in the order of its tables.
 pub fn families() -> Vec<FamilyListing> {
     vec![
-        listing::<Generator>("[body.NAME] generate.KIND"),
-        listing::<Material>("[material.NAME.KIND]"),
-        listing::<ObstacleShape>("[obstacle.NAME.KIND]"),
-        listing::<NormalModel>("[interface.NAME] normal.KIND"),
-        listing::<DampingModel>("[interface.NAME] damping.KIND"),
-        listing::<FrictionModel>("[interface.NAME] friction.KIND"),
-        listing::<SlipModel>("[interface.NAME] slip.KIND"),
-        listing::<EnforcementModel>("[interface.NAME] enforcement.KIND"),
-        listing::<DiscretisationModel>("[interface.NAME] discretisation.KIND"),
-        listing::<KinematicsModel>("[interface.NAME] kinematics.KIND"),
-        listing::<LoadKind>("[load.NAME.KIND]"),
-        listing::<CouplingKind>("[coupling.NAME.KIND]"),
-        listing::<SchemeModel>("[step.dynamic] scheme.KIND"),
+        listing::<Generator>("Generator", "[body.NAME] generate.KIND"),
+        listing::<Material>("Material", "[material.NAME.KIND]"),
+        listing::<ObstacleShape>("Obstacle", "[obstacle.NAME.KIND]"),
+        listing::<NormalModel>("NormalModel", "[interface.NAME] normal.KIND"),
+        listing::<DampingModel>("DampingModel", "[interface.NAME] damping.KIND"),
+        listing::<FrictionModel>("FrictionModel", "[interface.NAME] friction.KIND"),
+        listing::<SlipModel>("SlipModel", "[interface.NAME] slip.KIND"),
+        listing::<EnforcementModel>("EnforcementModel", "[interface.NAME] enforcement.KIND"),
+        listing::<DiscretisationModel>(
+            "DiscretisationModel",
+            "[interface.NAME] discretisation.KIND",
+        ),
+        listing::<KinematicsModel>("KinematicsModel", "[interface.NAME] kinematics.KIND"),
+        listing::<LoadKind>("Load", "[load.NAME.KIND]"),
+        listing::<CouplingKind>("Coupling", "[coupling.NAME.KIND]"),
+        listing::<SchemeModel>("SchemeModel", "[step.dynamic] scheme.KIND"),
     ]
 }

@@ -18,7 +18,7 @@ pub(super) fn shared() -> &'static Value {
     &SCHEMA
 }
 
-/// The schema of an entry of a family, with all definitions that it may refer to.
+/// The schema of an entry of a family, with all definitions that it may refer to. `family`: the definition that lists the entries.
 pub(super) fn of_entry(family: &str, kind: &str) -> Value {
     let all = &shared()["$defs"];
     let entries = all[family]["oneOf"].as_array();
