@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::contact::response::Status;
-use stickslip::newton::Course;
+use stickslip::newton::Strategy;
 use stickslip::simulation::doctor::{Finding, Severity};
 use stickslip::simulation::{Event, Gate, Observer, Row, Simulation};
 
@@ -151,9 +151,9 @@ impl Observer for Progress {
                     p.tally.stick,
                     p.tally.slip,
                     p.tally.changed,
-                    match p.course {
-                        Course::Plain => String::new(),
-                        course => format!("  ({})", course.name()),
+                    match p.strategy {
+                        Strategy::Plain => String::new(),
+                        strategy => format!("  ({})", strategy.name()),
                     }
                 ));
             }

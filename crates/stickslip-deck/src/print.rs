@@ -10,7 +10,6 @@ use stickslip::contact::interface::Interface;
 use stickslip::io::write_atomically;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::simulation::{Event, Observer, Simulation};
-use stickslip::system::Force;
 
 use crate::deck::{Print, Totals, When};
 use crate::translate::Translation;

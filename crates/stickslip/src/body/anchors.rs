@@ -2,9 +2,7 @@
 
 use crate::math::{Vec3, add_scaled, distance, norm, sub};
 use crate::mesh::Mesh;
-use crate::system::{
-    Assembler, Augmentation, Dofs, Energy, Force, Role, Stage, StepFailure, Tangent,
-};
+use crate::system::{Assembler, Augmentation, Dofs, Energy, Force, Stage, StepFailure, Tangent};
 
 /// Anchors of loose bodies.
 ///
@@ -192,7 +190,7 @@ impl Group {
 
 impl Anchors {
     /// Where the anchors are to be next: where the bodies would come to rest if what they did in the last rounds went on in the same way
-    /// (Anderson's mixing); where they are now if nothing is known of that. Never further than the reach from where they are.
+    /// ([Anderson's](crate::references::anderson_1965) mixing); where they are now if nothing is known of that. Never further than the reach from where they are.
     fn extrapolate(&mut self) -> Vec<Vec<Vec3>> {
         let flat = |part: fn(&Group) -> &[Vec3]| -> Vec<f64> {
             let all = self.groups.iter().flat_map(|g| part(g).iter().flatten());
@@ -265,14 +263,6 @@ fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], blur: f64, next: &mut [f
 }
 
 impl Force for Anchors {
-    fn name(&self) -> &str {
-        "anchors"
-    }
-
-    fn role(&self) -> Role {
-        Role::Contact
-    }
-
     fn begin(&mut self) {
         self.rounds = 0;
         self.evaluations = 0;
@@ -368,8 +358,11 @@ impl Force for Anchors {
     fn patience(&self) -> usize {
         MOST_ROUNDS
     }
+}
 
-    fn energy(&self) -> Energy {
+impl Anchors {
+    /// Energies at the last committed state.
+    pub fn energy(&self) -> Energy {
         Energy {
             stored: self.left(),
             ..Energy::default()

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Elastic, Part};
 use crate::mesh::CellRef;
-use crate::system::{Dofs, Force};
+use crate::system::Dofs;
 
 /// The cells of a body that meet at a point, as a body of their own.
 #[derive(Debug, Clone)]
@@ -42,7 +42,7 @@ impl Elastic {
         });
         let parts = parts.collect();
         let elastic = Elastic::new(
-            Force::name(self),
+            self.name.clone(),
             Arc::new(mesh),
             self.space,
             self.formulation,

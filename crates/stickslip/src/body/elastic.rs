@@ -14,7 +14,7 @@ use crate::error::Diagnostic;
 use crate::linear::BlockCsr;
 use crate::material::{Stiffness, constrained_modulus, plane_stress};
 use crate::mesh::{Block, Mesh};
-use crate::system::{Energy, Fields, Force, Stage, State, StepFailure};
+use crate::system::{Fields, State};
 
 /// A block of cells and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Part {
 /// A linear elastic body: some blocks of a mesh, each with a material.
 #[derive(Debug, Clone)]
 pub struct Elastic {
-    name: String,
+    pub(super) name: String,
     pub(super) mesh: Arc<Mesh>,
     pub(super) space: Space,
     pub(super) formulation: Formulation,
@@ -38,7 +38,6 @@ pub struct Elastic {
     /// Stiffness as it acts in the space (condensed for plane stress), by part.
     pub(super) acting: Vec<Stiffness>,
     points: Vec<usize>,
-    stored: f64,
 }
 
 impl Elastic {
@@ -121,7 +120,6 @@ impl Elastic {
             parts,
             acting,
             points,
-            stored: 0.0,
         })
     }
 
@@ -233,12 +231,9 @@ fn check_cells<const N: usize>(
     }
 }
 
-impl Force for Elastic {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn couplings(&self, visit: &mut dyn FnMut(&[usize])) {
+impl Elastic {
+    /// Points whose dofs the body couples, cell by cell.
+    pub fn couplings(&self, visit: &mut dyn FnMut(&[usize])) {
         for part in &self.parts {
             let block = &self.mesh.blocks[part.block];
             for cell in block.connectivity.chunks_exact(block.kind.node_count()) {
@@ -247,23 +242,13 @@ impl Force for Elastic {
         }
     }
 
-    fn stiffness(&self, matrix: &mut BlockCsr) -> Result<(), StepFailure> {
+    /// Adds the stiffness of all cells `[N/m]`.
+    pub fn stiffness(&self, matrix: &mut BlockCsr) {
         self.element_matrices(&mut |points, dense| matrix.add_group(points, dense));
-        Ok(())
     }
 
-    fn commit(&mut self, stage: &Stage) {
-        self.stored = self.strain_energy(&stage.at.u);
-    }
-
-    fn energy(&self) -> Energy {
-        Energy {
-            stored: self.stored,
-            ..Energy::default()
-        }
-    }
-
-    fn fields(&self, state: &State, out: &mut Fields) {
+    /// Adds stresses and strains at a state.
+    pub fn fields(&self, state: &State, out: &mut Fields) {
         self.add_fields(state, out);
     }
 }

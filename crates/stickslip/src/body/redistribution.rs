@@ -168,7 +168,6 @@ mod tests {
     use crate::body::{MassKind, testing};
     use crate::linear::BlockCsr;
     use crate::math::{norm, sub};
-    use crate::system::Force;
 
     /// Mass, centre of mass and the smallest diagonal entry of the points that are not light.
     fn summary(matrix: &BlockCsr, x: &[Vec3], light: &[bool]) -> (f64, Vec3, f64) {

@@ -6,7 +6,7 @@ use super::*;
 use crate::math::symmetric_eigen;
 use crate::mesh::Mesh;
 use crate::shape::ElementKind;
-use crate::system::{Dofs, Fields, Force, State};
+use crate::system::{Dofs, Fields, State};
 
 /// A displacement field of constant strain, and that strain.
 fn linear_field(mesh: &Mesh, space: Space) -> (Vec<f64>, [f64; 6]) {

@@ -6,17 +6,17 @@
 
 mod bulk;
 pub mod condensed;
-mod course;
 mod grids;
 mod linearised;
 mod settings;
 mod solve;
+mod strategy;
 mod whole;
 
 pub use bulk::Bulk;
-pub use course::{Course, Fallback};
 pub use grids::Places;
 pub use linearised::{Linearised, Operator};
 pub use settings::{Progress, Settings, Statistics};
 pub use solve::{Converged, Newton, System};
+pub use strategy::{Fallback, Strategy};
 pub use whole::{Factors, Origin, Whole};

@@ -1,4 +1,4 @@
-use super::course::Course;
+use super::strategy::Strategy;
 use crate::system::Tally;
 
 /// Dimensionless settings of the iteration.
@@ -105,5 +105,5 @@ pub struct Progress {
     /// Points by status.
     pub tally: Tally,
     /// The way it belongs to.
-    pub course: Course,
+    pub strategy: Strategy,
 }

@@ -2,8 +2,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::bulk::Bulk;
-use super::course::{Course, Fallback, WINDOW, hold, restart};
 use super::settings::{Progress, Settings, Statistics};
+use super::strategy::{Fallback, Strategy, WINDOW, active_sets, freeze, restart, strategies};
 use crate::system::{
     Assembler, Augmentation, Cause, Constraints, Dofs, Force, Links, Rate, Stage, State,
     StepFailure, Tally,
@@ -61,7 +61,7 @@ pub struct Newton {
     pub fallbacks: Vec<Fallback>,
     /// Asked in every iteration whether the solution shall be given up.
     pub interrupt: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
-    course: Course,
+    strategy: Strategy,
 }
 
 /// A residual and what it is compared with.
@@ -115,23 +115,18 @@ impl Newton {
         let guess = at.u.clone();
         let begun = self.statistics.iterations;
         self.fallbacks.clear();
-        self.course = Course::Plain;
-        hold(system, false);
+        self.strategy = Strategy::Plain;
+        freeze(system, false);
         restart(system, at, &guess);
         let failure = match self.rounds(system, from, at, log) {
             Err(failure) if !HOPELESS.contains(&failure.cause) => failure,
             outcome => return outcome,
         };
-        for course in [
-            Course::StatusMemory,
-            Course::LineSearch,
-            Course::SofterStick,
-            Course::PartialFriction,
-        ] {
+        for strategy in strategies(system) {
             let before = self.statistics.iterations;
-            self.course = course;
-            let outcome = self.follow(course, system, from, at, &guess, log);
-            self.course = Course::Plain;
+            self.strategy = strategy;
+            let outcome = self.follow(strategy, system, from, at, &guess, log);
+            self.strategy = Strategy::Plain;
             let outcome = match outcome {
                 None => continue,
                 Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
@@ -139,7 +134,7 @@ impl Newton {
             };
             self.statistics.fallbacks += 1;
             self.fallbacks.push(Fallback {
-                kind: course,
+                kind: strategy,
                 iterations: self.statistics.iterations - before,
                 converged: outcome.is_ok(),
             });
@@ -169,7 +164,7 @@ impl Newton {
         loop {
             let mut converged = self.equilibrium(system, from, at, round, log)?;
             total += converged.iterations;
-            let held: usize = system.contact.iter_mut().map(|f| f.reconsider()).sum();
+            let held: usize = active_sets(system).map(|f| f.recheck()).sum();
             if held > 0 {
                 exchanges += 1;
                 if exchanges > MOST_EXCHANGES {
@@ -231,7 +226,7 @@ impl Newton {
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();
-        let strict_merit = self.course == Course::LineSearch;
+        let strict_merit = self.strategy == Strategy::LineSearch;
         let mut merits = [balance.merit; WINDOW];
         // Residual at which steps began to have to gain; they have to until a hundredth of it is left.
         let mut strict: f64 = 0.0;
@@ -259,9 +254,9 @@ impl Newton {
                 });
             }
             // Points that keep changing status are better held than given more time.
-            let chatter = self.course == Course::Plain
+            let chatter = self.strategy == Strategy::Plain
                 && stalled(&residuals)
-                && system.contact.iter().any(|f| f.restless() > 0);
+                && active_sets(system).any(|f| f.chattering() > 0);
             if chatter || iteration == settings.max_iterations {
                 break;
             }
@@ -383,7 +378,7 @@ impl Newton {
             }
             merits[iteration % WINDOW] = balance.merit;
             log(&Progress {
-                course: self.course,
+                strategy: self.strategy,
                 iteration,
                 round,
                 residual: reported,

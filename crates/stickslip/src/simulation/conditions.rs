@@ -1,7 +1,7 @@
 //! What acts at a time: supports, and loads with the fading forces of supports that let go.
 
 use super::run::Simulation;
-use crate::system::{Constraints, Force};
+use crate::system::Constraints;
 
 impl Simulation {
     /// Exchanges the laws that change, and remembers from where supports that begin to act start, and with which force those that end let go.

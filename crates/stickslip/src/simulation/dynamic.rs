@@ -371,7 +371,7 @@ impl Simulation {
             .model
             .interfaces
             .iter()
-            .map(crate::system::Force::switched)
+            .map(|interface| interface.switched())
             .sum();
         if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
             return Err(StepFailure::new(

@@ -12,7 +12,7 @@ use super::run::Simulation;
 use super::spin::{Spin, mobility};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
-use crate::system::{Assembler, Constraints, Force};
+use crate::system::{Assembler, Constraints};
 use crate::time::scheme::Method;
 
 /// What explicit increments need beside the state.

@@ -8,7 +8,7 @@ use super::folder::{Claim, Folder, INTERFACES};
 use super::run::{Event, Observer, Simulation};
 use crate::error::Error;
 use crate::io::{csv, pvd, vtu, write_atomically};
-use crate::system::{Field, Fields, Force, Location};
+use crate::system::{Field, Fields, Location};
 
 /// Writes results into a directory as the run goes on; what is there at any time is complete.
 pub struct ResultFiles {
@@ -126,7 +126,7 @@ pub fn fields(simulation: &Simulation) -> Fields {
         body.fields(&simulation.state, &mut fields);
     }
     for interface in &model.interfaces {
-        interface.fields(&simulation.state, &mut fields);
+        interface.fields(&mut fields);
     }
     fields
 }

@@ -3,7 +3,7 @@
 use super::model::Support;
 use super::run::Simulation;
 use crate::contact::interface::Resultant;
-use crate::system::{Force, Tally};
+use crate::system::Tally;
 use crate::time::Trial;
 
 /// A row of the history: names and values.

@@ -9,7 +9,7 @@ use crate::contact::interface::{Change, Interface};
 use crate::math::Mat3;
 use crate::mesh::Mesh;
 use crate::newton::{Places, Settings};
-use crate::system::{Dofs, Fields, Force, Links, Schedule, State};
+use crate::system::{Dofs, Fields, Links, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
 pub use crate::time::{ContactAt, ContactMass};

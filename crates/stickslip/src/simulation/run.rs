@@ -18,7 +18,7 @@ use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
 use crate::newton::condensed::{Condensation, Gaps, Library};
 use crate::newton::{Factors, Newton, Progress};
-use crate::system::{Cause, Force, State, StepFailure, Tally};
+use crate::system::{Cause, State, StepFailure, Tally};
 use crate::time::Trial;
 
 /// A model being run.
@@ -138,8 +138,7 @@ impl Simulation {
                 }
             });
         for body in model.elastic().filter(|_| assembled) {
-            let done = body.elastic.stiffness(&mut matrix);
-            done.map_err(|e| e.at(0.0))?;
+            body.elastic.stiffness(&mut matrix);
         }
         for &(dof, stiffness) in model.springs.iter().flat_map(|s| s.entries()) {
             model.links.add_spring(&mut matrix, dof, stiffness);

@@ -1,4 +1,4 @@
-use super::{Assembler, Fields, StepFailure};
+use super::{Assembler, StepFailure};
 
 /// Displacement, velocity and acceleration of all dofs at a time.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -38,15 +38,6 @@ pub struct Rate<'a> {
     pub shift: &'a [f64],
 }
 
-/// On which side of the seam a force stands: bulk is assembled and factored once, contact in every iteration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// Bodies and everything attached to them.
-    Bulk,
-    /// Interfaces.
-    Contact,
-}
-
 /// The outcome of a multiplier update between two equilibrium solves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Augmentation {
@@ -77,31 +68,13 @@ pub struct Energy {
     pub excess: f64,
 }
 
-/// Anything that acts on the degrees of freedom: elasticity, loads, springs, interfaces.
+/// A force that is evaluated in every iteration: interfaces, couplings, anchors of floating bodies. Bodies, springs and loads are linear; they make up the
+/// matrix and the right-hand side, and need no trait.
 ///
 /// The equilibrium equation is `Σ residual = 0` with the residual counted as *internal minus external* force.
 /// A force is evaluated from **committed** history only; a rejected attempt simply never calls [`commit`](Force::commit).
 pub trait Force: Send {
-    /// Name for messages and histories.
-    fn name(&self) -> &str;
-
-    /// Bulk or contact.
-    fn role(&self) -> Role {
-        Role::Bulk
-    }
-
-    /// Points whose dofs this force couples, group by group (every pair in a group is coupled). Union over candidates.
-    fn couplings(&self, _visit: &mut dyn FnMut(&[usize])) {}
-
-    /// Adds the constant tangent of a bulk force to the matrix. Called once: the bulk of stickslip is linear.
-    fn stiffness(&self, _matrix: &mut crate::linear::BlockCsr) -> Result<(), StepFailure> {
-        Ok(())
-    }
-
-    /// Adds the external force of a load at time `t` to `out`, by dof.
-    fn external(&self, _t: f64, _out: &mut [f64]) {}
-
-    /// Search and pairing at a state of iteration; contact only.
+    /// Search and pairing at a state of iteration.
     fn prepare(&mut self, _stage: &Stage) -> Result<(), StepFailure> {
         Ok(())
     }
@@ -109,10 +82,8 @@ pub trait Force: Send {
     /// Starts an attempt: trial history := committed.
     fn begin(&mut self) {}
 
-    /// Residual and tangent of a contact force, from committed history.
-    fn assemble(&mut self, _stage: &Stage, _out: &mut Assembler) -> Result<(), StepFailure> {
-        Ok(())
-    }
+    /// Residual and tangent, from committed history.
+    fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure>;
 
     /// The state of the last evaluation, a [tentative](Assembler::tentative) one with tangent, is the next iterate: as if it had been evaluated
     /// for good.
@@ -120,33 +91,6 @@ pub trait Force: Send {
 
     /// Tells a force with unknowns of its own (multipliers) the Newton increment `step · du` that was accepted.
     fn update_internal(&mut self, _du: &[f64], _step: f64) {}
-
-    /// Makes stick and slip change hands more gently, by a factor of at least 1 (a hundred: close to the force's own law; `None`: the
-    /// law itself), for a solution that is approached by continuation. `false` if there is nothing to soften.
-    fn soften(&mut self, _factor: Option<f64>) -> bool {
-        false
-    }
-
-    /// Lets only this part of friction act, for a solution that is approached by continuation; `None`: all of it. `false` if there is none.
-    fn mobilise(&mut self, _part: Option<f64>) -> bool {
-        false
-    }
-
-    /// How many points have changed status or the direction of slip several times in this attempt.
-    fn restless(&self) -> usize {
-        0
-    }
-
-    /// From now on, in this attempt: points that keep changing status keep a choice until the rest has settled. Returns how many there are.
-    fn steady(&mut self, _on: bool) -> usize {
-        0
-    }
-
-    /// At an equilibrium: lets the points go that keep a choice, or changes the choice where the laws refuse it. Returns how many there were; zero
-    /// says that the laws hold everywhere.
-    fn reconsider(&mut self) -> usize {
-        0
-    }
 
     /// Multiplier update between equilibrium solves.
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
@@ -158,31 +102,59 @@ pub trait Force: Send {
         0
     }
 
-    /// How many points have another status in the present attempt than at the last accepted state.
-    fn switched(&self) -> usize {
-        0
-    }
-
     /// Accepts the attempt: committed history := trial.
     fn commit(&mut self, _stage: &Stage) {}
-
-    /// Energies at the last committed state.
-    fn energy(&self) -> Energy {
-        Energy::default()
-    }
-
-    /// Adds named output fields of the last committed state.
-    fn fields(&self, _state: &State, _out: &mut Fields) {}
 
     /// How many points changed status between the last two assemblies, and a short tally for the log.
     fn tally(&self) -> Option<Tally> {
         None
     }
 
-    /// For contact forces that have become difficult: which points, and what they did.
+    /// Which points are difficult, and what they did.
     fn diagnose(&self) -> Vec<super::Culprit> {
         Vec::new()
     }
+
+    /// The points that change status, of a force that has such.
+    fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
+        None
+    }
+
+    /// How the force can be made easier, of one that can.
+    fn continuation(&mut self) -> Option<&mut dyn Continuation> {
+        None
+    }
+}
+
+/// Points that change status from iteration to iteration, and what can be done about those that chatter.
+pub trait ActiveSet {
+    /// How many points have changed status or the direction of slip several times in this attempt.
+    fn chattering(&self) -> usize;
+
+    /// From now on, in this attempt: points that keep changing status keep a choice until the rest has settled. Returns how many there are.
+    fn freeze(&mut self, on: bool) -> usize;
+
+    /// At an equilibrium: lets the points go that keep a choice, or changes the choice where the laws refuse it. Returns how many there were; zero
+    /// says that the laws hold everywhere.
+    fn recheck(&mut self) -> usize;
+}
+
+/// A force that can be approached through easier ones.
+pub trait Continuation {
+    /// The ways there are, in the order in which they are worth a try.
+    fn ways(&self) -> Vec<Way>;
+
+    /// Makes the force easier by a value of the way of this name; `None`: the force itself.
+    fn ease(&mut self, to: Option<(&'static str, f64)>);
+}
+
+/// A way from an easier force to the force itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Way {
+    /// What is made easier; in the summary and in messages. Several ways may have one name: they are tried until one leads there.
+    pub name: &'static str,
+    /// What it goes through, the easiest first.
+    pub values: Vec<f64>,
 }
 
 /// Counts of contact points by status.

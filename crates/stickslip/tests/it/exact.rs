@@ -9,7 +9,7 @@ use stickslip::math::{
     Mat3, Vec3, add, identity, mat_vec, norm, rotation, scale, sub, transpose_vec,
 };
 use stickslip::mesh::generators::{Cuboid, Generate, Rectangle};
-use stickslip::newton::Course;
+use stickslip::newton::Strategy;
 use stickslip::problem::{Meshes, Problem};
 use stickslip::shape::ElementKind;
 use stickslip::simulation::{Event, Observer, Simulation};
@@ -197,8 +197,8 @@ slip.regularised = { epsilon = 1e-9 }
     let u = row.get("A.U1").expect("A.U1");
     assert!((u / 2.840_424_1e-5 - 1.0).abs() < 1e-6, "{u}");
     let tried = &simulation.summary.fallbacks;
-    let kinds: Vec<Course> = tried.iter().map(|f| f.tried.kind).collect();
-    assert_eq!(kinds, [Course::StatusMemory]);
+    let kinds: Vec<Strategy> = tried.iter().map(|f| f.tried.kind).collect();
+    assert_eq!(kinds, [Strategy::StatusMemory]);
     assert!(tried[0].tried.converged);
     assert_eq!((tried[0].from, tried[0].to), (0.0, 1.0));
     let noted = &simulation.summary.notes;
@@ -209,7 +209,7 @@ slip.regularised = { epsilon = 1e-9 }
     assert!(
         iterations
             .last()
-            .is_some_and(|p| p.course == Course::StatusMemory)
+            .is_some_and(|p| p.strategy == Strategy::StatusMemory)
     );
 }
 

@@ -481,7 +481,7 @@ step = [{ increments.fixed = 1 }]
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut fields = stickslip::system::Fields::default();
     for interface in &simulation.model.interfaces {
-        stickslip::system::Force::fields(interface, &simulation.state, &mut fields);
+        interface.fields(&mut fields);
     }
     let points = &simulation.model.mesh.points;
     for (interface, sign) in simulation.model.interfaces.iter().zip([1.0, -1.0]) {

@@ -1,20 +1,12 @@
 //! Couplings as a force.
 
 use super::{Couplings, Row, Tie};
-use crate::system::{Assembler, Cause, Energy, Force, Role, Stage, StepFailure, Tangent};
+use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
 
 /// How far an equation of nothing but prescribed displacements may be off, relative to their size.
 const AGREED: f64 = 1e-9;
 
 impl Force for Couplings {
-    fn name(&self) -> &str {
-        "couplings"
-    }
-
-    fn role(&self) -> Role {
-        Role::Contact
-    }
-
     fn begin(&mut self) {
         self.iterate.now.clone_from(&self.memory.multipliers);
         self.iterate.last.clone_from(&self.memory.multipliers);
@@ -126,8 +118,11 @@ impl Force for Couplings {
         }
         self.memory = memory;
     }
+}
 
-    fn energy(&self) -> Energy {
+impl Couplings {
+    /// Energies at the last committed state.
+    pub fn energy(&self) -> Energy {
         Energy {
             stored: self.memory.stored,
             ..Energy::default()

@@ -34,7 +34,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::Elastic;
-use crate::system::{Dofs, Force};
+use crate::system::Dofs;
 use chunk::{Chunk, Chunks, Local};
 use gather::Incidence;
 pub use spectrum::largest_eigenvalue;
@@ -81,9 +81,9 @@ impl InternalForce {
         let mut all = Vec::new();
         let mut local = Local::new(dofs.points);
         for body in bodies {
-            assert_eq!(body.space.dim(), dofs.dim, "dimension of {}", body.name());
+            assert_eq!(body.space.dim(), dofs.dim, "dimension of {}", body.name);
             let points = &body.mesh.points;
-            assert!(points.len() <= dofs.points, "points of {}", body.name());
+            assert!(points.len() <= dofs.points, "points of {}", body.name);
             for (part, p) in body.parts.iter().enumerate() {
                 let block = &body.mesh.blocks[p.block];
                 for (kernel, mut cells) in kernels::of_part(body, part) {

@@ -3,6 +3,7 @@
 mod between;
 mod change;
 mod cone;
+mod continuation;
 mod curvature;
 mod evaluate;
 mod faces;
@@ -51,8 +52,8 @@ use super::search::{Box3, Tree};
 use super::surface::{ContactPoint, Facet, Skin};
 use crate::math::{Vec3, add, add_scaled, distance, dot, mat_vec, scale};
 use crate::system::{
-    Assembler, Augmentation, ContactPair, Culprit, Dofs, Energy, Fields, Force, Role, Schedule,
-    Stage, State, StepFailure, Tally,
+    ActiveSet, Assembler, Augmentation, ContactPair, Continuation, Culprit, Dofs, Energy, Fields,
+    Force, Schedule, Stage, StepFailure, Tally,
 };
 use evaluate::{Anchor, Batch, Evaluation, components};
 use steady::Steady;
@@ -645,14 +646,6 @@ impl Interface {
 }
 
 impl Force for Interface {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn role(&self) -> Role {
-        Role::Contact
-    }
-
     fn prepare(&mut self, stage: &Stage) -> Result<(), StepFailure> {
         self.ready();
         self.glue(stage);
@@ -760,28 +753,6 @@ impl Force for Interface {
         }
     }
 
-    fn soften(&mut self, factor: Option<f64>) -> bool {
-        self.memory.softening = factor;
-        self.laws.friction_law().frictional()
-    }
-
-    fn mobilise(&mut self, part: Option<f64>) -> bool {
-        self.memory.mobilised = part;
-        self.laws.friction_law().frictional()
-    }
-
-    fn restless(&self) -> usize {
-        self.memory.steady.restless()
-    }
-
-    fn steady(&mut self, on: bool) -> usize {
-        self.memory.steady.engage(on)
-    }
-
-    fn reconsider(&mut self) -> usize {
-        self.reconsider_held()
-    }
-
     fn update_internal(&mut self, du: &[f64], step: f64) {
         if !self.unknown() {
             return;
@@ -854,34 +825,8 @@ impl Force for Interface {
         }
     }
 
-    fn switched(&self) -> usize {
-        let memory = &self.memory;
-        memory
-            .committed
-            .iter()
-            .zip(&memory.last.points)
-            .filter(|(h, e)| h.status != e.response.status)
-            .count()
-    }
-
     fn commit(&mut self, stage: &Stage) {
         self.accept(stage);
-    }
-
-    fn energy(&self) -> Energy {
-        Energy {
-            stored: self.stored_energy(),
-            dissipated: self.memory.dissipated,
-            work: self.memory.belt_work,
-            damped: self.memory.damped,
-            path: self.memory.path,
-            uncertain: self.memory.uncertain,
-            excess: self.memory.excess,
-        }
-    }
-
-    fn fields(&self, _state: &State, out: &mut Fields) {
-        self.add_fields(out);
     }
 
     fn tally(&self) -> Option<Tally> {
@@ -901,6 +846,43 @@ impl Force for Interface {
 
     fn diagnose(&self) -> Vec<Culprit> {
         self.culprits()
+    }
+
+    fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
+        Some(self)
+    }
+
+    fn continuation(&mut self) -> Option<&mut dyn Continuation> {
+        let frictional = self.laws.friction_law().frictional();
+        frictional.then_some(self as &mut dyn Continuation)
+    }
+}
+
+impl Interface {
+    /// How many points have another status in the present attempt than at the last accepted state.
+    pub fn switched(&self) -> usize {
+        let points = self.memory.committed.iter().zip(&self.memory.last.points);
+        points
+            .filter(|(h, e)| h.status != e.response.status)
+            .count()
+    }
+
+    /// Energies at the last committed state.
+    pub fn energy(&self) -> Energy {
+        Energy {
+            stored: self.stored_energy(),
+            dissipated: self.memory.dissipated,
+            work: self.memory.belt_work,
+            damped: self.memory.damped,
+            path: self.memory.path,
+            uncertain: self.memory.uncertain,
+            excess: self.memory.excess,
+        }
+    }
+
+    /// Adds the fields of the contact points at the last committed state.
+    pub fn fields(&self, out: &mut Fields) {
+        self.add_fields(out);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::contact::mortar::Face;
 use crate::contact::surface::{connect, skin};
 use crate::math::{Mat3, cross, dot, mat_vec, norm, normalize, rotation, sub};
 use crate::shape::ElementKind;
+use crate::system::State;
 
 const AROUND: usize = 48;
 const LAYERS: usize = 2;

@@ -9,6 +9,7 @@ use super::evaluate::{Evaluation, components};
 use super::{Interface, Status};
 use crate::contact::response::Held;
 use crate::math::{Vec3, add_scaled, dot, norm, scale};
+use crate::system::ActiveSet;
 
 /// Changes of status or reversals of slip after which a point is held.
 const MOST_CHANGES: u32 = 3;
@@ -27,7 +28,7 @@ enum Choice {
 
 /// What a point did since the attempt began or since it was let go.
 #[derive(Debug, Clone, Copy, Default)]
-struct Course {
+struct StatusRecord {
     status: Option<Status>,
     /// Shear traction while it slid.
     shear: Vec3,
@@ -41,7 +42,7 @@ struct Course {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Steady {
     on: bool,
-    points: Vec<Course>,
+    points: Vec<StatusRecord>,
     /// The fewest choices that the laws have refused so far, and how often there were not fewer since.
     fewest: Option<usize>,
     idle: u32,
@@ -51,9 +52,9 @@ impl Steady {
     /// A new attempt. While points are being held those that were go on, sticking.
     pub fn clear(&mut self) {
         for p in &mut self.points {
-            *p = Course {
+            *p = StatusRecord {
                 held: p.held.filter(|_| self.on).map(|_| Choice::Stick),
-                ..Course::default()
+                ..StatusRecord::default()
             };
         }
         self.fewest = None;
@@ -62,7 +63,7 @@ impl Steady {
 
     /// Takes note of an iterate.
     pub fn note(&mut self, iterate: &[Evaluation]) {
-        self.points.resize(iterate.len(), Course::default());
+        self.points.resize(iterate.len(), StatusRecord::default());
         for (p, e) in self.points.iter_mut().zip(iterate) {
             let status = e.response.status;
             let shear = match status {
@@ -99,7 +100,7 @@ impl Steady {
     }
 }
 
-impl Course {
+impl StatusRecord {
     fn hold(&mut self) {
         if self.held.is_none() && self.changes >= MOST_CHANGES {
             self.held = Some(Choice::Stick);
@@ -129,13 +130,23 @@ impl Interface {
             Choice::Slip(direction) => Held::Slip(components(direction, frame, dim)),
         })
     }
+}
 
-    /// Checks what points are held in against the laws. While the laws refuse something, that is exchanged for what they want; when they refuse
-    /// nothing all points are let go. Returns how many points were held.
-    ///
-    /// All refused choices are exchanged at once as long as fewer and fewer are refused, after that one at a time: the first goes round in a circle at
-    /// times, the second does not where friction is moderate (Júdice and Pires; Murty).
-    pub(super) fn reconsider_held(&mut self) -> usize {
+impl ActiveSet for Interface {
+    fn chattering(&self) -> usize {
+        self.memory.steady.restless()
+    }
+
+    fn freeze(&mut self, on: bool) -> usize {
+        self.memory.steady.engage(on)
+    }
+
+    // Checks what points are held in against the laws. While the laws refuse something, that is exchanged for what they want; when they refuse
+    // nothing all points are let go. Returns how many points were held.
+    //
+    // All refused choices are exchanged at once as long as fewer and fewer are refused, after that one at a time: the first goes round in a circle at
+    // times, the second does not where friction is moderate (references: `judice_pires_1994`, `murty_1974`).
+    fn recheck(&mut self) -> usize {
         let memory = &mut self.memory;
         let set_valued = self.laws.set_valued();
         let mut held = 0;
@@ -198,7 +209,7 @@ impl Interface {
             steady.fewest = None;
             for p in &mut steady.points {
                 if p.held.is_some() {
-                    *p = Course::default();
+                    *p = StatusRecord::default();
                 }
             }
         }

@@ -6,6 +6,7 @@ use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::surface::connect;
 use crate::registry::Family;
 use crate::shape::ElementKind;
+use crate::system::State;
 
 const CELLS: usize = 4;
 

@@ -78,7 +78,7 @@ impl Polygon {
         0.5 * pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
     }
 
-    /// The part of it inside `window`, a convex polygon that is counter-clockwise too (Sutherland and Hodgman).
+    /// The part of it inside `window`, a convex polygon that is counter-clockwise too ([Sutherland and Hodgman](crate::references::sutherland_hodgman_1974)).
     pub fn cut(&self, window: &Polygon) -> Polygon {
         let mut out = *self;
         let sides = window.corners();

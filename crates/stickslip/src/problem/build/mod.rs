@@ -239,7 +239,7 @@ fn loads(
                 entries,
                 schedule: timeline.load(problem, name, load.amplitude.as_deref()),
             }),
-            Action::Springs(entries) => springs.push(Spring::new(name, entries)),
+            Action::Springs(entries) => springs.push(Spring::new(entries)),
         }
     }
     Ok((loads, springs))
