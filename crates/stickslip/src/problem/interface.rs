@@ -110,7 +110,8 @@ impl Interface {
 }
 
 /// Which of two surfaces is kept from entering the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Roles {
     /// The points of the more finely meshed surface, if the cells of the other are larger by more than a quarter where the two are nearest to each other at the
