@@ -223,6 +223,7 @@ impl Newton {
         out.wants_pairs = system.bulk.wants_pairs();
         // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel without it.
         out.wants_curvature = system.contact.iter().all(|f| f.patience() == 0);
+        out.holds_turns = !out.wants_curvature;
         let (mut b, mut du) = (vec![0.0; n], vec![0.0; n]);
         let mut balance = self.evaluate(system, from, at, &mut out, true)?;
         let mut residuals = Vec::new();

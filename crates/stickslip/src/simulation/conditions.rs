@@ -50,6 +50,10 @@ impl Simulation {
             self.released.clear();
             return;
         }
+        // What equations did, loads do from here on.
+        for &(dof, force) in &self.released {
+            self.load[dof] += force;
+        }
         let mut seen = vec![false; self.state.u.len()];
         for support in self.model.supports.iter().filter(|s| was(s)) {
             for e in &support.entries {

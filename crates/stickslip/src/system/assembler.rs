@@ -110,6 +110,9 @@ pub struct Assembler {
     /// Whether the curvature of whole surfaces is wanted in the tangent: it speeds up the last iterations, and linear systems can be solved without.
     /// Stays as it is from one evaluation to the next; `true` to begin with.
     pub wants_curvature: bool,
+    /// What the tangent does not know of, the turn of surfaces as a whole, is that of the last accepted state. For bodies that are followed: they roll, and
+    /// Newton's method has to see all of what that does. `false` to begin with.
+    pub holds_turns: bool,
     /// The state of evaluation may be given up again: forces keep what they remember of the last iterate, from which the step was taken,
     /// until they are told to [`settle`](super::Force::settle). `false` to begin with.
     pub tentative: bool,
@@ -140,6 +143,7 @@ impl Assembler {
             wants_pairs: false,
             wants_surrogate: true,
             wants_curvature: true,
+            holds_turns: false,
             tentative: false,
             spare_blocks: Vec::new(),
             spare_couplings: Vec::new(),

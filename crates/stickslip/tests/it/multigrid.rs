@@ -13,6 +13,7 @@ body.upper = { generate.box = { from = [0, 0, 1], to = [1, 1, 2], cells = [6, 6,
 material.steel.isotropic = { young = 210e9, poisson = 0.3 }
 
 [interface.joint]
+roles = "as-named"
 secondary = "upper.bottom"
 primary = "lower.top"
 friction.coulomb.mu = 0.3

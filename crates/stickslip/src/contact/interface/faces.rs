@@ -45,23 +45,25 @@ impl Interface {
         self.memory.glued = gaps.into_iter().zip(&self.points).map(near).collect();
     }
 
-    /// Integrates over all faces at coordinates `x`; over the reference configuration, once, where sliding is small.
-    pub(super) fn integrate(&mut self, x: &[Vec3]) {
+    /// Integrates over all faces at coordinates `x`, along normals that have turned as the surface has at `turned`; over the reference configuration,
+    /// once, where sliding is small.
+    pub(super) fn integrate(&mut self, x: &[Vec3], turned: &[Vec3]) {
         let frozen = self.kinematics.as_dyn().frozen();
         if frozen && !self.memory.integrals.is_empty() {
             return;
         }
         // Lent out, as the search changes the memory.
         let reference = std::mem::take(&mut self.reference);
-        self.integrate_at(if frozen { &reference } else { x }, &reference, frozen);
+        let x = if frozen { &reference } else { x };
+        self.integrate_at((x, turned), &reference, frozen);
         self.reference = reference;
     }
 
-    fn integrate_at(&mut self, x: &[Vec3], reference: &[Vec3], frozen: bool) {
+    fn integrate_at(&mut self, (x, turned): (&[Vec3], &[Vec3]), reference: &[Vec3], frozen: bool) {
         self.search_faces(x);
         let turn = match frozen {
             true => identity(),
-            false => turning::of_points(self.own_nodes(), (x, reference), self.dofs.dim),
+            false => turning::of_points(self.own_nodes(), (turned, reference), self.dofs.dim),
         };
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return;

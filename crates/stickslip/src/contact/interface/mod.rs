@@ -208,6 +208,8 @@ impl Evaluations {
 struct Wants {
     tangent: bool,
     surrogate: bool,
+    /// See [`Assembler`].
+    holds_turns: bool,
     /// See [`evaluate::Scene`].
     initial: bool,
 }
@@ -526,7 +528,8 @@ impl Interface {
         self.coordinates_into(&stage.at.u, &mut x);
         self.coordinates_into(&stage.from.u, &mut before);
         if self.mortar.is_some() {
-            self.integrate(&x);
+            let turned = if wants.holds_turns { &before } else { &x };
+            self.integrate(&x, turned);
         } else if !self.kinematics.as_dyn().frozen() {
             self.enclose(&x, &mut boxes);
         }
@@ -695,6 +698,7 @@ impl Force for Interface {
             Wants {
                 tangent: out.wants_tangent,
                 surrogate: out.wants_surrogate,
+                holds_turns: out.holds_turns,
                 initial: false,
             },
         );
