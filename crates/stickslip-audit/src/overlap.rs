@@ -151,8 +151,9 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
         let frictionless = now
             .iter()
             .all(|p| p.carried() == 0.0 || p.carried().is_nan());
-        let slid = |node: usize| {
-            let moved = sub(x1[node], x0[node]);
+        let dt = (state.t - old.t).max(f64::MIN_POSITIVE);
+        // The motion of a point over what it is on, if nodes have moved like this.
+        let over = |node: usize, moved: &dyn Fn(usize) -> Vec3| {
             let (carried, normal) = match &pair.primary {
                 Side::Rigid(obstacle) => {
                     let foot = obstacle.foot(x1[node], state.t)?;
@@ -162,17 +163,28 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                 }
                 Side::Body { facets, .. } => {
                     let foot = foot(&results.mesh, facets, &x0, x0[node])?;
-                    let moved = |s: Vec3, (n, w): &(usize, f64)| along(s, *w, sub(x1[*n], x0[*n]));
-                    (foot.weights.iter().fold([0.0; 3], moved), foot.normal)
+                    let sum = |s: Vec3, (n, w): &(usize, f64)| along(s, *w, moved(*n));
+                    (foot.weights.iter().fold([0.0; 3], sum), foot.normal)
                 }
             };
-            let own = tangential(sub(moved, carried), normal);
+            let own = tangential(sub(moved(node), carried), normal);
             let mut frame = frame(normal, dim);
             if pair.exchanged {
                 // Both the motion and the normal of what is written are the other way round: the second direction turns with the normal.
                 frame[0] = scale(-1.0, frame[0]);
             }
             Some(frame.map(|e| dot(own, e)))
+        };
+        let slid = |node: usize| over(node, &|n| sub(x1[n], x0[n]));
+        // In motion friction is against the velocity at the end of the increment, over which slip may have turned round.
+        let dynamic = results.case.steps[results.case.step_at(state.t)].dynamic();
+        let v = match dynamic {
+            true => state.grid.vector("V"),
+            false => Vec::new(),
+        };
+        let swept = |node: usize| match v.is_empty() {
+            true => slid(node),
+            false => over(node, &|n| scale(dt, v[n])),
         };
         for node in nodes
             .iter()
@@ -201,7 +213,18 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
             if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
             {
                 let shear = now[*node].shear;
-                let cosine = (shear[0] * own[0] + shear[1] * own[1]) / (length * carried);
+                let cosine = |way: [f64; 2]| {
+                    let length = way[0].hypot(way[1]);
+                    let along = shear[0] * way[0] + shear[1] * way[1];
+                    if length > 0.0 {
+                        along / (length * carried)
+                    } else {
+                        0.0
+                    }
+                };
+                let end = |k: usize| pair.mean(*node, |n| Some(swept(n)?[k]));
+                let end = [end(0).unwrap_or(own[0]), end(1).unwrap_or(own[1])];
+                let cosine = cosine(own).min(cosine(end));
                 report.note("direction", &pair.name, 1.0 + cosine, state.t);
             }
         }
