@@ -217,9 +217,9 @@ fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsMo
     interface.begin();
     let mut searched = f64::INFINITY;
     for _ in 0..20 {
-        interface.prepare(&stage(&far)).expect("a search");
+        interface.prepare(&stage(&far));
         let start = Instant::now();
-        interface.prepare(&stage(&at)).expect("a search");
+        interface.prepare(&stage(&at));
         searched = searched.min(start.elapsed().as_secs_f64());
     }
     // Multipliers take part only once they have been solved for.
@@ -229,7 +229,7 @@ fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsMo
     let mut evaluate = |tangent: bool, surrogate: bool| {
         out.wants_surrogate = surrogate;
         out.reset(tangent);
-        interface.prepare(&stage(&at)).expect("a search");
+        interface.prepare(&stage(&at));
         interface.assemble(&stage(&at), &mut out).expect("forces");
         black_box(&out);
     };

@@ -426,7 +426,7 @@ impl Newton {
         };
         out.reset(tangent);
         for force in &mut system.contact {
-            force.prepare(&stage)?;
+            force.prepare(&stage);
             force.assemble(&stage, out)?;
         }
         self.statistics.seconds_contact += started.elapsed().as_secs_f64();

@@ -339,9 +339,8 @@ impl Simulation {
         let constraints = self.constraints(trial.to);
         let model = &mut self.model;
         (model.couplings).fit(&self.diagonal, &constraints.fixed, &model.links);
-        let Some(condensed) = &mut self.condensed else {
-            return Err(StepFailure::new(Cause::NotFinite, "nothing is condensed"));
-        };
+        let condensed =
+            (self.condensed.as_mut()).expect("bodies were condensed when the step was begun");
         let Condensed {
             condensation,
             gaps,

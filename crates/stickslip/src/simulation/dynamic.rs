@@ -49,9 +49,7 @@ impl Simulation {
     ) -> Result<Accepted, StepFailure> {
         let constraints = self.constraints(trial.to);
         let external = self.external(trial.to);
-        let Some(mut motion) = self.motion.take() else {
-            return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
-        };
+        let mut motion = (self.motion.take()).expect("a dynamic step has begun its motion");
         let outcome = self.integrate(
             &mut motion,
             trial,
@@ -123,9 +121,8 @@ impl Simulation {
             shift: &shift,
         };
         let inertia = &motion.inertia;
-        let Some((matrix, diagonal, key)) = inertia.matrix() else {
-            return Err(StepFailure::new(Cause::NotFinite, "no matrix"));
-        };
+        let (matrix, diagonal, key) =
+            (inertia.matrix()).expect("the matrix of this length was made");
         let condensed = self.ready_to_move(&constraints.fixed, (matrix, key));
         (self.model.couplings).fit(diagonal, &constraints.fixed, &self.model.links);
         let converged = if condensed {
@@ -246,9 +243,8 @@ impl Simulation {
             moving,
             ..
         } = self;
-        let Some((_, condensation, gaps)) = moving.iter_mut().find(|(k, ..)| *k == key) else {
-            return Err(StepFailure::new(Cause::NotFinite, "nothing is condensed"));
-        };
+        let (_, condensation, gaps) = (moving.iter_mut().find(|(k, ..)| *k == key))
+            .expect("the matrix of this length was condensed");
         let started = std::time::Instant::now();
         let Origin {
             at: guess,

@@ -28,9 +28,7 @@ struct Sums {
 impl Simulation {
     /// Tries one explicit increment.
     pub(super) fn attempt_explicit(&mut self, trial: Trial) -> Result<Accepted, StepFailure> {
-        let Some(mut explicit) = self.explicit.take() else {
-            return Err(StepFailure::new(Cause::NotFinite, "motion was not started"));
-        };
+        let mut explicit = (self.explicit.take()).expect("an explicit step has begun its motion");
         let outcome = self.leap(&mut explicit, trial);
         self.explicit = Some(explicit);
         outcome
@@ -94,7 +92,7 @@ impl Simulation {
         };
         for interface in &mut self.model.interfaces {
             interface.begin();
-            interface.prepare(&stage)?;
+            interface.prepare(&stage);
             interface.assemble(&stage, &mut explicit.out)?;
         }
         self.model.couplings.assemble(&stage, &mut explicit.out)?;

@@ -75,9 +75,7 @@ pub struct Energy {
 /// A force is evaluated from **committed** history only; a rejected attempt simply never calls [`commit`](Force::commit).
 pub trait Force: Send {
     /// Search and pairing at a state of iteration.
-    fn prepare(&mut self, _stage: &Stage) -> Result<(), StepFailure> {
-        Ok(())
-    }
+    fn prepare(&mut self, _stage: &Stage) {}
 
     /// Starts an attempt: trial history := committed.
     fn begin(&mut self) {}

@@ -93,7 +93,7 @@ fn attempt(interface: &mut Interface, from: &State, at: &State) -> [Bits; 3] {
     let mut out = Assembler::new(interface.dofs.count());
     let mut evaluate = |interface: &mut Interface, tangent: bool| {
         out.reset(tangent);
-        interface.prepare(&stage).expect("a pairing");
+        interface.prepare(&stage);
         interface.assemble(&stage, &mut out).expect("forces");
         Bits::of(&out)
     };

@@ -371,7 +371,7 @@ impl Interface {
         if !self.schedule.active(stage.at.t) {
             return Ok(());
         }
-        self.prepare(stage)?;
+        self.prepare(stage);
         self.begin();
         let evaluations = self.evaluate_all(
             stage,
@@ -649,7 +649,7 @@ impl Interface {
 }
 
 impl Force for Interface {
-    fn prepare(&mut self, stage: &Stage) -> Result<(), StepFailure> {
+    fn prepare(&mut self, stage: &Stage) {
         self.ready();
         self.glue(stage);
         self.freeze();
@@ -659,7 +659,6 @@ impl Force for Interface {
             self.search(&x);
             self.memory.x = x;
         }
-        Ok(())
     }
 
     fn begin(&mut self) {

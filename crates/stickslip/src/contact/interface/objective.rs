@@ -213,7 +213,7 @@ fn accept(interface: &mut Interface, from: &State, place: impl Fn(usize, Vec3) -
     };
     let mut out = Assembler::new(interface.dofs.count());
     out.reset(false);
-    interface.prepare(&stage).expect("candidates");
+    interface.prepare(&stage);
     interface.begin();
     interface.assemble(&stage, &mut out).expect("forces");
     interface.commit(&stage);

@@ -351,7 +351,7 @@ impl Interface {
 
     /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
     pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
-        let _ = self.prepare(stage);
+        self.prepare(stage);
         self.begin();
         let evaluations = self.evaluate_all(stage, Wants::default());
         let opposite = |e: &Evaluation| e.over;

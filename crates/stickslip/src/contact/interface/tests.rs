@@ -185,7 +185,7 @@ fn the_tangent_is_that_of_the_force() {
                 };
                 out.wants_surrogate = surrogate;
                 out.reset(tangent);
-                interface.prepare(&stage).expect("candidates");
+                interface.prepare(&stage);
                 interface.assemble(&stage, &mut out).expect("forces");
                 (out.residual.clone(), out.blocks.clone())
             };
@@ -273,7 +273,7 @@ fn numbers_of_facets_make_no_difference() {
             };
             let mut out = Assembler::new(interface.dofs.count());
             out.reset(false);
-            interface.prepare(&stage).expect("candidates");
+            interface.prepare(&stage);
             interface.assemble(&stage, &mut out).expect("forces");
             out.residual
         });
@@ -308,18 +308,16 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
                 };
                 out.tentative = tentative;
                 out.reset(tangent);
-                interface.prepare(&stage).expect("candidates");
+                interface.prepare(&stage);
                 interface.assemble(&stage, &mut out).expect("forces");
                 (out.residual.clone(), out.condensed.clone())
             };
-            interface
-                .prepare(&Stage {
-                    from: &from,
-                    at: &first,
-                    dt: 1.0,
-                    rate: None,
-                })
-                .expect("candidates");
+            interface.prepare(&Stage {
+                from: &from,
+                at: &first,
+                dt: 1.0,
+                rate: None,
+            });
             interface.begin();
             evaluate(interface, &first, true, false);
             if given_up {

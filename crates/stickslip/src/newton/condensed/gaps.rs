@@ -102,9 +102,7 @@ impl Gaps {
             return Ok((b.to_vec(), condensation.yielding(b), 0));
         }
         self.activate(condensation, blocks);
-        let Some(active) = &self.active else {
-            return Ok((b.to_vec(), condensation.yielding(b), 0));
-        };
+        let active = (self.active.as_ref()).expect("the active list was made");
         let placed: Vec<Block> = blocks
             .iter()
             .map(|b| active.place(condensation, b))
@@ -138,14 +136,17 @@ impl Gaps {
         let mut fresh = false;
         loop {
             let tiny = 3 * blocks.len() + modes.len() <= TINY;
-            if self.preconditioner.is_none() || self.stale || (tiny && !fresh) {
-                statistics.reduced += 1;
-                self.preconditioner = Some(system.preconditioner()?);
-                self.stale = false;
-                fresh = true;
+            if self.stale || (tiny && !fresh) {
+                self.preconditioner = None;
             }
-            let Some(preconditioner) = &self.preconditioner else {
-                break;
+            let preconditioner = match &mut self.preconditioner {
+                Some(kept) => &*kept,
+                missing => {
+                    statistics.reduced += 1;
+                    self.stale = false;
+                    fresh = true;
+                    missing.insert(system.preconditioner()?)
+                }
             };
             let most = if fresh {
                 200
@@ -194,7 +195,6 @@ impl Gaps {
             }
             self.stale = true;
         }
-        Ok((b.to_vec(), condensation.yielding(b), spent))
     }
 
     /// Sees to it that the active list has the dofs of all blocks and not many more.
