@@ -127,9 +127,11 @@ def test_other_threads_run_while_it_solves(case):
 
 
 SLEEPER = """
-import os, signal, sys, threading
+import faulthandler, os, signal, sys, threading
 import stickslip
 
+# Where it hangs, if it does.
+faulthandler.dump_traceback_later(90, exit=True)
 case = {case!r}
 case["step"] = [{{"increments": {{"fixed": 100000}}}}]
 simulation = stickslip.Problem.from_dict(case).build()

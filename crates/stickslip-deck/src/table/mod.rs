@@ -199,22 +199,9 @@ pub(crate) fn nearest(keyword: &str) -> Option<&'static str> {
 }
 
 fn nearest_of(word: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
-    let best = known.map(|k| (distance(word, k), k)).min()?;
+    // Of a line of anything that stands where a word should the beginning is enough.
+    let start: String = word.chars().take(64).collect();
+    let edits = |k: &'static str| (strsim::levenshtein(&start, k), k);
+    let best = known.map(edits).min()?;
     (best.0 <= 2 + word.len() / 8).then_some(best.1)
-}
-
-/// Edits between two words.
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(64).collect(), b.chars().collect());
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

@@ -37,9 +37,10 @@ pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let word = simplify(word);
     let (distance, name) = names
         .iter()
-        .map(|name| (distance(&word, &simplify(name)), *name))
+        .map(|name| (strsim::osa_distance(&word, &simplify(name)), *name))
         .min()?;
-    (distance <= (word.len() / 3).max(1) && distance < word.len()).then_some(name)
+    let length = word.chars().count();
+    (distance <= (length / 3).max(1) && distance < length).then_some(name)
 }
 
 /// `help` for a name that is not among `names`: what was probably meant and what there is.
@@ -54,27 +55,8 @@ pub(super) fn suggest(word: &str, what: &str, names: &[&str]) -> String {
     }
 }
 
-fn simplify(word: &str) -> Vec<char> {
-    let lower = word.chars().flat_map(char::to_lowercase);
-    lower.map(|c| if c == '_' { '-' } else { c }).collect()
-}
-
-/// Insertions, deletions, replacements and swaps of neighbours between two words.
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replace = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut best = replace.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                best = best.min(rows[i - 2][j - 2] + 1);
-            }
-            row.push(best);
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
+fn simplify(word: &str) -> String {
+    word.to_lowercase().replace('_', "-")
 }
 
 #[cfg(test)]
