@@ -152,15 +152,24 @@ pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot>
         return inside;
     }
     // No facet is as near as this node: beyond an edge there is no foot, beneath a notch all facets around face away from the point.
-    let around = facets.iter().filter(|f| f.nodes.contains(tip));
-    let deep = around.clone().all(|f| {
+    let around: Vec<&Facet> = facets.iter().filter(|f| f.nodes.contains(tip)).collect();
+    let depths = around.iter().map(|f| {
         let corners: Vec<Vec3> = f.nodes.iter().map(|n| at[*n]).collect();
         let normal = stretch(f.kind, &corners, f.kind.middle());
-        sense(mesh, f, at) * dot(sub(x, at[*tip]), normal) < 0.0
+        -sense(mesh, f, at) * dot(sub(x, at[*tip]), unit(normal))
     });
-    let within = deep && !on_border(around.collect::<Vec<_>>().as_slice(), *tip);
-    within.then(|| Foot {
-        gap: -distance,
+    let (least, most) = depths.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
+    if least <= 0.0 || on_border(&around, *tip) {
+        return None;
+    }
+    // What lies aside of the node rather than beneath it has its foot on an edge between facets, where rounding lost it.
+    let depth = if most < 0.5 * distance {
+        most
+    } else {
+        distance
+    };
+    Some(Foot {
+        gap: -depth,
         normal: unit(sub(at[*tip], x)),
         weights: vec![(*tip, 1.0)],
         place: at[*tip],
