@@ -12,8 +12,8 @@ use crate::law::{Rubbing, laws, limit};
 use crate::motion;
 use crate::overlap;
 use crate::results::Results;
-use crate::side::{Pair, Side};
-use crate::vec3::norm;
+use crate::side::{Pair, Side, middles};
+use crate::vec3::{Vec3, along, norm};
 
 /// Audits a result folder; an error says that it cannot be read.
 pub fn audit(folder: &Path) -> Result<Report, String> {
@@ -71,14 +71,9 @@ fn scale(results: &Results, pair: &Pair, strain: &[f64]) -> Scale {
         slip: 0.0,
     };
     for (i, (state, strain)) in results.states.iter().zip(strain).enumerate() {
-        let force: f64 = state.grid.vector("CFORCE").iter().map(|f| norm(*f)).sum();
-        let both = if matches!(pair.primary, Side::Rigid(_)) {
-            1.0
-        } else {
-            0.5
-        };
+        let force = carried(pair, &state.grid.vector("CFORCE"));
         if force > 0.0 {
-            scale.approach = scale.approach.max(2.0 * strain / (both * force));
+            scale.approach = scale.approach.max(2.0 * strain / force);
         }
         let values = at(state);
         for p in own.iter().map(|p| values[*p]).filter(|p| p.pressure > 0.0) {
@@ -116,6 +111,29 @@ fn scale(results: &Results, pair: &Pair, strain: &[f64]) -> Scale {
         scale.approach = moved.fold(1e-9 * results.mesh.size(None), f64::max);
     }
     scale
+}
+
+/// What the sides of an interface press with on each other, by the forces of the nodes on them: the lesser of two sums of magnitudes, of which either may have
+/// forces of another interface in it. Of a quadratic face pressed evenly the nodes in the middle of edges carry more than all, the corners less than nothing:
+/// each of the former is shared by the ends of its edge.
+fn carried(pair: &Pair, force: &[Vec3]) -> f64 {
+    let sum = |side: &Side| {
+        let Side::Body { points, facets } = side else {
+            return f64::INFINITY;
+        };
+        let ends = middles(facets);
+        let mut at: std::collections::BTreeMap<usize, Vec3> = std::collections::BTreeMap::new();
+        for node in points {
+            let f = force.get(*node).copied().unwrap_or_default();
+            let to = ends.get(node).map_or(vec![*node], |e| e.to_vec());
+            for n in &to {
+                let part = at.entry(*n).or_default();
+                *part = along(*part, 1.0 / to.len() as f64, f);
+            }
+        }
+        at.values().map(|f| norm(*f)).sum::<f64>()
+    };
+    sum(&pair.secondary).min(sum(&pair.primary))
 }
 
 /// How many points carry the contact where it is largest, and how rough the pressure is along the surface.
@@ -173,4 +191,43 @@ fn roughness(facets: &[crate::mesh::Facet], values: &[contact::Point]) -> f64 {
         }
     }
     rough / sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::Kind;
+    use crate::mesh::Facet;
+
+    /// Forces of another interface on the same bodies are not this one's, and an even pressure on a quadratic face is what it is.
+    #[test]
+    fn an_interface_carries_its_own_force() {
+        let face = |kind: Kind, nodes: Vec<usize>| Side::Body {
+            points: nodes.iter().copied().collect(),
+            facets: vec![Facet {
+                kind,
+                nodes,
+                cell: 0,
+                body: 0,
+            }],
+        };
+        let pair = Pair {
+            secondary: face(Kind::Quad(8), (0..8).collect()),
+            primary: face(Kind::Quad(4), (8..12).collect()),
+            ..Pair::bare("joint")
+        };
+        let mut force = vec![[0.0; 3]; 20];
+        for k in 0..4 {
+            force[k][2] = -1.0 / 12.0;
+            force[4 + k][2] = 1.0 / 3.0;
+            force[8 + k][2] = -0.25;
+            // Another interface, twice as hard.
+            force[12 + k][2] = 0.5;
+            force[16 + k][2] = -0.5;
+        }
+        assert!((carried(&pair, &force) - 1.0).abs() < 1e-12);
+        // With more on its other side too.
+        force[8][0] = 3.0;
+        assert!((carried(&pair, &force) - 1.0).abs() < 1e-12);
+    }
 }

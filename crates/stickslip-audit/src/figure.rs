@@ -129,6 +129,12 @@ pub const KINDS: &[Kind] = &[
         "depth of points of either side in the other beyond what the law has, of the approach",
     ),
     kind(
+        "apart",
+        0.05,
+        0.5,
+        "distance by which surfaces stand apart all around a mortar point beyond what it says, times its pressure of the largest, of the approach",
+    ),
+    kind(
         "energy",
         2e-3,
         1.2e-2,

@@ -32,6 +32,7 @@ pub fn check(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report)
         report.note("penetration", &pair.name, beyond / sizes.approach, state.t);
     }
     gaps(results, pair, sizes, report);
+    apart(results, pair, sizes, report);
     slips(results, pair, sizes, report);
 }
 
@@ -98,6 +99,83 @@ fn gaps(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                 report.note("gap", &pair.name, off / sizes.approach, t);
             }
         }
+    }
+}
+
+/// Where points of mortar contact press though the surfaces stand apart all around them: the mean gap of a point, whose weights are not all positive, may be
+/// less than any gap.
+fn apart(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+    let (Side::Body { facets, .. }, Side::Body { facets: other, .. }) =
+        (&pair.secondary, &pair.primary)
+    else {
+        return;
+    };
+    // Each of two sides presses where the other one finds contact, and what starts closed has gaps of its own.
+    if !pair.mortar || pair.two_sided || !pair.as_meshed {
+        return;
+    }
+    let nodes: std::collections::BTreeSet<usize> = points(results, pair).into_iter().collect();
+    for (i, state) in results.states.iter().enumerate() {
+        let (x, t) = places(results, Some(i));
+        let values = at(state);
+        let presses = |n: &usize| nodes.contains(n) && values[*n].pressure > 0.0;
+        let least = around(&results.mesh, (facets, other), &x, presses);
+        for (node, (least, covered)) in least {
+            let point = &values[node];
+            let beyond = least - point.gap;
+            if beyond.is_finite() && beyond > 1e-9 * results.mesh.size(None) {
+                let weight = covered * point.pressure / sizes.pressure;
+                report.note("apart", &pair.name, weight * beyond / sizes.approach, t);
+            }
+        }
+    }
+}
+
+/// Of each wanted node the least gap of places all over the facets around it, and the part of them that have something opposite.
+fn around(
+    mesh: &crate::mesh::Mesh,
+    (facets, other): (&[crate::mesh::Facet], &[crate::mesh::Facet]),
+    x: &[Vec3],
+    wanted: impl Fn(&usize) -> bool,
+) -> std::collections::BTreeMap<usize, (f64, f64)> {
+    let mut found: std::collections::BTreeMap<usize, (f64, usize, usize)> =
+        std::collections::BTreeMap::new();
+    for facet in facets.iter().filter(|f| f.nodes.iter().any(&wanted)) {
+        let corners: Vec<Vec3> = facet.nodes.iter().map(|n| x[*n]).collect();
+        let (mut least, mut covered, mut all) = (f64::INFINITY, 0, 0);
+        for xi in grid(facet.kind) {
+            all += 1;
+            let here = crate::loads::place(facet.kind, &corners, xi);
+            if let Some(foot) = foot(mesh, other, x, here) {
+                covered += 1;
+                least = least.min(foot.gap);
+            }
+        }
+        for node in facet.nodes.iter().filter(|n| wanted(n)) {
+            let sum = found.entry(*node).or_insert((f64::INFINITY, 0, 0));
+            *sum = (sum.0.min(least), sum.1 + covered, sum.2 + all);
+        }
+    }
+    let part = |(n, (least, covered, all)): (usize, (f64, usize, usize))| {
+        (n, (least, covered as f64 / f64::max(all as f64, 1.0)))
+    };
+    found.into_iter().map(part).collect()
+}
+
+/// Places all over a facet in its reference coordinates: five along each direction.
+fn grid(kind: crate::element::Kind) -> Vec<[f64; 3]> {
+    use crate::element::Kind;
+    let steps = 0..5u8;
+    let unit = |k: u8| f64::from(k) / 4.0;
+    let both = |k: u8| 2.0 * unit(k) - 1.0;
+    match (kind, kind.dim()) {
+        (Kind::Triangle(_), _) => steps
+            .flat_map(|a| (0..5 - a).map(move |b| [unit(a), unit(b), 0.0]))
+            .collect(),
+        (_, 1) => steps.map(|a| [both(a), 0.0, 0.0]).collect(),
+        _ => steps
+            .flat_map(|a| (0..5).map(move |b| [both(a), both(b), 0.0]))
+            .collect(),
     }
 }
 
@@ -246,4 +324,51 @@ fn frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
     };
     let first = crate::vec3::unit(tangential(axis, normal));
     [first, crate::vec3::cross(normal, first)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::Kind;
+
+    /// One triangle over another, whose nodes are a unit apart though it presses with a mean gap below zero: the least gap around says so.
+    #[test]
+    fn the_least_gap_around_a_point_is_that_of_the_places() {
+        let facet = |nodes: [usize; 3], cell: usize| crate::mesh::Facet {
+            kind: Kind::Triangle(3),
+            nodes: nodes.to_vec(),
+            cell,
+            body: cell,
+        };
+        let x: Vec<Vec3> = [0.0, 1.0]
+            .iter()
+            .flat_map(|z| [[0.0, 0.0, *z], [1.0, 0.0, *z], [0.0, 1.0, *z]])
+            .chain([[0.2, 0.2, -1.0], [0.2, 0.2, 2.0]])
+            .collect();
+        let mesh = crate::mesh::Mesh {
+            points: x.clone(),
+            cells: vec![
+                (Kind::Tetrahedron(4), vec![0, 1, 2, 6]),
+                (Kind::Tetrahedron(4), vec![3, 4, 5, 7]),
+            ],
+            owner: vec![0, 1],
+            body: vec![0, 0, 0, 1, 1, 1, 0, 1],
+            names: vec!["lower".into(), "upper".into()],
+            facets: Vec::new(),
+        };
+        let sides = ([facet([3, 4, 5], 1)], [facet([0, 1, 2], 0)]);
+        let found = around(&mesh, (&sides.0, &sides.1), &x, |n| *n == 3);
+        assert_eq!(found.len(), 1);
+        let (least, covered) = found[&3];
+        assert!((least - 1.0).abs() < 1e-12 && covered == 1.0, "{found:?}");
+    }
+
+    #[test]
+    fn places_cover_a_facet() {
+        assert_eq!(grid(Kind::Line(3)).len(), 5);
+        assert_eq!(grid(Kind::Quad(8)).len(), 25);
+        let triangle = grid(Kind::Triangle(6));
+        assert_eq!(triangle.len(), 15);
+        assert!(triangle.iter().all(|xi| xi[0] + xi[1] <= 1.0));
+    }
 }

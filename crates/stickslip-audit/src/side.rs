@@ -279,7 +279,7 @@ fn project(kind: Kind, x: &[Vec3], at: Vec3) -> Option<[f64; 3]> {
 }
 
 /// The nodes in the middle of edges of quadratic facets, with the ends of these edges.
-fn middles(facets: &[Facet]) -> BTreeMap<usize, [usize; 2]> {
+pub(crate) fn middles(facets: &[Facet]) -> BTreeMap<usize, [usize; 2]> {
     let mut out = BTreeMap::new();
     for facet in facets {
         let (corners, middles) = facet.nodes.split_at(facet.kind.corners());
