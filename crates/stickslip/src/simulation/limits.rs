@@ -29,8 +29,7 @@ pub struct Limits {
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub penetration_to_size: f64,
     /// The same penetration over the elastic approach: `2 U / F` of the elastic energy of bodies and compliant interfaces and the force of
-    /// the interface, at least the compression of one layer of cells under the largest pressure. In motion the largest so far of both are
-    /// compared. Not judged in an explicit step.
+    /// the interface, at least the mean compression of one layer of cells. In motion the largest so far of both are compared. Not judged in an explicit step.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub penetration_to_approach: f64,
     /// False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest

@@ -415,6 +415,28 @@ support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
 }
 
 #[test]
+fn a_corner_that_enters_is_of_the_way_that_the_bodies_came() {
+    // A rigid block with sharp edges over faces that end elsewhere: the pressure under the edges is several times the mean.
+    let simulation = run(r#"format = 1
+model.space = "solid"
+body.lower = { generate.box = { from = [-5, -5, -3.5], to = [5, 5, 0], cells = [5, 5, 1], element = "hex20" }, material = "soft" }
+body.upper = { generate.box = { from = [-4.15, -4.15, 0], to = [4.15, 4.15, 2.5], cells = [4, 4, 1] }, material = "hard", rigid = true }
+material.soft.isotropic = { young = 1e3, poisson = 0.2 }
+material.hard.isotropic = { young = 1e6, poisson = 0.2, density = 1 }
+interface.joint = { secondary = "lower.top", primary = "upper.bottom", roles = "as-named", discretisation.node-to-facet = {} }
+support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
+support.press = { set = "upper.top", x = 0, y = 0, z = -0.1 }
+step = [{ name = "press", increments = { fixed = 1 } }]"#);
+    let interface = &simulation.model.interfaces[0];
+    let between = interface.between(&simulation.state.u, simulation.state.t);
+    // The bodies have come nearer by 0.1, and a layer of cells is all of the lower body: under the largest pressure it would be shorter by 0.49.
+    assert!(between.penetration > 0.03, "{between:?}");
+    let layer = interface.quality().layer;
+    assert!((0.05..0.25).contains(&layer), "{layer}");
+    trips(&simulation, "unseen-to-approach");
+}
+
+#[test]
 fn laws_that_yield_are_integrated_over_a_part_of_a_quadratic_face() {
     // Nothing deforms: overlap times stiffness times the area in common is the force.
     let (overlap, stiffness) = (1e-3, 1e6);

@@ -31,7 +31,8 @@ pub struct Quality {
     /// increment and relative to the largest limit of the interface `[-]`. Limits follow from the pressure and the law, slip from how the nodes have moved:
     /// it is judged by what is reported, not by what made it.
     pub friction_law: f64,
-    /// Compression of one layer of cells under the largest pressure `[m]`: the least that the bodies have come nearer.
+    /// Mean compression of one layer of cells over what carries, `Σ A p / Σ A k` `[m]`: the least that the bodies have come nearer, as no other pressure of
+    /// the same force takes less energy. Not that under the largest pressure, which grows with every cell under an edge.
     pub layer: f64,
     /// What `complementarity` is relative to, `Σ A p height` `[N m]`.
     #[serde(skip)]
@@ -80,6 +81,7 @@ impl Interface {
         let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
         let rounding = 16.0 * f64::EPSILON * (reach + norm(self.origin));
         let (mut bridged, mut pressed) = (0.0, 0.0);
+        let (mut carried, mut stiffness) = (0.0, 0.0);
         let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
         let committed = self.memory.committed.iter();
         for (i, (h, e)) in committed.zip(&self.memory.last.points).enumerate() {
@@ -95,7 +97,8 @@ impl Interface {
                 let under = (h.gap - wanted - rounding).max(0.0);
                 q.penetration = q.penetration.max(over);
                 q.relative_to_size = q.relative_to_size.max(over / p.size);
-                q.layer = q.layer.max(h.pressure / p.stiffness);
+                carried += area * h.pressure;
+                stiffness += area * p.stiffness;
                 bridged += area * h.pressure * under;
                 pressed += area * h.pressure * p.size;
                 if exact {
@@ -116,6 +119,9 @@ impl Interface {
                 most = most.max(e.response.limit);
                 over_limit = over_limit.max(shear - e.response.limit);
             }
+        }
+        if stiffness > 0.0 {
+            q.layer = carried / stiffness;
         }
         q.pressed = pressed;
         q.limit = most;
