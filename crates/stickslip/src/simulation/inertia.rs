@@ -49,19 +49,7 @@ impl Inertia {
     /// Assembles the mass; `stiffness` gives the pattern.
     pub fn new(model: &Model, stiffness: &BlockCsr, dynamic: &Dynamic, before: u64) -> Self {
         let dim = model.dofs.dim;
-        let mut light = vec![false; model.dofs.points];
-        let redistributed = redistributed(model, dynamic);
-        for (interface, &wanted) in model.interfaces.iter().zip(&redistributed) {
-            if wanted {
-                // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
-                // as a secondary one does against a wall.
-                for &node in &interface.nodes {
-                    light[node] = true;
-                }
-            }
-        }
-        // What is fixed to a point keeps it from following others without inertia.
-        model.masses.iter().for_each(|(p, _)| light[*p] = false);
+        let mut light = light(model, dynamic);
         let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
             if body.rigid.is_some() {
@@ -77,7 +65,7 @@ impl Inertia {
         let damping = damping(model, stiffness, &mass);
         Inertia {
             mass_kind: dynamic.mass,
-            redistributed,
+            redistributed: redistributed(model, dynamic),
             masses: Isotropic::of(&mass),
             mass,
             damping,
@@ -286,6 +274,24 @@ fn redistributed(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
         None => interface.laws.set_valued(),
     };
     model.interfaces.iter().map(wanted).collect()
+}
+
+/// Points whose mass is to be given to their neighbours. Where a body has no others, and in rigid bodies, they keep it all the same.
+pub(super) fn light(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
+    let mut light = vec![false; model.dofs.points];
+    let redistributed = redistributed(model, dynamic);
+    for (interface, &wanted) in model.interfaces.iter().zip(&redistributed) {
+        if wanted {
+            // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
+            // as a secondary one does against a wall.
+            for &node in &interface.nodes {
+                light[node] = true;
+            }
+        }
+    }
+    // What is fixed to a point keeps it from following others without inertia.
+    model.masses.iter().for_each(|(p, _)| light[*p] = false);
+    light
 }
 
 /// The factors of mass, damping and stiffness in the matrix of an increment.

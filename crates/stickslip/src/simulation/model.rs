@@ -58,6 +58,8 @@ pub struct Model {
     pub energy_limit: f64,
     /// Whether bodies that only contact can hold are followed until it does.
     pub follow: bool,
+    /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
+    pub unused: Vec<String>,
     /// What a user should know of how it was made.
     pub notes: Vec<String>,
     /// What counts as a good solution.

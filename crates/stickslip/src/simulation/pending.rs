@@ -155,6 +155,7 @@ impl Simulation {
             self.summary.last = named.collect();
             let limits = self.model.quality;
             self.judge_quality(&limits);
+            self.judge_unjoined();
             for observer in observers.iter_mut() {
                 observer.see(self, Event::Increment(&row))?;
             }

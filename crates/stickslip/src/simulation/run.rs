@@ -67,6 +67,8 @@ pub struct Simulation {
     pub(super) step: usize,
     /// What interfaces did so far.
     pub(super) watches: Vec<doctor::Watch>,
+    /// Bodies that no interface joins.
+    pub(super) unjoined: doctor::Unjoined,
     /// Bodies that only contact can hold.
     pub(super) loose: Loose,
     pub(super) started: Instant,
@@ -155,8 +157,10 @@ impl Simulation {
             .iter()
             .map(|probe| model.elastic().find_map(|b| b.elastic.around(probe.point)))
             .collect();
+        let unjoined = doctor::Unjoined::new(&model, &u);
         let mut simulation = Simulation {
             around,
+            unjoined,
             contact: vec![0.0; n],
             load: vec![0.0; n],
             coupled: 0.0,

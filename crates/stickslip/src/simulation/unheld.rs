@@ -175,7 +175,8 @@ impl Resisted<'_> {
 
 impl Simulation {
     /// Motions that neither supports, springs and couplings nor any contact could hold while the interfaces act as they do at `t`. Of contact
-    /// the most is believed: that every point of a secondary meets what it faces, and that friction is as large as need be.
+    /// the most is believed: that every point of a secondary meets what it faces, and that friction is as large as need be. Tied surfaces count
+    /// without contact too.
     pub(super) fn unheld(&self, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
         let model = &self.model;
         let count = modes.len();
@@ -208,11 +209,10 @@ impl Simulation {
             let values: Vec<_> = modes.iter().map(value).enumerate().collect();
             resisted.row(&values, 1.0);
         }
-        if contact {
-            for interface in model.interfaces.iter().filter(|i| i.schedule.active(t)) {
-                let directions = directions(interface, t);
-                resisted.interface(interface, &directions);
-            }
+        let acting = model.interfaces.iter().filter(|i| i.schedule.active(t));
+        for interface in acting.filter(|i| contact || i.laws.tied) {
+            let directions = directions(interface, t);
+            resisted.interface(interface, &directions);
         }
         let (values, vectors) = symmetric_eigen(&resisted.gram);
         let largest = values.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);

@@ -9,6 +9,7 @@ mod rigid;
 mod schedules;
 mod sets;
 mod snap;
+mod unused;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -169,6 +170,7 @@ impl Problem {
             method: self.solver.method,
             energy_limit: self.solver.energy_limit,
             follow: self.solver.follow_loose_bodies,
+            unused: unused::tables(self),
             notes,
             quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),

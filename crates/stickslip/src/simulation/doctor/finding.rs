@@ -96,11 +96,17 @@ pub enum DoctorCause {
     FarAway,
     /// A nearly incompressible body of cells that lock.
     Locking,
+    /// Bodies that no interface joins touch or pass through each other.
+    MissingInterface,
+    /// A body is held or loaded less than in the step before.
+    LetGo,
+    /// A table of the problem file that nothing uses.
+    Unused,
 }
 
 impl DoctorCause {
     /// All causes, in the order of [`code`](DoctorCause::code).
-    pub const ALL: [DoctorCause; 43] = [
+    pub const ALL: [DoctorCause; 46] = [
         DoctorCause::FreeRigidMode,
         DoctorCause::Chatter,
         DoctorCause::LostProjection,
@@ -144,6 +150,9 @@ impl DoctorCause {
         DoctorCause::TurnedNormals,
         DoctorCause::FarAway,
         DoctorCause::Locking,
+        DoctorCause::MissingInterface,
+        DoctorCause::LetGo,
+        DoctorCause::Unused,
     ];
 
     /// Whether it is a mistake in the model, so that advice about how it is solved does not help.

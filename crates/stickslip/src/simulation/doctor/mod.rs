@@ -16,6 +16,7 @@ mod finding;
 mod motions;
 mod signs;
 mod surfaces;
+mod unjoined;
 mod watch;
 
 pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
@@ -23,6 +24,7 @@ pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
 pub(super) use check::{body as body_at, examine};
 pub(super) use culprits::write as write_culprits;
 pub(super) use diagnose::{MORE_MEMORY, diagnose, stopped};
+pub(super) use unjoined::Unjoined;
 pub(super) use watch::{Watch, watched};
 
 use crate::error::RunError;

@@ -3,7 +3,7 @@
 use stickslip::simulation::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
-use super::models::{CUBES, LOAD, PRESS, SLIDE, THROW};
+use super::models::{CUBES, LED, LOAD, PRESS, SLIDE, THROW};
 use super::{Defect, defect};
 
 pub const CONDITIONS: &[Defect] = &[
@@ -201,7 +201,8 @@ pub const CONDITIONS: &[Defect] = &[
         PRESS,
         &[("name = \"press\"", "name = \"press\", interfaces = []")],
         Found(DoctorCause::NothingActs, "joint"),
-    ),
+    )
+    .also(&[DoctorCause::MissingInterface]),
     defect(
         "a load under a name that is not there",
         LOAD,
@@ -219,5 +220,44 @@ pub const CONDITIONS: &[Defect] = &[
         PRESS,
         &[("y = -1e-5", "y = -1e-5, z = 0")],
         Refused("support.top.z"),
+    ),
+    defect(
+        "a step leaves out the support that presses",
+        SLIDE,
+        &[("{ name = \"slide\" }", "{ name = \"slide\", supports = [\"base\", \"along\"] }")],
+        Found(DoctorCause::LetGo, "down"),
+    ),
+    defect(
+        "a step leaves out the load that presses",
+        LOAD,
+        &[("{ name = \"load\" }", "{ name = \"load\" }, { name = \"rest\", loads = [] }")],
+        Found(DoctorCause::LetGo, "weight"),
+    ),
+    defect(
+        "an amplitude that nothing has",
+        SLIDE,
+        &[("step =", "amplitude.spare.table = [[0, 0], [1, 1]]\nstep =")],
+        Found(DoctorCause::Unused, "amplitude.spare"),
+    ),
+    defect(
+        "a material and a set that nothing has",
+        LED,
+        &[(
+            "step =",
+            "material.spare.isotropic = { young = 1e9, poisson = 0.3 }\nset.spare.of = \"block\"\nset.spare.box = { from = [0, 0], to = [1, 1] }\nstep =",
+        )],
+        Found(DoctorCause::Unused, "material.spare, set.spare"),
+    ),
+    defect(
+        "an obstacle that no interface has",
+        PRESS,
+        &[("step =", "obstacle.wall.plane = { point = [0.031, 0], normal = [-1, 0] }\nstep =")],
+        Found(DoctorCause::Unused, "obstacle.wall"),
+    ),
+    defect(
+        "a velocity of nothing but the surface of contact",
+        THROW,
+        &[("set = \"block\", velocity", "set = \"block.bottom\", velocity")],
+        Found(DoctorCause::NothingActs, "fall"),
     ),
 ];

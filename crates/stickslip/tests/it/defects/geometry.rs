@@ -225,4 +225,61 @@ pub const GEOMETRY: &[Defect] = &[
         &[("21 3 2 3 3 1 2 5 4", "21 3 2 3 3 1 2 5 9")],
         Refused("node 9"),
     ),
+    defect(
+        "two blocks are pressed together and no interface joins them",
+        PRESS,
+        &[(
+            "interface.joint = { secondary = \"upper.bottom\", primary = \"lower.top\", friction.coulomb = { mu = 0.3 } }\n",
+            "",
+        )],
+        Found(DoctorCause::MissingInterface, "upper"),
+    ),
+    defect(
+        "two blocks overlap and no interface joins them",
+        PRESS,
+        &[
+            (
+                "interface.joint = { secondary = \"upper.bottom\", primary = \"lower.top\", friction.coulomb = { mu = 0.3 } }\n",
+                "",
+            ),
+            (
+                "from = [0.01, 0.02], to = [0.03, 0.04]",
+                "from = [0.01, 0.012], to = [0.03, 0.032]",
+            ),
+        ],
+        Found(DoctorCause::MissingInterface, "lower"),
+    ),
+    defect(
+        "a block moves into a stop that no interface has",
+        PRESS,
+        &[
+            ("x = 0, y = -1e-5", "x = 2e-5, y = -1e-5"),
+            (
+                "step =",
+                "body.stop = { generate.rectangle = { from = [0.03001, 0.021], to = [0.034, 0.04], cells = [3, 7] }, material = \"steel\" }\nsupport.stop = { set = \"stop\", x = 0, y = 0 }\nstep =",
+            ),
+        ],
+        Found(DoctorCause::MissingInterface, "stop"),
+    ),
+    defect(
+        "a loaded block comes to lie in a neighbour that no interface has",
+        LOAD,
+        &[
+            ("traction.value = [1e7, 0]", "traction.value = [1e6, 0]"),
+            (
+                "step =",
+                "body.wall = { generate.rectangle = { from = [0.040001, 0.001], to = [0.05, 0.03], cells = [3, 9] }, material = \"steel\" }\nsupport.wall = { set = \"wall\", x = 0, y = 0 }\nstep =",
+            ),
+        ],
+        Found(DoctorCause::MissingInterface, "wall"),
+    ),
+    defect(
+        "a second block falls through the floor of the first",
+        THROW,
+        &[(
+            "step =",
+            "body.second = { generate.rectangle = { from = [0.05, 0.0001], to = [0.07, 0.0101], cells = [2, 1] }, material = \"steel\" }\ninitial.second = { set = \"second\", velocity = [0, -10] }\nstep =",
+        )],
+        Found(DoctorCause::MissingInterface, "second"),
+    ),
 ];

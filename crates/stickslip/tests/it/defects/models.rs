@@ -164,7 +164,58 @@ coupling.pull.equation = { terms = [{ set = "corner", component = "x", factor = 
 step = [{ name = "pull" }]
 "#;
 
-pub const SOUND: [(&str, &str); 10] = [
+/// Two blocks side by side, with nothing between them, pressed on a floor; the sides that touch do not move across.
+pub const BESIDE: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.left = { generate.rectangle = { to = [0.02, 0.02], cells = [4, 4] }, material = "steel" }
+body.right = { generate.rectangle = { from = [0.02, 0], to = [0.04, 0.02], cells = [5, 3] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.one = { secondary = "left.bottom", primary = "floor" }
+interface.two = { secondary = "right.bottom", primary = "floor" }
+support.still = { set = "left.right", x = 0 }
+support.stiller = { set = "right.left", x = 0 }
+load.weight = { set = "left.top", pressure.value = 1e7 }
+load.more = { set = "right.top", pressure.value = 1e7 }
+step = [{ name = "press" }]
+"#;
+
+/// Two blocks that overlap and are one by equations.
+pub const PINNED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0, 0.01], to = [0.04, 0.03], cells = [4, 2] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = 1e-6 }
+set.line.of = "lower"
+set.line.box = { from = [-0.001, 0.009], to = [0.041, 0.011] }
+coupling.across.equation = { terms = [{ set = "line", component = "x", factor = 1 }, { set = "upper.bottom", component = "x", factor = -1 }] }
+coupling.up.equation = { terms = [{ set = "line", component = "y", factor = 1 }, { set = "upper.bottom", component = "y", factor = -1 }] }
+step = [{ name = "pull" }]
+"#;
+
+/// Two blocks, pressed by a displacement and then by a load in its place, and let go by an amplitude.
+pub const HANDED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.down = { set = "upper.top", x = 0, y = -1e-6 }
+support.rail = { set = "upper.top", x = 0 }
+load.weight = { set = "upper.top", pressure.value = 1e7 }
+step = [{ name = "touch", supports = ["base", "down"], loads = [] }, { name = "press", supports = ["base", "rail"] }]
+"#;
+
+pub const SOUND: [(&str, &str); 13] = [
+    ("beside", BESIDE),
+    ("pinned", PINNED),
+    ("handed", HANDED),
     ("glued", GLUED),
     ("led", LED),
     ("press", PRESS),

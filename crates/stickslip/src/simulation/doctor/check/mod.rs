@@ -11,11 +11,14 @@ mod locking;
 mod meshes;
 mod motions;
 mod normals;
+mod released;
 mod schedules;
 mod speeds;
 mod strains;
 mod surfaces;
 mod units;
+mod unmoved;
+mod unused;
 
 pub(super) use meshes::disconnected;
 
@@ -79,6 +82,10 @@ pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>])
     }
     out.extend(conditions::check(simulation, &measured));
     out.extend(schedules::check(model));
+    out.extend(released::check(simulation));
+    out.extend(unmoved::check(model));
+    out.extend(unused::check(model));
+    out.extend(simulation.unjoined.check(model, &simulation.state.u));
     out.extend(strains::check(model));
     out.extend(locking::check(model));
     out.extend(units::check(model));
@@ -162,7 +169,7 @@ fn secondary(interface: &Interface, i: usize, remark: String) -> Guilty {
 }
 
 /// Lowest and highest coordinates.
-fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+pub(super) fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     let start = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     points.iter().fold(start, |(low, high), p| {
         (
