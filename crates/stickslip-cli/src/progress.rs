@@ -185,10 +185,10 @@ pub fn found(finding: &Finding) -> String {
 }
 
 /// Says which figures of the quality gate are above their limits.
-pub fn gate(gate: &Gate) {
+pub fn gate(gate: &Gate, findings: &[Finding]) {
     let word = if gate.failed() { "error" } else { "warning" };
     for figure in gate.violations() {
-        say(&format!("{word}: quality: {}", figure.sentence()));
+        say(&format!("{word}: quality: {}", figure.sentence(findings)));
     }
     if !gate.met {
         say("  the results are kept; `[quality]` in the problem file sets the limits");

@@ -92,7 +92,7 @@ fn explain(summary: &Value, findings: &[Finding]) -> String {
     if causes.is_empty() && sound(summary) {
         text += "Nothing went wrong.\n";
     }
-    text += &gate(summary);
+    text += &gate(summary, findings);
     for (severity, cause) in causes {
         let all: Vec<&Finding> = findings.iter().filter(|f| f.cause == cause).collect();
         text += "\n";
@@ -127,7 +127,7 @@ fn poor(summary: &Value) -> Vec<&Value> {
 }
 
 /// What the quality gate said.
-fn gate(summary: &Value) -> String {
+fn gate(summary: &Value, findings: &[Finding]) -> String {
     let mut text = String::new();
     let severity = match summary["quality"]["gate"].as_str() {
         Some("warn") => Severity::Warning,
@@ -141,9 +141,9 @@ fn gate(summary: &Value) -> String {
         let value = number("value").map_or("not a number".into(), |v| format!("{v:.2e}"));
         let limit = number("limit").unwrap_or(f64::INFINITY);
         let when = number("time").map_or(String::new(), |t| format!(", at time {t:.6e}"));
-        let (what, help) = Figure::meaning(name).unwrap_or((
+        let (what, help) = Figure::meaning(name, findings).unwrap_or((
             "it is not known to this version",
-            "see the version that ran it",
+            "see the version that ran it".to_string(),
         ));
         text += &format!("\n{severity}: quality, {name} of {place}{when}\n");
         text += &print::wrap(
@@ -151,7 +151,7 @@ fn gate(summary: &Value) -> String {
             2,
             WIDTH,
         );
-        text += &item("try", help);
+        text += &item("try", &help);
     }
     text
 }

@@ -96,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let quality = &simulation.summary.quality;
     if quality.failed() || loud {
-        crate::progress::gate(quality);
+        crate::progress::gate(quality, &simulation.summary.findings);
     }
     Ok(match quality.failed() {
         true => ExitCode::from(crate::CHECK),

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::doctor::Finding;
+
 /// A figure of the gate: an amount of something that should not be, relative to a scale of the same kind. One row below, a limit in
 /// [`Limits`](super::limits::Limits) and a call of [`Gate::note`](super::quality::Gate) make a figure.
 ///
@@ -19,6 +21,19 @@ pub(super) struct Kind {
     pub what: &'static str,
     /// What may help.
     pub help: &'static str,
+}
+
+/// What may help with a figure. Advice about how a model is solved is withheld where findings say what is wrong with the model itself: of a body
+/// that hangs on the wrong interface the solver cannot do better.
+pub(super) fn advice(help: &str, findings: &[Finding]) -> String {
+    let about_solver = help.contains("solver.tolerance");
+    match findings.iter().find(|f| about_solver && f.explains()) {
+        Some(f) => format!(
+            "look at the finding `{}` first: while it holds, the solver is not to blame",
+            f.cause
+        ),
+        None => help.to_string(),
+    }
 }
 
 /// All figures.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::doctor::Finding;
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
     FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
@@ -60,9 +61,9 @@ impl Figure {
         )
     }
 
-    /// What is wrong and what may help, for a figure above its limit.
-    pub fn sentence(&self) -> String {
-        let (what, help) = (self.kind.what, self.kind.help);
+    /// What is wrong and what may help, for a figure above its limit, in a run with these findings.
+    pub fn sentence(&self, findings: &[Finding]) -> String {
+        let (what, help) = (self.kind.what, figures::advice(self.kind.help, findings));
         format!(
             "{} (at time {:.4e}): {what}; {help}",
             self.brief(),
@@ -72,10 +73,10 @@ impl Figure {
 }
 
 impl Figure {
-    /// What it means that a figure is above its limit, and what may help, by its name; `None` of one that is not known.
-    pub fn meaning(figure: &str) -> Option<(&'static str, &'static str)> {
+    /// What it means that a figure is above its limit, and what may help in a run with these findings, by its name; `None` of one that is not known.
+    pub fn meaning(figure: &str, findings: &[Finding]) -> Option<(&'static str, String)> {
         let kind = figures::ALL.iter().find(|kind| kind.name == figure)?;
-        Some((kind.what, kind.help))
+        Some((kind.what, figures::advice(kind.help, findings)))
     }
 }
 

@@ -56,7 +56,7 @@ fn check(name: &str) {
             .run(&mut observers)
             .unwrap_or_else(|e| panic!("{name}, {stem}: {e}"));
         let quality = &simulation.summary.quality;
-        let poor: Vec<String> = quality.violations().map(|f| f.sentence()).collect();
+        let poor: Vec<String> = quality.violations().map(|f| f.sentence(&[])).collect();
         assert!(!quality.failed(), "{name}, {stem}: {poor:#?}");
         let report = compare(&out, &file).unwrap_or_else(|e| panic!("{e}"));
         assert!(report.passes(), "{name}, {stem}:\n{report}");

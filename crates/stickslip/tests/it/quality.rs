@@ -39,7 +39,7 @@ fn trips(simulation: &Simulation, figure: &str) {
     let found = gate.violations().find(|f| f.figure == figure);
     let found = found.unwrap_or_else(|| panic!("{figure} is not among {:#?}", gate.figures));
     assert!(found.limit.is_some_and(|limit| found.value > limit));
-    assert!(found.sentence().contains(figure) && found.sentence().contains(&found.place));
+    assert!(found.sentence(&[]).contains(figure) && found.sentence(&[]).contains(&found.place));
     assert!(gate.failed() && !gate.met);
 }
 

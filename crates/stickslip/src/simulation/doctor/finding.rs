@@ -374,6 +374,22 @@ impl Finding {
         }
     }
 
+    /// Whether it says that the model is not what was meant, so that the outcome of the run is no question of how it was solved: a warning before an
+    /// increment or after the last one, or bodies that nothing joins where they touch.
+    pub(in crate::simulation) fn explains(&self) -> bool {
+        use DoctorCause as Cause;
+        let about_mesh = [
+            Cause::CoarseContact,
+            Cause::CoarseFacets,
+            Cause::MeshMismatch,
+            Cause::TurnedNormals,
+            Cause::Locking,
+        ];
+        // An increment that was cut is of a step.
+        let warned = self.severity >= Severity::Warning && self.step.is_none();
+        self.cause == Cause::MissingInterface || warned && !about_mesh.contains(&self.cause)
+    }
+
     /// Adds a place, if there is room.
     pub fn blame(mut self, guilty: Guilty) -> Self {
         if self.guilty.len() < MOST_GUILTY {
