@@ -219,6 +219,7 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
     }
     let nodes = points(results, pair);
     let dim = results.case.space.dim();
+    let quadratic = results.mesh.cells.iter().any(|(kind, _)| kind.quadratic());
     for (i, state) in results.states.iter().enumerate() {
         let Some(Before::Written(old)) = results.before(i) else {
             continue;
@@ -286,6 +287,9 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                     state.t,
                 );
             }
+            // Of quadratic faces the mean of a mortar point has weights of both signs, which only the whole of the places gives: there it is
+            // held against the slip that is written.
+            let own = if pair.mortar && quadratic { said } else { own };
             let (length, carried) = (own[0].hypot(own[1]), now[*node].carried());
             let slides = now[*node].status == 2.0 && then[*node].status == 2.0;
             if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
@@ -301,7 +305,10 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                     }
                 };
                 let end = |k: usize| pair.mean(*node, |n| Some(swept(n)?[k]));
-                let end = [end(0).unwrap_or(own[0]), end(1).unwrap_or(own[1])];
+                let end = match pair.mortar && quadratic {
+                    true => own,
+                    false => [end(0).unwrap_or(own[0]), end(1).unwrap_or(own[1])],
+                };
                 let cosine = cosine(own).min(cosine(end));
                 report.note("direction", &pair.name, 1.0 + cosine, state.t);
             }
