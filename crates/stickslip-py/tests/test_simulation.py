@@ -132,6 +132,8 @@ import stickslip
 
 # Where it hangs, if it does.
 faulthandler.dump_traceback_later(90, exit=True)
+# Shells start jobs in the background with the signal ignored, and Python then leaves it ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 case = {case!r}
 case["step"] = [{{"increments": {{"fixed": 100000}}}}]
 simulation = stickslip.Problem.from_dict(case).build()
