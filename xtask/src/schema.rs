@@ -15,7 +15,9 @@ pub fn write() -> Result<(), String> {
             "--package",
             "stickslip",
             "--test",
-            "schema",
+            "it",
+            "--",
+            "schema::",
         ])
         .env("STICKSLIP_WRITE_SCHEMA", "1")
         .current_dir(workspace::root())

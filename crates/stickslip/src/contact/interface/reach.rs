@@ -1,6 +1,6 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
-use super::{Interface, Memory, Primary};
+use super::{Interface, Primary};
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
 use crate::contact::search::{Box3, Tree};
@@ -195,29 +195,6 @@ impl Interface {
                     })
                     .collect()
             }
-        }
-    }
-}
-
-impl Memory {
-    /// What reports need of it: the histories and the last evaluation.
-    pub fn snapshot(&self) -> Memory {
-        Memory {
-            committed: self.committed.clone(),
-            multipliers: self.multipliers.clone(),
-            last: self.last.clone(),
-            flips: self.flips.clone(),
-            dissipated: self.dissipated,
-            belt_work: self.belt_work,
-            damped: self.damped,
-            creep: self.creep,
-            changed: self.changed,
-            untouched: self.untouched,
-            explicit: self.explicit,
-            rest: self.rest.clone(),
-            inertia: self.inertia.clone(),
-            asleep: self.asleep.clone(),
-            ..Memory::default()
         }
     }
 }
