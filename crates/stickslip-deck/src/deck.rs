@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use crate::card::Place;
 use crate::finding::Finding;
-use crate::source::Place;
 
 /// A deck that was read. Names are in capitals, as both programs take them, unless they were quoted.
 #[derive(Debug, Clone, Default)]

@@ -29,14 +29,16 @@
 
 #![forbid(unsafe_code)]
 
+mod axes;
+mod card;
 mod deck;
 mod finding;
-mod lint;
 mod parse;
 mod print;
 pub mod source;
 mod status;
 mod table;
+mod text;
 mod translate;
 
 pub use deck::*;
@@ -44,5 +46,3 @@ pub use finding::{DeckError, Finding, Severity};
 pub use print::Printer;
 pub use status::Status;
 pub use translate::{Translation, read_mesh};
-
-pub(crate) use parse::frame as parse_frame;

@@ -4,64 +4,10 @@ use std::path::{Path, PathBuf};
 
 use stickslip::io::input;
 
+pub use crate::card::{Card, Data, Parameter, Place};
 use crate::finding::{DeckError, Finding, Severity};
-
-/// Where a line is: number of the file in [`Source::files`], and line from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub struct Place {
-    /// Index of the file.
-    pub file: usize,
-    /// Line, from 1.
-    pub line: usize,
-}
-
-/// A parameter of a keyword line.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Parameter {
-    /// Its name, in capitals and without blanks.
-    pub name: String,
-    /// What follows the equals sign: in capitals and without blanks, unless it was quoted or names a file.
-    pub value: Option<String>,
-}
-
-/// A data line.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Data {
-    /// Its fields, without blanks around them; an empty field is the default. Empty fields at the end are dropped.
-    pub fields: Vec<String>,
-    /// Where it is.
-    pub place: Place,
-}
-
-/// A keyword with its parameters and the data lines that follow.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Card {
-    /// The keyword in capitals without blanks and star: `SOLIDSECTION`.
-    pub keyword: String,
-    /// As it was written, for messages: `*Solid Section`.
-    pub written: String,
-    /// Its parameters.
-    pub parameters: Vec<Parameter>,
-    /// Where it is.
-    pub place: Place,
-    /// Its data lines.
-    pub data: Vec<Data>,
-}
-
-impl Card {
-    /// The value of a parameter; `Some("")` if it was given without one.
-    pub fn get(&self, name: &str) -> Option<&str> {
-        #[cfg(test)]
-        asked::note(&self.keyword, name);
-        let found = self.parameters.iter().find(|p| p.name == name)?;
-        Some(found.value.as_deref().unwrap_or(""))
-    }
-
-    /// Whether a parameter was given.
-    pub fn has(&self, name: &str) -> bool {
-        self.get(name).is_some()
-    }
-}
+use crate::table;
+use crate::text::{label, squeeze};
 
 /// A deck as cards.
 #[derive(Debug, Clone, Default)]
@@ -282,26 +228,12 @@ impl Source {
 fn continues(begun: &str, line: &str) -> bool {
     let word = line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)));
     let keyword = begun.trim_start_matches('*').split(',').next();
-    let Some(row) = crate::table::row(&squeeze(keyword.unwrap_or_default())) else {
+    let Some(row) = table::row(&squeeze(keyword.unwrap_or_default())) else {
         return word;
     };
     let named = |part: &String| part.contains('=') || row.lists(&squeeze(part));
     let parts = split(line);
     word && parts.iter().filter(|p| !p.trim().is_empty()).all(named)
-}
-
-/// Capitals without blanks.
-pub(crate) fn squeeze(text: &str) -> String {
-    let kept = text.chars().filter(|c| !c.is_whitespace());
-    kept.collect::<String>().to_uppercase()
-}
-
-/// A name of the user's: quotes keep blanks and case.
-pub(crate) fn label(text: &str) -> String {
-    match text.trim().strip_prefix('"') {
-        Some(quoted) => quoted.trim_end_matches('"').to_string(),
-        None => squeeze(text),
-    }
 }
 
 fn parameters(line: &str) -> Vec<Parameter> {
@@ -341,23 +273,4 @@ fn split(line: &str) -> Vec<String> {
         }
     }
     out
-}
-
-/// Which parameters cards have been asked for: the test of the table compares.
-#[cfg(test)]
-pub(crate) mod asked {
-    use std::cell::RefCell;
-    use std::collections::BTreeSet;
-
-    thread_local! {
-        static ASKED: RefCell<BTreeSet<(String, String)>> = const { RefCell::new(BTreeSet::new()) };
-    }
-
-    pub fn note(keyword: &str, parameter: &str) {
-        ASKED.with_borrow_mut(|a| a.insert((keyword.into(), parameter.into())));
-    }
-
-    pub fn all() -> BTreeSet<(String, String)> {
-        ASKED.with_borrow(Clone::clone)
-    }
 }

@@ -1,8 +1,10 @@
 //! Materials and sections.
 
-use super::{Context, Reader};
-use crate::deck::{Elastic, Material, Orientation, Section};
-use crate::source::{Card, Data};
+use super::fields::parameter;
+use super::reader::{Context, Reader};
+use crate::card::{Card, Data};
+use crate::deck::{Elastic, Material, Section};
+use crate::text::clip;
 
 /// Constants of a material by temperature: `count` numbers and a temperature a row, eight numbers a line, whatever is missing at its end.
 fn rows(reader: &mut Reader, card: &Card, count: usize) -> Vec<(f64, Vec<f64>)> {
@@ -58,7 +60,7 @@ impl Reader<'_> {
     }
 
     /// The material that the card belongs to.
-    fn own(&mut self, card: &Card) -> Option<&mut Material> {
+    pub(super) fn own(&mut self, card: &Card) -> Option<&mut Material> {
         if let Context::Material(name) = self.context.clone() {
             return self.deck.materials.get_mut(&name);
         }
@@ -81,7 +83,7 @@ impl Reader<'_> {
             "ORTHO" | "ORTHOTROPIC" => (9, orthotropic),
             "ANISO" | "ANISOTROPIC" => (21, anisotropic),
             other => {
-                let message = format!("*ELASTIC of type {} is not supported", super::clip(other));
+                let message = format!("*ELASTIC of type {} is not supported", clip(other));
                 self.error(
                     card.place,
                     message,
@@ -112,7 +114,7 @@ impl Reader<'_> {
 
     pub(super) fn damping(&mut self, card: &Card) {
         let [alpha, beta] =
-            ["ALPHA", "BETA"].map(|name| super::parameter(self, card, name).unwrap_or(0.0));
+            ["ALPHA", "BETA"].map(|name| parameter(self, card, name).unwrap_or(0.0));
         if let Some(material) = self.own(card) {
             material.damping = Some([alpha, beta]);
         }
@@ -138,90 +140,6 @@ impl Reader<'_> {
             thickness,
             place: card.place,
         });
-    }
-
-    pub(super) fn orientation(&mut self, card: &Card) {
-        let Some(name) = self.required(card, "NAME") else {
-            return;
-        };
-        let uniform = match card.get("SYSTEM").unwrap_or("RECTANGULAR") {
-            "RECTANGULAR" | "" => true,
-            "CYLINDRICAL" => false,
-            other => {
-                self.error(
-                    card.place,
-                    format!("*ORIENTATION: the system {other} is not supported"),
-                    "systems are RECTANGULAR and CYLINDRICAL",
-                );
-                return;
-            }
-        };
-        if card.get("DEFINITION").is_some_and(|d| d != "COORDINATES") {
-            self.error(
-                card.place,
-                "*ORIENTATION: only DEFINITION=COORDINATES is read",
-                "give a point on the axis 1 and one in the plane 1-2",
-            );
-            return;
-        }
-        let Some(data) = self.line(card) else { return };
-        let v: Vec<f64> = (0..9).map(|i| self.number(data, i, 0.0)).collect();
-        let (a, b, c) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]);
-        let less = |x: [f64; 3]| [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
-        // A cylinder is given by two points of its axis.
-        let found = match uniform {
-            true => frame(less(a), less(b)),
-            false => Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-        };
-        let Some(mut axes) = found else {
-            self.error(
-                data.place,
-                "the two points do not span a plane",
-                "give a point on the axis 1 and one in the plane 1-2, beside the axis",
-            );
-            return;
-        };
-        if let Some(more) = card.data.get(2).filter(|d| !d.fields.is_empty()) {
-            self.error(
-                more.place,
-                "*ORIENTATION: this line is not read",
-                "the lines are: two points and the origin; axis and angle of a further rotation",
-            );
-        }
-        if let Some(line) = card.data.get(1) {
-            let about = self.whole(line, 0).unwrap_or(0) as usize;
-            let angle = self.number(line, 1, 0.0).to_radians();
-            if !(1..=3).contains(&about) {
-                self.error(
-                    line.place,
-                    "the axis of the further rotation is 1, 2 or 3",
-                    "write axis, angle in degrees",
-                );
-                return;
-            }
-            let (i, j) = (about % 3, (about + 1) % 3);
-            let (s, c) = angle.sin_cos();
-            let (p, q) = (axes[i], axes[j]);
-            axes[i] = std::array::from_fn(|k| c * p[k] + s * q[k]);
-            axes[j] = std::array::from_fn(|k| c * q[k] - s * p[k]);
-        }
-        let orientation = Orientation {
-            axes,
-            uniform,
-            place: card.place,
-        };
-        if self
-            .deck
-            .orientations
-            .insert(name.clone(), orientation)
-            .is_some()
-        {
-            self.error(
-                card.place,
-                format!("the orientation {name} is given twice"),
-                "give each orientation a name of its own",
-            );
-        }
     }
 }
 
@@ -257,12 +175,4 @@ fn anisotropic(v: &[f64]) -> Elastic {
         c[j][i] = *value;
     }
     Elastic::Full(Box::new(c))
-}
-
-/// Orthonormal axes from a vector along the first and one in the plane of the first two.
-pub(crate) fn frame(a: [f64; 3], b: [f64; 3]) -> Option<[[f64; 3]; 3]> {
-    use stickslip::math::{cross, normalize};
-    let one = normalize(a)?;
-    let three = normalize(cross(one, b))?;
-    Some([one, cross(three, one), three])
 }

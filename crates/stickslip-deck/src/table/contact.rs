@@ -1,6 +1,6 @@
 //! Interactions, contact pairs and ties.
 
-use super::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, read, refused};
+use super::row::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, read, refused};
 
 const EXACT: &str = "hard contact and sticking are exact here, which is what it approximates";
 const HEAT: &str = "temperatures are not computed, and what would change them is refused";

@@ -1,6 +1,6 @@
 //! Materials and sections.
 
-use super::{Data, Row, card, harmless, harmless_card, idle, read, refused};
+use super::row::{Data, Row, card, harmless, harmless_card, idle, read, refused};
 
 const HEAT: &str = "temperatures are not computed, and what would change them is refused";
 const CONSTANT: &str = "constants depend on temperature only";

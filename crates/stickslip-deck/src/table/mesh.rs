@@ -1,6 +1,8 @@
 //! Nodes, elements, sets, surfaces, and what ties nodes together.
 
-use super::{Data, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
+use super::row::{
+    Data, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
+};
 
 const INSTANCE: &str = "write a flat deck, without parts and instances";
 

@@ -1,6 +1,6 @@
 //! What is printed and written.
 
-use super::{Data, Fate, Parameter, Row, card, harmless, harmless_card, read, refused};
+use super::row::{Data, Fate, Parameter, Row, card, harmless, harmless_card, read, refused};
 
 const VIEW: &str = "it only chooses what is written";
 

@@ -1,6 +1,6 @@
 //! Cards that change the answer and are not supported.
 
-use super::{Row, refused_card};
+use super::row::{Row, refused_card};
 
 const TIME: &str = "only *STATIC and *DYNAMIC steps are computed";
 const HEAT: &str = "temperatures are not computed: take the thermal part out, or prescribe what it does as displacements and loads";

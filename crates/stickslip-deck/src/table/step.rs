@@ -1,6 +1,8 @@
 //! Steps, loads and supports.
 
-use super::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
+use super::row::{
+    Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
+};
 
 const FLUID: &str = "it is about fluids, and bodies are solid";
 const SUBMODEL: &str =

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::{Data, Fate, Row, rows};
+use super::row::{Data, Fate, Row};
+use super::rows;
+use crate::card::asked;
 use crate::deck::Deck;
 use crate::finding::{Finding, Severity};
-use crate::source::asked;
 
 /// What stands before the card that is looked at: all that it may refer to.
 const MODEL: &str = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 2., 2., 2.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n\

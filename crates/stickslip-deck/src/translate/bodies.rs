@@ -1,15 +1,14 @@
 //! Connected cells are bodies.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
-use stickslip::io::abaqus::{self, Integration, Space};
+use stickslip::io::abaqus::{self, Space};
 use stickslip::mesh::{Block, CellRef, FacetRef, Mesh};
 
-use super::sets::Sets;
-use super::{Job, materials, toml};
-use crate::deck::{Section, SurfaceParts};
-use crate::source::Place;
+use super::job::Job;
+use super::toml;
+use crate::card::Place;
+use crate::deck::SurfaceParts;
 
 /// A body of the deck.
 #[derive(Debug)]
@@ -24,20 +23,20 @@ pub(super) struct Body {
 
 /// All bodies.
 #[derive(Debug)]
-pub(crate) struct Bodies {
-    pub(super) all: Vec<Body>,
-    pub(super) mesh: Mesh,
-    pub(super) space: Space,
+pub(super) struct Bodies {
+    pub all: Vec<Body>,
+    pub mesh: Mesh,
+    pub space: Space,
     /// Body of a node.
-    pub(super) of_node: BTreeMap<u64, usize>,
+    pub of_node: BTreeMap<u64, usize>,
     /// Cell, and body, of an element.
-    pub(super) of_element: BTreeMap<u64, (CellRef, usize)>,
+    pub of_element: BTreeMap<u64, (CellRef, usize)>,
     /// Face of a cell, and body, of an element that bounds one.
-    pub(super) of_face: BTreeMap<u64, (FacetRef, usize)>,
+    pub of_face: BTreeMap<u64, (FacetRef, usize)>,
     /// Nodes of a `*RIGID BODY` that are part of a body that is elastic: they move as its reference node is prescribed to.
-    pub(super) rigid_nodes: BTreeMap<usize, Vec<u64>>,
+    pub rigid_nodes: BTreeMap<usize, Vec<u64>>,
     /// Section of an element: index into the deck's.
-    pub(super) section: BTreeMap<u64, usize>,
+    pub section: BTreeMap<u64, usize>,
 }
 
 impl Bodies {
@@ -415,155 +414,5 @@ fn rigid(job: &mut Job, bodies: &mut Bodies) {
         for b in owners {
             bodies.all[b].rigid = Some(i);
         }
-    }
-}
-
-fn space_name(space: Space) -> &'static str {
-    match space {
-        Space::Solid => "solid",
-        Space::PlaneStress => "plane-stress",
-        Space::PlaneStrain => "plane-strain",
-        Space::Axisymmetric => "axisymmetric",
-    }
-}
-
-/// How the elements of a body are integrated.
-fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
-    let deck = job.deck;
-    let mut found: Option<(Integration, u64)> = None;
-    for id in &body.elements {
-        let e = &deck.elements[id];
-        let Ok(t) = abaqus::element_type(&e.kind) else {
-            continue;
-        };
-        // Linear triangles and tetrahedra are the same however they are integrated.
-        let simple = matches!(
-            t.kind.name(),
-            "tri3" | "tet4" | "tet10" | "wedge6" | "tri6" | "wedge15"
-        );
-        match found {
-            _ if simple && t.integration == Integration::Full => {}
-            None => found = Some((t.integration, *id)),
-            Some((f, first)) if f != t.integration => {
-                let message = format!(
-                    "{} and {} (element {first}) are mixed in one body: all are taken as fully integrated",
-                    e.kind, deck.elements[&first].kind
-                );
-                job.warn(e.place, message, "use one type of element in a body");
-                return None;
-            }
-            Some(_) => {}
-        }
-    }
-    // C3D6 has two integration points; ours has six unless it is reduced.
-    let wedges = |id: &u64| deck.elements[id].kind.starts_with("C3D6");
-    if found.is_none() && body.elements.iter().any(wedges) {
-        return Some("reduced");
-    }
-    match found.map(|f| f.0) {
-        Some(Integration::Reduced) => Some("reduced"),
-        Some(Integration::Incompatible) => Some("incompatible-modes"),
-        Some(Integration::Full) | None => None,
-    }
-}
-
-pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: &Path) {
-    let deck = job.deck;
-    job.out.line("");
-    job.out.line("[model]");
-    job.out
-        .line(&format!("space = \"{}\"", space_name(bodies.space)));
-    if matches!(bodies.space, Space::PlaneStress | Space::PlaneStrain) {
-        let thick: BTreeMap<u64, &Section> = deck
-            .sections
-            .iter()
-            .map(|s| (s.thickness.unwrap_or(1.0).to_bits(), s))
-            .collect();
-        if thick.len() > 1 {
-            let place = deck.sections.last().map_or(Place::default(), |s| s.place);
-            job.error(
-                place,
-                "sections of different thickness",
-                "all bodies of a plane problem have the same thickness",
-            );
-        }
-        if let Some(t) = deck.sections.iter().find_map(|s| s.thickness) {
-            job.out.line(&format!("thickness = {}", toml::number(t)));
-        }
-    }
-    for body in &bodies.all {
-        let formulation = formulation(job, body);
-        job.table("body", &body.name, body.place);
-        let group = sets.cells(bodies, &body.name, body.elements.iter().copied().collect());
-        let file = toml::text(&mesh_name.to_string_lossy());
-        job.out.line(&format!(
-            "gmsh = {{ file = {file}, group = {} }}",
-            toml::text(&group)
-        ));
-        let mut regions: BTreeMap<String, Vec<u64>> = BTreeMap::new();
-        for e in &body.elements {
-            if let Some(s) = bodies.section.get(e) {
-                regions
-                    .entry(materials::of(deck, &deck.sections[*s]))
-                    .or_default()
-                    .push(*e);
-            }
-        }
-        match regions.len() {
-            1 => {
-                for material in regions.keys() {
-                    job.out
-                        .line(&format!("material = {}", toml::text(material)));
-                }
-            }
-            _ => {
-                for (material, elements) in regions {
-                    let set = sets.cells(bodies, &format!("{}-{material}", body.name), elements);
-                    job.out.line(&format!(
-                        "regions.{} = {}",
-                        toml::key(&set),
-                        toml::text(&material)
-                    ));
-                }
-            }
-        }
-        if let Some(f) = formulation {
-            job.out.line(&format!("formulation = \"{f}\""));
-        }
-        if body.rigid.is_some() {
-            job.out.line("rigid = true");
-        }
-        damping(job, bodies, body);
-    }
-}
-
-fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
-    let deck = job.deck;
-    let of = |e: &u64| {
-        let s = &deck.sections[*bodies.section.get(e)?];
-        Some((
-            deck.materials.get(&s.material)?.damping.unwrap_or_default(),
-            s.place,
-        ))
-    };
-    let mut all = body.elements.iter().filter_map(of);
-    let Some((first, place)) = all.next() else {
-        return;
-    };
-    if all.any(|(d, _)| d != first) {
-        job.error(
-            place,
-            format!(
-                "the materials of the body {} have different damping",
-                body.name
-            ),
-            "Rayleigh damping is that of a whole body",
-        );
-    } else if first != [0.0; 2] {
-        job.out.line(&format!(
-            "rayleigh = {{ mass = {}, stiffness = {} }}",
-            toml::number(first[0]),
-            toml::number(first[1])
-        ));
     }
 }

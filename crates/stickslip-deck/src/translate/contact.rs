@@ -3,12 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::bodies::Bodies;
+use super::job::Job;
+use super::measure::measure;
 use super::sets::Sets;
-use super::{Job, toml};
+use super::toml;
+use crate::card::Place;
 use crate::deck::{
     Action, Adjust, Behavior, Deck, Friction, Interaction, Pair, Print, SurfaceParts, Target,
 };
-use crate::source::Place;
 
 /// `(body, name of the set)` of each part of a surface.
 fn parts(
@@ -155,7 +157,7 @@ fn face_size(job: &Job, bodies: &Bodies, surface: &str) -> f64 {
         .into_values()
         .flatten()
         .collect();
-    let (_, area) = crate::lint::measure(bodies, &facets);
+    let (_, area) = measure(bodies, &facets);
     let mean = area / facets.len().max(1) as f64;
     if bodies.dim() == 3 { mean.sqrt() } else { mean }
 }

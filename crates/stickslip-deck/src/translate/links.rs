@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::bodies::Bodies;
+use super::job::Job;
 use super::sets::Sets;
-use super::{Job, supports, toml};
-use crate::source::Place;
+use super::{supports, toml};
+use crate::axes;
+use crate::card::Place;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let ground = ground(job, bodies);
@@ -40,7 +42,7 @@ fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
         .deck
         .transforms
         .get(&node)
-        .and_then(|t| supports::axes(t, job.deck.nodes[&node]));
+        .and_then(|t| axes::at_node(t, job.deck.nodes[&node]));
     match local {
         Some(axes) => axes[component].map(|c| c * factor),
         None => std::array::from_fn(|i| if i == component { factor } else { 0.0 }),

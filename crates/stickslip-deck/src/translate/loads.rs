@@ -4,149 +4,20 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::mesh::FacetRef;
 
+use super::acting::{Given, When, collect, label, open, two_courses};
 use super::bodies::Bodies;
+use super::job::Job;
 use super::sets::Sets;
-use super::{Job, steps, supports, toml};
-use crate::deck::{Action, Distributed, SurfaceParts, Target};
-use crate::source::Place;
-
-/// A value that acts in some of the steps.
-#[derive(Debug, Clone)]
-pub(super) struct Acting<T> {
-    pub what: T,
-    amplitude: Option<String>,
-    pub place: Place,
-    pub label: String,
-    steps: Vec<bool>,
-    /// Steps to which it comes from the one before, without being given anew.
-    kept: Vec<bool>,
-    /// Steps in which a value with an amplitude takes its place: it ends at once, instead of falling over the step.
-    ends: Vec<bool>,
-}
-
-impl<T> Acting<T> {
-    /// When it acts.
-    pub fn when(&self) -> When {
-        When {
-            amplitude: self.amplitude.clone(),
-            steps: self.steps.clone(),
-            kept: self.kept.clone(),
-            ends: self.ends.clone(),
-        }
-    }
-}
-
-/// When a load acts.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct When {
-    amplitude: Option<String>,
-    steps: Vec<bool>,
-    kept: Vec<bool>,
-    ends: Vec<bool>,
-}
-
-/// A value as a step gives it, or the step before.
-#[derive(Debug, Clone)]
-pub(super) struct Given<T> {
-    pub what: T,
-    pub amplitude: Option<String>,
-    pub place: Place,
-    /// What it was given for.
-    pub label: String,
-    /// The step that gives it.
-    pub step: usize,
-}
-
-/// Values by step to values with their steps, equal ones together.
-pub(super) fn collect<K: Ord + Clone, T: Clone + PartialEq>(
-    by_step: &[BTreeMap<K, Given<T>>],
-) -> Vec<(K, Acting<T>)> {
-    let mut out: Vec<(K, Acting<T>)> = Vec::new();
-    let mut at: BTreeMap<K, Vec<usize>> = BTreeMap::new();
-    for (i, state) in by_step.iter().enumerate() {
-        for (key, given) in state {
-            let known = at.entry(key.clone()).or_default();
-            let alike = |a: &Acting<T>| a.what == given.what && a.amplitude == given.amplitude;
-            let same = known.iter().copied().find(|&j| alike(&out[j].1));
-            let index = same.unwrap_or_else(|| {
-                known.push(out.len());
-                let acting = Acting {
-                    what: given.what.clone(),
-                    amplitude: given.amplitude.clone(),
-                    place: given.place,
-                    label: given.label.clone(),
-                    steps: vec![false; by_step.len()],
-                    kept: vec![false; by_step.len()],
-                    ends: vec![false; by_step.len()],
-                };
-                out.push((key.clone(), acting));
-                out.len() - 1
-            });
-            out[index].1.steps[i] = true;
-            // Without an amplitude it is the same, given anew or not.
-            out[index].1.kept[i] = given.step < i && given.amplitude.is_some();
-        }
-    }
-    for (key, acting) in &mut out {
-        for (i, state) in by_step.iter().enumerate().skip(1) {
-            let replaced = state.get(key).is_some_and(|v| v.amplitude.is_some());
-            acting.ends[i] = replaced && acting.steps[i - 1] && !acting.steps[i];
-        }
-    }
-    out
-}
+use super::toml;
+use crate::axes;
+use crate::card::Place;
+use crate::deck::{Action, Distributed, SurfaceParts};
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     forces(job, bodies, sets);
     pressures(job, bodies, sets);
     super::volumes::write(job, bodies, sets);
     initial(job, bodies, sets);
-}
-
-/// Loads that are given several times in a step add up. CalculiX has one amplitude for the sum.
-pub(super) fn two_courses(job: &mut Job, place: Place) {
-    job.error(
-        place,
-        "what is loaded here is loaded in the same step with another amplitude",
-        "loads that add up have one amplitude: write one line with one amplitude for the sum",
-    );
-}
-
-/// Opens the table of a load and writes what all have in common.
-pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
-    let name = job.fresh("load", &toml::name(name));
-    // From the first step on, where steps change without amplitudes as they usually do not.
-    let unusual = when.amplitude.is_none() && steps::unusual(job.deck);
-    let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {
-        (None, false) => None,
-        (Some(a), false) => Some(steps::amplitude(job, a, (&when.steps, &when.kept), &name)),
-        (a, true) => Some(steps::ending(
-            job,
-            a.as_ref(),
-            (&when.steps, &when.kept, &when.ends),
-            &name,
-        )),
-    };
-    let steps = when.steps.iter().zip(&when.ends).map(|(a, b)| *a || *b);
-    let mut steps: Vec<bool> = steps.collect();
-    if unusual {
-        let first = steps.iter().position(|on| *on).unwrap_or(0);
-        steps[first..].fill(true);
-    }
-    job.table("load", &name, place);
-    job.out.line(&format!("set = {}", toml::text(set)));
-    if let Some(factor) = factor {
-        job.out
-            .line(&format!("amplitude = {}", toml::text(&factor)));
-    }
-    job.active.push(("loads", name, steps));
-}
-
-fn label(target: &Target) -> String {
-    match target {
-        Target::Set(name) => name.clone(),
-        Target::One(n) => format!("node-{n}"),
-    }
 }
 
 fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
@@ -212,7 +83,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             .deck
             .transforms
             .get(&node)
-            .and_then(|t| supports::axes(t, job.deck.nodes[&node]))
+            .and_then(|t| axes::at_node(t, job.deck.nodes[&node]))
         {
             Some(axes) => std::array::from_fn(|i| (0..3).map(|k| axes[k][i] * force[k]).sum()),
             None => force,

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::bodies::Bodies;
-use super::{Job, toml};
+use super::job::Job;
+use super::toml;
 use crate::deck::{Deck, Elastic, Material, Orientation, Section};
 
 /// The name of the material of a section: with an orientation it is one of its own, unless the material has no directions.

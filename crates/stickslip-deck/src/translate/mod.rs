@@ -1,141 +1,37 @@
 //! A [`Deck`] to a problem file and its mesh.
 
+mod acting;
 mod bodies;
+mod body_tables;
 mod contact;
+mod courses;
+mod job;
 mod links;
+mod lint;
 mod loads;
 mod materials;
+mod measure;
 mod sets;
+mod spans;
 mod steps;
 mod supports;
 mod toml;
+mod translation;
 mod volumes;
 
-pub(crate) use bodies::Bodies;
+pub use translation::Translation;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use stickslip::error::{Diagnostic, Error, ProblemError};
 use stickslip::mesh::Mesh;
-use stickslip::problem::{Document, Meshes};
 
-use crate::deck::{Deck, Print};
-use crate::finding::{DeckError, Finding, Severity};
-use crate::source::Place;
+use crate::axes;
+use crate::deck::{Behavior, Deck, Print, SurfaceParts};
+use crate::finding::DeckError;
+use job::Job;
 use sets::Sets;
-use toml::Writer;
-
-/// A deck as a stickslip problem.
-#[derive(Debug, Clone)]
-pub struct Translation {
-    /// The problem file.
-    pub toml: String,
-    /// The name under which it asks for its mesh: `job.msh`.
-    pub mesh_name: PathBuf,
-    /// The mesh of all bodies, with the numbers and sets of the deck.
-    pub mesh: Arc<Mesh>,
-    /// Warnings and notes, of reading and translation.
-    pub notes: Vec<Finding>,
-    /// What is most likely not meant, or would be refused by CalculiX; `stickslip check` shows it.
-    pub lint: Vec<Finding>,
-    /// What is printed, by step.
-    pub prints: Vec<Vec<Print>>,
-    /// Nodes of the printed sets, in the order of the deck.
-    pub node_sets: BTreeMap<String, Vec<u64>>,
-    /// Elements of the printed sets.
-    pub element_sets: BTreeMap<String, Vec<u64>>,
-    /// Interfaces by slave and master, in the order of the deck: `(name, slave, master)`.
-    pub pairs: Vec<(String, String, String)>,
-    /// Times of `*TIME POINTS` in the time of the analysis.
-    pub(crate) times: BTreeMap<String, Vec<f64>>,
-    /// Local axes (rows) of nodes with a `*TRANSFORM`, and of elements with an `*ORIENTATION`.
-    pub(crate) node_axes: BTreeMap<u64, [[f64; 3]; 3]>,
-    pub(crate) element_axes: BTreeMap<u64, [[f64; 3]; 3]>,
-    /// Where elements are, for messages.
-    elements: BTreeMap<u64, Place>,
-    /// The deck, for messages.
-    path: PathBuf,
-    /// Where tables of the problem come from.
-    places: Vec<(String, Place)>,
-    files: Vec<PathBuf>,
-}
-
-impl Translation {
-    /// The problem file as a document, with changes `path=value`.
-    pub fn document(&self, overrides: Vec<String>) -> Document {
-        Document::new(self.toml.clone(), Some(&self.path)).with_overrides(overrides)
-    }
-
-    /// The files that the deck was read from.
-    pub fn files(&self) -> &[PathBuf] {
-        &self.files
-    }
-
-    /// The mesh under its name.
-    pub fn meshes(&self) -> Meshes {
-        Meshes::from([(self.mesh_name.clone(), self.mesh.clone())])
-    }
-
-    /// Findings about the translated problem as findings about the deck.
-    pub fn located(&self, error: Error) -> Result<DeckError, Error> {
-        match error {
-            Error::Problem(ProblemError { findings, .. }) => Ok(DeckError {
-                findings: findings.iter().map(|d| self.locate(d)).collect(),
-            }),
-            Error::Mesh(e) => {
-                // Messages about meshes name cells by their numbers.
-                let number = |text: &str| -> Option<u64> {
-                    let after = text.split("cell ").nth(1)?;
-                    after.split(' ').next()?.parse().ok()
-                };
-                let place = number(&e.message).and_then(|n| self.elements.get(&n));
-                let place = place.copied().unwrap_or_default();
-                let file = self.files.get(place.file).filter(|_| place.line > 0);
-                Ok(DeckError {
-                    findings: vec![Finding {
-                        severity: Severity::Error,
-                        file: file.unwrap_or(&self.path).clone(),
-                        line: place.line,
-                        message: e.message,
-                        help: e.help,
-                    }],
-                })
-            }
-            other => Err(other),
-        }
-    }
-
-    fn locate(&self, finding: &Diagnostic) -> Finding {
-        // The longest table the key lies in.
-        let within = |key: &str| {
-            finding.key == key
-                || finding
-                    .key
-                    .strip_prefix(key)
-                    .is_some_and(|rest| rest.starts_with('.'))
-        };
-        let place = self
-            .places
-            .iter()
-            .filter(|(key, _)| within(key))
-            .max_by_key(|(key, _)| key.len());
-        let place = place.map(|(_, place)| *place).unwrap_or_default();
-        let file = self.files.get(place.file).filter(|_| place.line > 0);
-        let key = match finding.key.is_empty() {
-            true => String::new(),
-            false => format!("{}: ", finding.key),
-        };
-        Finding {
-            severity: Severity::Error,
-            file: file.unwrap_or(&self.path).clone(),
-            line: place.line,
-            message: format!("{key}{}", finding.message),
-            help: finding.help.clone(),
-        }
-    }
-}
 
 impl Deck {
     /// The problem that the deck describes. `path` is the deck: its name gives that of the mesh.
@@ -155,7 +51,7 @@ impl Deck {
             job.out
                 .line(&format!("title = {}", toml::text(title.trim())));
         }
-        bodies::write(&mut job, &bodies, &mut sets, &mesh_name);
+        body_tables::write(&mut job, &bodies, &mut sets, &mesh_name);
         materials::write(&mut job, &bodies);
         contact::write(&mut job, &bodies, &mut sets);
         supports::write(&mut job, &bodies, &mut sets);
@@ -212,7 +108,7 @@ impl Deck {
         };
         let node_axes = self.transforms.iter().filter_map(|(n, t)| {
             let x = *self.nodes.get(n)?;
-            Some((*n, supports::axes(t, x)?))
+            Some((*n, axes::at_node(t, x)?))
         });
         let element_axes = bodies.section.iter().filter_map(|(e, s)| {
             let o = self.sections[*s].orientation.as_ref()?;
@@ -228,7 +124,7 @@ impl Deck {
         }
         Ok(Translation {
             elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
-            lint: crate::lint::findings(self, &bodies),
+            lint: lint::findings(self, &bodies),
             times,
             node_axes: node_axes.collect(),
             element_axes: element_axes.collect(),
@@ -266,8 +162,7 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
     }
     for (name, elements) in &deck.element_sets {
         // What bounds cells in a file of Gmsh is what its user has named.
-        let faces =
-            crate::deck::SurfaceParts::Faces(elements.iter().map(|e| (*e, Some(0))).collect());
+        let faces = SurfaceParts::Faces(elements.iter().map(|e| (*e, Some(0))).collect());
         let by = bodies.faces(&faces);
         if by.values().any(|list| !list.is_empty()) {
             sets.keep_facets(&toml::name(name), &by);
@@ -275,9 +170,7 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
     }
     for (name, surface) in &deck.surfaces {
         match &surface.parts {
-            crate::deck::SurfaceParts::Nodes(nodes) => {
-                sets.keep_points(&bodies, &toml::name(name), nodes)
-            }
+            SurfaceParts::Nodes(nodes) => sets.keep_points(&bodies, &toml::name(name), nodes),
             faces => sets.keep_facets(&toml::name(name), &bodies.faces(faces)),
         }
     }
@@ -296,112 +189,5 @@ fn deck_ties_by_springs(deck: &Deck) -> bool {
         .pairs
         .iter()
         .filter_map(|p| deck.interactions.get(&p.interaction));
-    used.any(|i| matches!(i.behavior, Some(crate::deck::Behavior::Tied(Some(_)))))
-}
-
-/// A translation under way.
-struct Job<'a> {
-    deck: &'a Deck,
-    out: Writer,
-    errors: Vec<Finding>,
-    notes: Vec<Finding>,
-    places: Vec<(String, Place)>,
-    /// The tables there are, for their names.
-    tables: BTreeSet<String>,
-    pairs: Vec<(String, String, String)>,
-    /// Names of tables that act in some steps only: kind (`supports`, `loads`, ...), name, by step.
-    active: Vec<(&'static str, String, Vec<bool>)>,
-    /// Changes of laws: step, interface, key and value.
-    changes: Vec<(usize, String, String)>,
-    /// Rigid bodies whose reference node is prescribed.
-    led: BTreeSet<usize>,
-    /// Starts and lengths of the steps.
-    spans: Vec<[f64; 2]>,
-}
-
-impl<'a> Job<'a> {
-    fn new(deck: &'a Deck) -> Self {
-        let mut start = 0.0;
-        let spans = deck.steps.iter().map(|s| {
-            let length = steps::duration(s);
-            start += length;
-            [start - length, length]
-        });
-        Job {
-            deck,
-            out: Writer::default(),
-            errors: Vec::new(),
-            notes: Vec::new(),
-            places: Vec::new(),
-            tables: BTreeSet::new(),
-            pairs: Vec::new(),
-            active: Vec::new(),
-            changes: Vec::new(),
-            led: BTreeSet::new(),
-            spans: spans.collect(),
-        }
-    }
-
-    fn failed(mut self) -> DeckError {
-        let files = &self.deck.files;
-        self.errors
-            .sort_by_key(|f| (files.iter().position(|p| *p == f.file), f.line));
-        DeckError {
-            findings: self.errors,
-        }
-    }
-
-    fn finding(&self, severity: Severity, place: Place, message: String, help: &str) -> Finding {
-        Finding {
-            severity,
-            file: self.deck.files.get(place.file).cloned().unwrap_or_default(),
-            line: place.line,
-            message,
-            help: (!help.is_empty()).then(|| help.to_string()),
-        }
-    }
-
-    fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
-        let finding = self.finding(Severity::Error, place, message.into(), help);
-        self.errors.push(finding);
-    }
-
-    fn note(&mut self, place: Place, message: impl Into<String>) {
-        let finding = self.finding(Severity::Note, place, message.into(), "");
-        self.notes.push(finding);
-    }
-
-    fn warn(&mut self, place: Place, message: impl Into<String>, help: &str) {
-        let finding = self.finding(Severity::Warning, place, message.into(), help);
-        self.notes.push(finding);
-    }
-
-    /// Opens a table of the problem that comes from a place of the deck.
-    fn table(&mut self, kind: &str, name: &str, place: Place) {
-        let header = format!("{kind}.{}", toml::key(name));
-        self.out.line("");
-        self.out.line(&format!("[{header}]"));
-        self.tables.insert(format!("{kind}.{name}"));
-        self.places.push((format!("{kind}.{name}"), place));
-    }
-
-    /// The nodes of a card.
-    fn nodes(&self, target: &crate::deck::Target) -> Vec<u64> {
-        match target {
-            crate::deck::Target::One(n) => vec![*n],
-            crate::deck::Target::Set(name) => {
-                self.deck.node_sets.get(name).cloned().unwrap_or_default()
-            }
-        }
-    }
-
-    /// A name that no other table of the kind has yet.
-    fn fresh(&self, kind: &str, wanted: &str) -> String {
-        let taken = |name: &str| self.tables.contains(&format!("{kind}.{name}"));
-        if !taken(wanted) {
-            return wanted.to_string();
-        }
-        let more = (2..).map(|i| format!("{wanted}-{i}"));
-        more.into_iter().find(|n| !taken(n)).unwrap_or_default()
-    }
+    used.any(|i| matches!(i.behavior, Some(Behavior::Tied(Some(_)))))
 }

@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::bodies::Bodies;
+use super::job::Job;
 use super::sets::Sets;
-use super::{Job, steps, toml};
+use super::{courses, toml};
+use crate::axes;
+use crate::card::Place;
 use crate::deck::{Action, Boundary, Target, Transform};
-use crate::source::Place;
 
 /// What is prescribed of one displacement in one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -224,8 +226,8 @@ fn course(
     user: &str,
 ) -> Option<String> {
     match amplitude {
-        Some(a) => Some(steps::amplitude(job, a, (active, kept), user)),
-        None => steps::jump(job, active, (value, place), user),
+        Some(a) => Some(courses::amplitude(job, a, (active, kept), user)),
+        None => courses::jump(job, active, (value, place), user),
     }
 }
 
@@ -306,18 +308,6 @@ fn reference(
     job.active.push(("supports", name, when.0.clone()));
 }
 
-/// The local axes of a node in a `*TRANSFORM`.
-pub(super) fn axes(t: &Transform, x: [f64; 3]) -> Option<[[f64; 3]; 3]> {
-    use stickslip::math::{add_scaled, cross, dot, normalize, sub};
-    if !t.cylindrical {
-        return crate::parse_frame(t.a, t.b);
-    }
-    let axial = normalize(sub(t.b, t.a))?;
-    let arm = sub(x, t.a);
-    let radial = normalize(add_scaled(arm, -dot(arm, axial), axial))?;
-    Some([radial, cross(axial, radial), axial])
-}
-
 /// A node with local axes: an equation along each that is prescribed.
 fn local(
     job: &mut Job,
@@ -329,7 +319,7 @@ fn local(
     let Some(first) = values.iter().flatten().next().cloned() else {
         return;
     };
-    let Some(axes) = axes(&transform, job.deck.nodes[&node]) else {
+    let Some(axes) = axes::at_node(&transform, job.deck.nodes[&node]) else {
         job.error(
             first.place,
             format!("the *TRANSFORM of node {node} has no axes there"),

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::math::{add_scaled, dot, normalize, scale, sub};
 
+use super::acting::{Acting, Given, When, collect, open, two_courses};
 use super::bodies::Bodies;
-use super::loads::{Acting, Given, When, collect, open, two_courses};
+use super::job::Job;
 use super::sets::Sets;
-use super::{Job, toml};
+use super::toml;
 use crate::deck::{Action, Distributed};
 
 /// An acceleration of a set of elements.

@@ -2,79 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
+use stickslip::math::{Vec3, dot, norm};
 use stickslip::mesh::FacetRef;
 
+use super::bodies::Bodies;
+use super::measure::measure;
+use crate::card::Place;
 use crate::deck::{Deck, Interaction, Pair, SurfaceParts};
 use crate::finding::{Finding, Severity};
-use crate::source::{Card, Place, Source, label};
-use crate::translate::Bodies;
-
-/// So many names are listed in one finding.
-const LISTED: usize = 12;
-
-/// Names that are defined and never mentioned again, from the cards alone.
-pub(crate) fn unused(source: &Source) -> Vec<(Place, String)> {
-    const KINDS: &[(&str, &[&str], &str)] = &[
-        ("sets of nodes", &["NSET"], "NSET"),
-        ("sets of elements", &["ELSET"], "ELSET"),
-        ("surfaces", &["SURFACE"], "NAME"),
-        ("materials", &["MATERIAL"], "NAME"),
-        ("orientations", &["ORIENTATION"], "NAME"),
-        ("amplitudes", &["AMPLITUDE"], "NAME"),
-        ("surface interactions", &["SURFACEINTERACTION"], "NAME"),
-        ("time points", &["TIMEPOINTS"], "NAME"),
-    ];
-    let defines = |card: &Card, parameter: &str| {
-        matches!(
-            (card.keyword.as_str(), parameter),
-            ("NSET" | "NODE", "NSET") | ("ELSET" | "ELEMENT", "ELSET") | (_, "NAME")
-        )
-    };
-    let mut mentioned: BTreeSet<String> = BTreeSet::new();
-    for card in &source.cards {
-        let values = card.parameters.iter().filter(|p| !defines(card, &p.name));
-        mentioned.extend(values.filter_map(|p| p.value.clone()));
-        if matches!(card.keyword.as_str(), "NODE" | "ELEMENT" | "HEADING") {
-            continue;
-        }
-        let fields = card.data.iter().flat_map(|d| &d.fields);
-        let names =
-            fields.filter(|f| f.starts_with(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))));
-        mentioned.extend(names.map(|f| label(f)));
-    }
-    let mut out = Vec::new();
-    for (what, keywords, parameter) in KINDS {
-        let mut names: Vec<(Place, &str)> = Vec::new();
-        for card in source
-            .cards
-            .iter()
-            .filter(|c| keywords.contains(&c.keyword.as_str()))
-        {
-            if let Some(name) = card.get(parameter)
-                && !mentioned.contains(name)
-                && names.iter().all(|(_, n)| *n != name)
-            {
-                names.push((card.place, name));
-            }
-        }
-        let Some((place, _)) = names.first() else {
-            continue;
-        };
-        let mut list: Vec<&str> = names.iter().take(LISTED).map(|n| n.1).collect();
-        if names.len() > LISTED {
-            list.push("...");
-        }
-        out.push((
-            *place,
-            format!("{what} that nothing uses: {}", list.join(", ")),
-        ));
-    }
-    out
-}
 
 /// What only the translated deck tells.
-pub(crate) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
+pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
     let mut out = Vec::new();
     let mut say = |severity, place: Place, message: String, help: &str| {
         out.push(Finding {
@@ -158,29 +96,6 @@ fn of_interaction(deck: &Deck, name: &str, i: &Interaction) -> Vec<(String, &'st
         _ => {}
     }
     out
-}
-
-/// The sum of area vectors, the area, and the number of facets of a surface.
-pub(crate) fn measure(bodies: &Bodies, facets: &[FacetRef]) -> (Vec3, f64) {
-    let mesh = bodies.mesh();
-    let (mut sum, mut total) = ([0.0; 3], 0.0);
-    for facet in facets {
-        let (kind, points) = mesh.facet_points(*facet);
-        let x: Vec<Vec3> = points.iter().map(|p| mesh.points[*p]).collect();
-        let corners = kind.corner_count().min(x.len());
-        let area = match corners {
-            2 => {
-                let d = sub(x[1], x[0]);
-                [d[1], -d[0], 0.0]
-            }
-            _ => (1..corners.saturating_sub(1)).fold([0.0; 3], |s, i| {
-                add(s, scale(0.5, cross(sub(x[i], x[0]), sub(x[i + 1], x[0]))))
-            }),
-        };
-        sum = add(sum, area);
-        total += norm(area);
-    }
-    (sum, total)
 }
 
 fn of_pair(deck: &Deck, bodies: &Bodies, pair: &Pair) -> Vec<(String, &'static str)> {

@@ -1,0 +1,182 @@
+//! Elements: cells, springs, masses, and lines and faces that bound cells.
+
+use stickslip::io::abaqus;
+
+use super::reader::Reader;
+use super::sets::add;
+use crate::card::{Card, Data, Place};
+use crate::deck::Element;
+use crate::text::whole;
+
+/// Numbers of nodes that elements have.
+const NODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
+
+/// Nodes of element types that are not cells.
+fn other_nodes(kind: &str) -> Option<usize> {
+    match kind {
+        "SPRINGA" | "SPRING2" => Some(2),
+        "SPRING1" | "MASS" => Some(1),
+        _ => None,
+    }
+}
+
+/// Nodes of lines and faces, which generators of meshes write beside the cells that they bound.
+fn bounding(kind: &str) -> Option<usize> {
+    let (start, rest) = ["T2D", "T3D", "STRI", "S", "M3D", "B3", "B2"]
+        .into_iter()
+        .find_map(|start| Some((start, kind.strip_prefix(start)?)))?;
+    let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+    match (start, &rest[..digits]) {
+        ("T2D" | "T3D", n @ ("2" | "3")) => n.parse().ok(),
+        ("STRI", "3") => Some(3),
+        ("STRI", "65") => Some(6),
+        ("S" | "M3D", n @ ("3" | "4" | "6" | "8")) => n.parse().ok(),
+        ("B2" | "B3", "1") => Some(2),
+        ("B2" | "B3", "2") => Some(3),
+        _ => None,
+    }
+}
+
+impl Reader<'_> {
+    /// Lines and faces without a section bound the cells beside them, and are there for their sets: Gmsh writes them. Without such cells,
+    /// or with a section, they are meant to be computed.
+    pub(super) fn judge_bounding(&mut self) {
+        for (kind, place) in std::mem::take(&mut self.bounding) {
+            let flat = kind.starts_with("T") || kind.starts_with("B");
+            let cells = self.deck.elements.values().any(|e| {
+                abaqus::element_type(&e.kind).is_ok_and(|t| flat || t.space == abaqus::Space::Solid)
+            });
+            let deck = &self.deck;
+            let sectioned = deck.sections.iter().any(|s| {
+                let mut all = deck.element_sets.get(&s.set).into_iter().flatten();
+                all.any(|e| deck.elements.get(e).is_some_and(|e| e.kind == kind))
+            });
+            if cells && !sectioned {
+                self.note(place, format!("elements of type {kind} have no section: they are taken as lines or faces of the cells, for their sets"));
+            } else if let Err(why) = abaqus::element_type(&kind) {
+                let message = format!("elements of type {kind} ({}) are not supported", why.what);
+                self.error(place, message, why.help);
+            }
+        }
+    }
+
+    pub(super) fn elements(&mut self, card: &Card) {
+        let Some(kind) = self.required(card, "TYPE") else {
+            return;
+        };
+        let count = match (other_nodes(&kind), abaqus::element_type(&kind)) {
+            (Some(n), _) => n,
+            (None, Ok(t)) => {
+                for note in &t.notes {
+                    self.note(card.place, format!("{kind}: {note}"));
+                }
+                t.kind.node_count()
+            }
+            (None, Err(_)) if bounding(&kind).is_some() => {
+                if !self.bounding.iter().any(|(k, _)| *k == kind) {
+                    self.bounding.push((kind.clone(), card.place));
+                }
+                bounding(&kind).unwrap_or_default()
+            }
+            (None, Err(why)) => {
+                let message = format!("elements of type {kind} ({}) are not supported", why.what);
+                self.error(card.place, message, why.help);
+                let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
+                self.skipped.extend(ids);
+                self.skipped_sets
+                    .extend(card.get("ELSET").map(str::to_string));
+                return;
+            }
+        };
+        let mut set = Vec::new();
+        let mut forgiven = false;
+        let mut lines = card.data.iter();
+        while let Some(data) = lines.next() {
+            let Some(id) = self.whole(data, 0) else {
+                continue;
+            };
+            let mut nodes = Vec::with_capacity(count);
+            self.members(data, 1, &mut nodes);
+            // An element goes on until it has its nodes.
+            while nodes.len() < count {
+                let Some(more) = lines.next() else { break };
+                self.members(more, 0, &mut nodes);
+            }
+            // CalculiX reads as many numbers as the type has nodes. As many as another type has say that the type is another.
+            if nodes.len() > count && !NODES.contains(&nodes.len()) {
+                if !forgiven {
+                    let message = format!(
+                        "{kind} has {count} nodes: further numbers in the lines of its elements are left out"
+                    );
+                    self.note(data.place, message);
+                }
+                forgiven = true;
+                nodes.truncate(count);
+            }
+            if nodes.len() != count {
+                let message = format!("element {id} has {} nodes; {kind} has {count}", nodes.len());
+                self.error(
+                    data.place,
+                    message,
+                    "an element goes on in the next line until it has all its nodes",
+                );
+                continue;
+            }
+            let missing = nodes
+                .iter()
+                .find(|n| !self.deck.nodes.contains_key(n))
+                .copied();
+            if let Some(n) = missing {
+                self.error(
+                    data.place,
+                    format!("element {id} uses node {n}, which does not exist"),
+                    "*NODE must stand before *ELEMENT",
+                );
+                continue;
+            }
+            let element = Element {
+                kind: kind.clone(),
+                nodes,
+                place: data.place,
+            };
+            if self.deck.elements.insert(id, element).is_some() {
+                self.error(
+                    data.place,
+                    format!("element {id} is given twice"),
+                    "numbers of elements are unique in the whole deck",
+                );
+            }
+            set.push(id);
+        }
+        if let Some(name) = card.get("ELSET") {
+            add(
+                self.deck.element_sets.entry(name.to_string()).or_default(),
+                set,
+            );
+        }
+    }
+
+    pub(super) fn members(&mut self, data: &Data, from: usize, out: &mut Vec<u64>) {
+        for i in from..data.fields.len() {
+            if let Some(n) = self.whole(data, i) {
+                out.push(n);
+            }
+        }
+    }
+
+    /// Whether an element has the face; it is an error if not.
+    pub(super) fn has_face(&mut self, element: u64, face: usize, place: Place) -> bool {
+        let kind = &self.deck.elements[&element].kind;
+        let known = bounding(kind).is_some()
+            || abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());
+        if !known {
+            let message = format!("element {element} ({kind}) has no face {face}");
+            self.error(
+                place,
+                message,
+                "faces are numbered as in the manual of CalculiX, from 1",
+            );
+        }
+        known
+    }
+}

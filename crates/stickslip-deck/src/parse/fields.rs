@@ -1,0 +1,178 @@
+//! What the parameters and fields of a card say, or the finding that they do not say it.
+
+use super::reader::Reader;
+use crate::card::{Card, Data, Place};
+use crate::deck::Target;
+use crate::text::{clip, label, number, squeeze, whole};
+
+impl Reader<'_> {
+    /// A parameter that must have a value.
+    pub(super) fn required(&mut self, card: &Card, name: &str) -> Option<String> {
+        match card.get(name) {
+            Some(value) if !value.is_empty() => Some(value.to_string()),
+            _ => {
+                let message = format!("{} needs the parameter {name}", card.written);
+                self.error(
+                    card.place,
+                    message,
+                    &format!("write {}, {name}=...", card.written),
+                );
+                None
+            }
+        }
+    }
+
+    /// A field as a number, the default where it is empty or missing.
+    pub(super) fn number(&mut self, data: &Data, field: usize, default: f64) -> f64 {
+        let text = data.fields.get(field).map_or("", String::as_str);
+        if text.is_empty() {
+            return default;
+        }
+        match number(text) {
+            Some(value) => value,
+            None => {
+                let message = format!(
+                    "field {} is `{}`: a finite number is expected",
+                    field + 1,
+                    clip(text)
+                );
+                self.error(
+                    data.place,
+                    message,
+                    "write numbers as 1.5, 2.E-3 or 1D4, separated by commas",
+                );
+                default
+            }
+        }
+    }
+
+    /// A field as a whole number above zero.
+    pub(super) fn whole(&mut self, data: &Data, field: usize) -> Option<u64> {
+        let text = data.fields.get(field).map_or("", String::as_str);
+        let value = whole(text);
+        if value.is_none() {
+            let message = format!(
+                "field {} is `{}`: a whole number above 0 is expected",
+                field + 1,
+                clip(text)
+            );
+            self.error(
+                data.place,
+                message,
+                "numbers of nodes and elements and directions count from 1",
+            );
+        }
+        value
+    }
+
+    /// The first data line.
+    pub(super) fn line<'c>(&mut self, card: &'c Card) -> Option<&'c Data> {
+        if card.data.is_empty() {
+            self.error(
+                card.place,
+                format!("{} has no data line", card.written),
+                "the numbers stand in the line after the keyword",
+            );
+        }
+        card.data.first()
+    }
+
+    /// A node or a set of nodes.
+    pub(super) fn target(&mut self, data: &Data, field: usize) -> Option<Target> {
+        let text = data.fields.get(field).map_or("", String::as_str);
+        if text.is_empty() {
+            self.error(
+                data.place,
+                "a node or a set of nodes is expected in the first field",
+                "write node or set, direction, value",
+            );
+            return None;
+        }
+        Some(match whole(text) {
+            Some(node) => Target::One(node),
+            None => Target::Set(label(text)),
+        })
+    }
+
+    /// A direction 1 to `most` as 0 to `most - 1`.
+    pub(super) fn direction(&mut self, data: &Data, field: usize, most: u64) -> Option<usize> {
+        let d = self.whole(data, field)?;
+        if d > most {
+            let help = match most {
+                3 => "directions are 1 (x), 2 (y) and 3 (z)",
+                _ => {
+                    "directions are 1 (x), 2 (y), 3 (z) and, at the reference node of a rigid body, 4 to 6"
+                }
+            };
+            self.error(data.place, format!("there is no direction {d} here"), help);
+            return None;
+        }
+        Some(d as usize - 1)
+    }
+
+    /// Elements by number or set.
+    pub(super) fn elements_of(&mut self, text: &str, place: Place) -> Vec<u64> {
+        match whole(text) {
+            Some(n) if self.deck.elements.contains_key(&n) => vec![n],
+            Some(n) if self.skipped.contains(&n) => Vec::new(),
+            Some(n) => {
+                self.error(
+                    place,
+                    format!("there is no element {n}"),
+                    "elements must stand before what refers to them",
+                );
+                Vec::new()
+            }
+            None => match self.deck.element_sets.get(&label(text)) {
+                Some(set) => set.clone(),
+                None if self.skipped_sets.contains(&label(text)) => Vec::new(),
+                None => {
+                    let help = listing("sets of elements", self.deck.element_sets.keys());
+                    self.error(
+                        place,
+                        format!("there is no set of elements {}", clip(text)),
+                        &help,
+                    );
+                    Vec::new()
+                }
+            },
+        }
+    }
+}
+
+/// The value of a parameter that is a number.
+pub(super) fn parameter(reader: &mut Reader, card: &Card, name: &str) -> Option<f64> {
+    let text = card.get(name)?;
+    let value = number(text);
+    if value.is_none() {
+        let message = format!(
+            "{}: {name} is `{}`: a number is expected",
+            card.written,
+            clip(text)
+        );
+        reader.error(card.place, message, "write it as 1.5 or 2.E-3");
+    }
+    value
+}
+
+/// A list of keys such as `U, RF`, over all data lines.
+pub(super) fn keys(card: &Card) -> Vec<String> {
+    card.data
+        .iter()
+        .flat_map(|d| d.fields.iter().map(|f| squeeze(f)))
+        .filter(|k| !k.is_empty())
+        .collect()
+}
+
+/// What there is, for a help.
+pub(super) fn listing<S: AsRef<str>>(what: &str, names: impl IntoIterator<Item = S>) -> String {
+    let names: Vec<String> = names
+        .into_iter()
+        .take(20)
+        .map(|n| n.as_ref().to_string())
+        .collect();
+    match names.is_empty() {
+        true => format!("the deck has no {what}"),
+        false => format!("{what}: {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,163 @@
+//! What ties nodes together or acts between them: equations, rigid bodies, springs; and masses.
+
+use super::reader::Reader;
+use crate::card::Card;
+use crate::deck::{Equation, Rigid, SpringSection, Term};
+use crate::text::{clip, whole};
+
+impl Reader<'_> {
+    pub(super) fn equation(&mut self, card: &Card) {
+        if self.in_step {
+            self.error(
+                card.place,
+                "equations cannot change from step to step",
+                "give *EQUATION before the first *STEP",
+            );
+            return;
+        }
+        let mut lines = card.data.iter();
+        while let Some(data) = lines.next() {
+            let Some(count) = self.whole(data, 0) else {
+                return;
+            };
+            let mut terms = Vec::new();
+            while (terms.len() as u64) < count {
+                let Some(line) = lines.next() else {
+                    self.error(
+                        data.place,
+                        format!("the equation has {} of its {count} terms", terms.len()),
+                        "each term is node, direction, factor",
+                    );
+                    return;
+                };
+                for k in (0..line.fields.len()).step_by(3) {
+                    let (Some(target), Some(component)) =
+                        (self.target(line, k), self.direction(line, k + 1, 3))
+                    else {
+                        return;
+                    };
+                    let factor = self.number(line, k + 2, 0.0);
+                    terms.push(Term {
+                        target,
+                        component,
+                        factor,
+                    });
+                }
+            }
+            if terms.len() as u64 != count {
+                self.error(
+                    data.place,
+                    format!("the equation has {} terms instead of {count}", terms.len()),
+                    "each term is node, direction, factor",
+                );
+                return;
+            }
+            if terms.first().is_some_and(|t| t.factor == 0.0) {
+                self.error(
+                    data.place,
+                    "the first factor of the equation is zero",
+                    "the first term is the one that the others determine",
+                );
+            }
+            self.deck.equations.push(Equation {
+                terms,
+                place: data.place,
+            });
+        }
+    }
+
+    pub(super) fn rigid_body(&mut self, card: &Card) {
+        if card.get("POSITION").is_some_and(|p| p != "INPUT") {
+            self.error(
+                card.place,
+                "*RIGID BODY: the reference node stays where it is",
+                "write POSITION=INPUT, and give the node the place that is meant",
+            );
+        }
+        let node = |r: &mut Self, name: &str| {
+            let text = card.get(name)?;
+            let id = whole(text).or_else(|| match r.deck.node_sets.get(text).map(Vec::as_slice) {
+                Some([one]) => Some(*one),
+                _ => None,
+            });
+            if id.is_none_or(|n| !r.deck.nodes.contains_key(&n)) {
+                r.error(
+                    card.place,
+                    format!("*RIGID BODY: {name} is {}, which is no node", clip(text)),
+                    "give the number of a node that exists",
+                );
+            }
+            id
+        };
+        let (reference, rotation) = (node(self, "REFNODE"), node(self, "ROTNODE"));
+        let rigid = Rigid {
+            elements: card.get("ELSET").map(str::to_string),
+            nodes: card.get("NSET").map(str::to_string),
+            reference,
+            rotation,
+            place: card.place,
+        };
+        self.deck.rigid.push(rigid);
+    }
+
+    pub(super) fn spring(&mut self, card: &Card) {
+        let Some(set) = self.required(card, "ELSET") else {
+            return;
+        };
+        let kind = self
+            .elements_of(&set, card.place)
+            .first()
+            .map(|e| self.deck.elements[e].kind.clone());
+        // The first line has directions; for SPRINGA it is empty, and empty lines are not kept.
+        let (mut directions, mut data) = (Vec::new(), card.data.as_slice());
+        if matches!(kind.as_deref(), Some("SPRING1" | "SPRING2")) {
+            let Some(line) = self.line(card) else { return };
+            for i in 0..line.fields.len() {
+                directions.extend(self.direction(line, i, 3));
+            }
+            data = &data[1..];
+        }
+        // An empty line of directions has survived as one without fields.
+        let mut data = data.iter().filter(|d| !d.fields.is_empty());
+        let (line, more) = (data.next(), data.next());
+        if let Some(more) = more {
+            self.error(
+                more.place,
+                "a spring has one stiffness",
+                "springs are linear and do not depend on temperature: give one stiffness",
+            );
+        }
+        let Some(line) = line else {
+            self.error(
+                card.place,
+                "*SPRING has no stiffness",
+                "the line after the directions has the stiffness",
+            );
+            return;
+        };
+        let stiffness = self.number(line, 0, 0.0);
+        self.deck.springs.push(SpringSection {
+            set,
+            directions,
+            stiffness,
+            place: card.place,
+        });
+    }
+
+    pub(super) fn mass(&mut self, card: &Card) {
+        let Some(set) = self.required(card, "ELSET") else {
+            return;
+        };
+        self.elements_of(&set, card.place);
+        let Some(line) = self.line(card) else { return };
+        let mass = self.number(line, 0, 0.0);
+        if mass < 0.0 {
+            self.error(
+                line.place,
+                "the mass is negative",
+                "write the mass of each point",
+            );
+        }
+        self.deck.masses.push((set, mass, card.place));
+    }
+}

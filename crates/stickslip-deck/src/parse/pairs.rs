@@ -1,0 +1,152 @@
+//! Pairs of surfaces that touch or are tied.
+
+use super::fields::parameter;
+use super::reader::Reader;
+use crate::card::{Card, Data};
+use crate::deck::{Adjust, Clearance, Pair, Tie};
+use crate::text::{clip, label, number};
+
+impl Reader<'_> {
+    /// Slave and master, in the first data line.
+    pub(super) fn surfaces(&mut self, card: &Card) -> Option<(String, String)> {
+        let data = self.line(card)?;
+        match data.fields.as_slice() {
+            [slave, master, ..] if !slave.is_empty() && !master.is_empty() => {
+                Some((label(slave), label(master)))
+            }
+            _ => {
+                self.error(
+                    data.place,
+                    "two surfaces are expected",
+                    "write slave surface, master surface; self-contact is not computed",
+                );
+                None
+            }
+        }
+    }
+
+    pub(super) fn contact_pair(&mut self, card: &Card) {
+        let Some(interaction) = self.required(card, "INTERACTION") else {
+            return;
+        };
+        let by_nodes = match card.get("TYPE").unwrap_or("SURFACETOSURFACE") {
+            "NODETOSURFACE" => true,
+            "SURFACETOSURFACE" | "MORTAR" | "LINMORTAR" | "PGLINMORTAR" => false,
+            // Nodes that may touch lose their mass there without their neighbours getting it: of a body of one cell a third is left, and
+            // the answer of a coarse mesh is another one than with all of it.
+            "MASSLESS" => {
+                self.error(
+                    card.place,
+                    "*CONTACT PAIR of type MASSLESS is not supported: it leaves out the mass of the nodes that may touch, which bodies keep here",
+                    "write TYPE=SURFACE TO SURFACE if the mass of the bodies is to count; the motion is another one unless the layer of cells at \
+                     the surface is a small part of the body",
+                );
+                return;
+            }
+            other => {
+                let message = format!("*CONTACT PAIR of type {} is not supported", clip(other));
+                self.error(
+                    card.place,
+                    message,
+                    "types are NODE TO SURFACE and SURFACE TO SURFACE",
+                );
+                return;
+            }
+        };
+        let adjust = card.get("ADJUST").map(|text| match number(text) {
+            Some(distance) => Adjust::Within(distance),
+            None => Adjust::Set(text.to_string()),
+        });
+        if adjust == Some(Adjust::Set(String::new()))
+            || matches!(adjust, Some(Adjust::Within(d)) if d < 0.0)
+        {
+            self.error(
+                card.place,
+                "*CONTACT PAIR: ADJUST needs a distance of 0 or more, or a set of nodes",
+                "write ADJUST=0.01, or the name of an *NSET",
+            );
+        }
+        let pairs: Vec<&Data> = card.data.iter().collect();
+        if pairs.is_empty() {
+            self.line(card);
+        }
+        for data in pairs {
+            let one = Card {
+                data: vec![data.clone()],
+                ..card.clone()
+            };
+            let Some((slave, master)) = self.surfaces(&one) else {
+                continue;
+            };
+            self.deck.pairs.push(Pair {
+                slave,
+                master,
+                interaction: interaction.clone(),
+                by_nodes,
+                small_sliding: card.has("SMALLSLIDING"),
+                adjust: adjust.clone(),
+                place: data.place,
+            });
+        }
+    }
+
+    pub(super) fn clearance(&mut self, card: &Card) {
+        let (Some(slave), Some(master)) =
+            (self.required(card, "SLAVE"), self.required(card, "MASTER"))
+        else {
+            return;
+        };
+        if self.required(card, "VALUE").is_none() {
+            return;
+        }
+        let value = parameter(self, card, "VALUE").unwrap_or(0.0);
+        self.deck.clearances.push(Clearance {
+            slave,
+            master,
+            value,
+            place: card.place,
+        });
+    }
+
+    pub(super) fn tie(&mut self, card: &Card) {
+        let tolerance = parameter(self, card, "POSITIONTOLERANCE");
+        if tolerance.is_some_and(|t| t < 0.0) {
+            self.error(
+                card.place,
+                "*TIE: the position tolerance is negative",
+                "nodes of the slave surface are tied that are no farther from the master: write a distance",
+            );
+        }
+        let adjust = match card.get("ADJUST").unwrap_or("YES") {
+            "NO" => false,
+            "YES" | "" => true,
+            other => {
+                let message = format!("*TIE: ADJUST={} is not known", clip(other));
+                self.error(card.place, message, "ADJUST is YES or NO");
+                return;
+            }
+        };
+        for data in &card.data {
+            let one = Card {
+                data: vec![data.clone()],
+                ..card.clone()
+            };
+            let Some((slave, master)) = self.surfaces(&one) else {
+                continue;
+            };
+            let name = card.get("NAME").map_or_else(
+                || format!("TIE-{}", self.deck.ties.len() + 1),
+                str::to_string,
+            );
+            self.deck.ties.push(Tie {
+                name,
+                slave,
+                master,
+                // CalculiX takes none for the default.
+                tolerance: tolerance.filter(|t| *t >= 1e-10),
+                adjust,
+                place: data.place,
+            });
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What cards are read into: the deck, what has been said of it, and where the reader stands.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::card::Place;
+use crate::deck::{Action, Deck};
+use crate::finding::{Finding, Severity};
+use crate::source::Source;
+
+/// What of a material or interaction the next cards are about.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Context {
+    None,
+    Material(String),
+    Interaction(String),
+    /// After `*CHANGE FRICTION`.
+    ChangeFriction(String),
+    /// After `*CHANGE SURFACE BEHAVIOR`.
+    ChangeBehavior(String),
+}
+
+/// Reads cards one after the other.
+pub(super) struct Reader<'a> {
+    pub(super) source: &'a Source,
+    pub(super) deck: Deck,
+    pub(super) errors: Vec<Finding>,
+    pub(super) context: Context,
+    pub(super) in_step: bool,
+    /// Whether the step has its procedure.
+    pub(super) procedure: bool,
+    /// What cards with `OP` have been met in the step, each by what clears it.
+    pub(super) touched: Vec<Action>,
+    /// Kinds of output that the step has asked for.
+    pub(super) asked: BTreeSet<String>,
+    /// Sets of nodes and of elements that name one twice, with its number.
+    pub(super) doubled: [BTreeMap<String, u64>; 2],
+    /// Elements of types that are not supported, and sets of them: one error is enough.
+    pub(super) skipped: BTreeSet<u64>,
+    pub(super) skipped_sets: BTreeSet<String>,
+    /// Types of elements that may bound others, where they were met first.
+    pub(super) bounding: Vec<(String, Place)>,
+    /// Parameters that a note has been made of.
+    pub(super) noted: BTreeSet<(&'static str, String)>,
+    /// Nodes and elements that sets name and that are not there: set, what, where.
+    pub(super) absent: Vec<(String, String, Place)>,
+    /// The deck goes on from what is not there: the rest means nothing.
+    pub(super) stopped: bool,
+}
+
+/// After so many errors no more are looked for: something else is wrong than single lines.
+const ENOUGH: usize = 50;
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(source: &'a Source) -> Self {
+        let deck = Deck {
+            files: source.files.clone(),
+            ..Deck::default()
+        };
+        Reader {
+            source,
+            deck,
+            errors: Vec::new(),
+            context: Context::None,
+            in_step: false,
+            procedure: false,
+            touched: Vec::new(),
+            asked: BTreeSet::new(),
+            doubled: Default::default(),
+            skipped: Default::default(),
+            skipped_sets: Default::default(),
+            bounding: Vec::new(),
+            noted: Default::default(),
+            absent: Vec::new(),
+            stopped: false,
+        }
+    }
+
+    pub(super) fn finding(
+        &self,
+        severity: Severity,
+        place: Place,
+        message: String,
+        help: &str,
+    ) -> Finding {
+        Finding {
+            severity,
+            file: self
+                .source
+                .files
+                .get(place.file)
+                .cloned()
+                .unwrap_or_default(),
+            line: place.line,
+            message,
+            help: (!help.is_empty()).then(|| help.to_string()),
+        }
+    }
+
+    pub(super) fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
+        if self.errors.len() < ENOUGH {
+            let finding = self.finding(Severity::Error, place, message.into(), help);
+            self.errors.push(finding);
+        }
+    }
+
+    pub(super) fn warn(&mut self, place: Place, message: impl Into<String>, help: &str) {
+        let finding = self.finding(Severity::Warning, place, message.into(), help);
+        self.deck.notes.push(finding);
+    }
+
+    pub(super) fn note(&mut self, place: Place, message: impl Into<String>) {
+        let finding = self.finding(Severity::Note, place, message.into(), "");
+        self.deck.notes.push(finding);
+    }
+}

@@ -1,0 +1,175 @@
+//! Sets of nodes and of elements.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::reader::Reader;
+use crate::card::{Card, Data, Place};
+use crate::text::{clip, label, whole};
+
+impl Reader<'_> {
+    /// `start, end, step` as those of the numbers that exist.
+    pub(super) fn generated<T>(
+        &mut self,
+        data: &Data,
+        known: impl Fn(&Self) -> &BTreeMap<u64, T>,
+    ) -> Vec<u64> {
+        let (Some(from), Some(to)) = (self.whole(data, 0), self.whole(data, 1)) else {
+            return Vec::new();
+        };
+        let by = match data.fields.len() {
+            0..=2 => 1,
+            _ => self.whole(data, 2).unwrap_or(1),
+        };
+        if to < from {
+            self.error(
+                data.place,
+                format!("the range runs from {from} down to {to}"),
+                "write first, last, increment",
+            );
+            return Vec::new();
+        }
+        let all = known(self).range(from..=to).map(|(n, _)| *n);
+        all.filter(|n| (n - from).is_multiple_of(by)).collect()
+    }
+
+    pub(super) fn node_set(&mut self, card: &Card) {
+        let Some(name) = self.required(card, "NSET") else {
+            return;
+        };
+        let mut out = Vec::new();
+        if let Some(set) = card.get("ELSET").map(str::to_string) {
+            // Elements share nodes, which is not meant to count.
+            let mut of_cells = BTreeSet::new();
+            for e in self.elements_of(&set, card.place) {
+                of_cells.extend(self.deck.elements[&e].nodes.iter().copied());
+            }
+            out.extend(of_cells);
+        }
+        for data in &card.data {
+            if card.has("GENERATE") {
+                out.extend(self.generated(data, |r| &r.deck.nodes));
+                continue;
+            }
+            for field in data.fields.iter().filter(|f| !f.is_empty()) {
+                match whole(field) {
+                    Some(n) if self.deck.nodes.contains_key(&n) => out.push(n),
+                    Some(n) => {
+                        let absent = (name.clone(), format!("node {n}"), data.place);
+                        self.absent.push(absent);
+                    }
+                    None => match self.deck.node_sets.get(&label(field)) {
+                        Some(set) => {
+                            out.extend(set);
+                            self.inherit(0, &label(field), &name);
+                        }
+                        None => {
+                            self.error(
+                                data.place,
+                                format!("there is no set of nodes {}", clip(field)),
+                                "a set must stand before those it is part of",
+                            );
+                        }
+                    },
+                }
+            }
+        }
+        let set = self.deck.node_sets.entry(name.clone()).or_default();
+        if let Some(n) = add(set, out) {
+            self.doubled[0].entry(name).or_insert(n);
+        }
+    }
+
+    /// A set of nodes (0) or elements (1) that is part of another makes it name twice what it names twice.
+    pub(super) fn inherit(&mut self, kind: usize, part: &str, whole: &str) {
+        if let Some(n) = self.doubled[kind].get(part).copied() {
+            self.doubled[kind].entry(whole.to_string()).or_insert(n);
+        }
+    }
+
+    /// It is an error to add up over a set of nodes (0) or elements (1) that names one of them twice: programs differ in how often it counts.
+    pub(super) fn once(&mut self, kind: usize, set: &str, place: Place) {
+        let Some(n) = self.doubled[kind].get(set) else {
+            return;
+        };
+        let what = ["node", "element"][kind];
+        let message = format!(
+            "{what} {n} stands in the set {set} more than once: it counts as often in CalculiX, and once in Abaqus"
+        );
+        self.error(
+            place,
+            message,
+            &format!("let the set name each {what} once"),
+        );
+    }
+
+    /// Nodes of sets that are not there: CalculiX leaves them out, which changes nothing where the set is only printed.
+    pub(super) fn judge_absent(&mut self) {
+        for (set, what, place) in std::mem::take(&mut self.absent) {
+            let (mut printed, mut used) = (false, false);
+            for card in self.source.cards.iter().filter(|c| c.keyword != "NSET") {
+                let named = card
+                    .parameters
+                    .iter()
+                    .any(|p| p.value.as_deref() == Some(&set));
+                match card.keyword.as_str() {
+                    "NODEPRINT" | "NODEFILE" | "NODEOUTPUT" => printed |= named,
+                    _ => used |= named,
+                }
+            }
+            let mut fields = self
+                .source
+                .cards
+                .iter()
+                .flat_map(|c| &c.data)
+                .flat_map(|d| &d.fields);
+            used |= fields.any(|f| label(f) == set);
+            match printed && !used {
+                false => self.error(
+                    place,
+                    format!("there is no {what}"),
+                    "*NODE must stand before *NSET",
+                ),
+                true => self.note(
+                    place,
+                    format!(
+                        "there is no {what}: it is left out of the set {set}, which is only printed"
+                    ),
+                ),
+            }
+        }
+    }
+
+    pub(super) fn element_set(&mut self, card: &Card) {
+        let Some(name) = self.required(card, "ELSET") else {
+            return;
+        };
+        let mut out = Vec::new();
+        for data in &card.data {
+            if card.has("GENERATE") {
+                out.extend(self.generated(data, |r| &r.deck.elements));
+                continue;
+            }
+            for field in data.fields.iter().filter(|f| !f.is_empty()) {
+                out.extend(self.elements_of(field, data.place));
+                self.inherit(1, &label(field), &name);
+            }
+        }
+        let set = self.deck.element_sets.entry(name.clone()).or_default();
+        if let Some(n) = add(set, out) {
+            self.doubled[1].entry(name).or_insert(n);
+        }
+    }
+}
+
+/// Adds to a set what it does not have yet, in order. The first that it has already.
+pub(super) fn add(set: &mut Vec<u64>, more: Vec<u64>) -> Option<u64> {
+    let mut seen: BTreeSet<u64> = set.iter().copied().collect();
+    let mut again = None;
+    for n in more {
+        match seen.insert(n) {
+            true => set.push(n),
+            false => again = again.or(Some(n)),
+        }
+    }
+    again
+}

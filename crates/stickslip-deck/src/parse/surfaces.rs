@@ -1,0 +1,119 @@
+//! Surfaces: faces of elements, or nodes.
+
+use super::reader::Reader;
+use crate::card::{Card, Data, Place};
+use crate::deck::{Surface, SurfaceParts};
+use crate::text::{clip, label, squeeze, whole};
+
+impl Reader<'_> {
+    /// `S3` or `P3` as 3.
+    pub(super) fn face(&mut self, text: &str, letter: char, place: Place) -> Option<usize> {
+        let text = squeeze(text);
+        // Sides of shells and membranes.
+        let side = matches!(text.as_str(), "SPOS" | "SNEG" | "SP" | "SN") && letter == 'S';
+        let text = if side { "S1".to_string() } else { text };
+        let n = text
+            .strip_prefix(letter)
+            .and_then(|n| n.parse().ok())
+            .filter(|n| (1..=6).contains(n));
+        if n.is_none() {
+            let message = format!("`{}` is no face", clip(&text));
+            self.error(
+                place,
+                message,
+                &format!("faces of elements are {letter}1 to {letter}6"),
+            );
+        }
+        n
+    }
+
+    pub(super) fn surface(&mut self, card: &Card) {
+        let Some(name) = self.required(card, "NAME") else {
+            return;
+        };
+        let outside = |d: &Data| d.fields.len() < 2;
+        if card.get("TRIM") == Some("YES") && card.data.iter().any(outside) {
+            self.error(
+                card.place,
+                "*SURFACE, TRIM=YES is not supported",
+                "name the faces (S1 to S6) that are meant",
+            );
+        }
+        let parts = match card.get("TYPE").unwrap_or("ELEMENT") {
+            "" | "ELEMENT" => {
+                let mut faces = Vec::new();
+                for data in &card.data {
+                    let Some(first) = data.fields.first() else {
+                        continue;
+                    };
+                    let elements = self.elements_of(first, data.place);
+                    let face = match data.fields.get(1).filter(|f| !f.is_empty()) {
+                        Some(text) => match self.face(&text.clone(), 'S', data.place) {
+                            Some(n) => Some(n),
+                            None => continue,
+                        },
+                        None => None,
+                    };
+                    for e in elements {
+                        if face.is_none_or(|f| self.has_face(e, f, data.place)) {
+                            faces.push((e, face));
+                        }
+                    }
+                }
+                SurfaceParts::Faces(faces)
+            }
+            "NODE" => {
+                let mut nodes = Vec::new();
+                for data in &card.data {
+                    let Some(field) = data.fields.first() else {
+                        continue;
+                    };
+                    match whole(field) {
+                        Some(n) if self.deck.nodes.contains_key(&n) => nodes.push(n),
+                        Some(n) => self.error(
+                            data.place,
+                            format!("there is no node {n}"),
+                            "*NODE must stand before what refers to it",
+                        ),
+                        None => match self.deck.node_sets.get(&label(field)) {
+                            Some(set) => nodes.extend(set),
+                            None => self.error(
+                                data.place,
+                                format!("there is no set of nodes {}", clip(field)),
+                                "define it with *NSET before",
+                            ),
+                        },
+                    }
+                }
+                SurfaceParts::Nodes(nodes)
+            }
+            other => {
+                let message = format!("*SURFACE of type {other} is not supported");
+                self.error(card.place, message, "surfaces are of type ELEMENT or NODE; a rigid surface can be a *RIGID BODY of elements");
+                return;
+            }
+        };
+        let empty = match &parts {
+            SurfaceParts::Faces(f) => f.is_empty(),
+            SurfaceParts::Nodes(n) => n.is_empty(),
+        };
+        if empty && self.errors.is_empty() {
+            self.error(
+                card.place,
+                format!("the surface {name} is empty"),
+                "name faces of elements, or nodes with TYPE=NODE",
+            );
+        }
+        let surface = Surface {
+            parts,
+            place: card.place,
+        };
+        if self.deck.surfaces.insert(name.clone(), surface).is_some() {
+            self.error(
+                card.place,
+                format!("the surface {name} is given twice"),
+                "give each surface a name of its own",
+            );
+        }
+    }
+}

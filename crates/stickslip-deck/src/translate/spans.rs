@@ -1,0 +1,18 @@
+//! How long steps are.
+
+use crate::deck::{Procedure, Step};
+
+/// First increment, length, smallest and largest increment.
+pub(super) fn times(step: &Step) -> [f64; 4] {
+    match step.procedure {
+        Procedure::Static { times, .. } | Procedure::Dynamic { times, .. } => times,
+    }
+}
+
+/// How long a step lasts.
+pub(super) fn duration(step: &Step) -> f64 {
+    match times(step)[1] {
+        t if t > 0.0 => t,
+        _ => 1.0,
+    }
+}
