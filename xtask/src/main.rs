@@ -9,8 +9,8 @@ mod dist;
 mod examples;
 mod fuzz;
 mod peers;
+mod published;
 mod robustness;
-mod schema;
 mod workspace;
 
 use std::process::ExitCode;
@@ -26,6 +26,7 @@ tasks:
   browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
+  rooms                     draw the picture of the rooms in ARCHITECTURE.md from the imports of the code
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
   decks [FOLDER]            run decks with the numbers that CalculiX prints (NAME.inp, NAME.dat.ref; default: ../shared/decks/calculix)
                             and write book/src/decks.md
@@ -57,7 +58,8 @@ The release binary is built first, unless STICKSLIP names one. CCX names Calculi
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
-        Some((task, [])) if task == "schema" => schema::write(),
+        Some((task, [])) if task == "schema" => published::schema(),
+        Some((task, [])) if task == "rooms" => published::rooms(),
         Some((task, [])) if task == "dist" => dist::pack(),
         Some((task, what)) if task == "book" => book::build(what),
         Some((task, what)) if task == "decks" => decks::run(what),

@@ -1,0 +1,301 @@
+//! The map of `ARCHITECTURE.md`, held against the code of the whole workspace.
+//!
+//! A module of the library knows only the layers below it, and inside every folder of every crate files and folders have an order: nothing imports from
+//! what comes later. Every import is followed to the file that defines what it names ([`tree`]), so a group, `super::` or a name that is handed on hides
+//! nothing.
+
+mod imports;
+mod picture;
+mod rooms;
+mod tokens;
+mod tree;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use tree::{Arrow, Module, Tree};
+
+/// The layers of the library, lowest first. Modules of one layer do not know each other.
+const LAYERS: &[&[&str]] = &[
+    &["error", "machine", "math", "references", "registry"],
+    &["material", "shape"],
+    &["linear", "mesh"],
+    &["system"],
+    &["body", "contact", "newton"],
+    &["io", "time"],
+    &["simulation"],
+    &["problem"],
+];
+
+/// What the numbers-only parts of contact may import besides themselves.
+const NUMBERS: &[&str] = &["math", "references", "registry"];
+
+/// Folders that still have circles: they wait for their turn, and none may be added.
+const UNORDERED: &[&str] = &[
+    "crates/stickslip-audit/src/draw",
+    "crates/stickslip-cli/src",
+    "crates/stickslip-cli/src/commands/sweep",
+    "crates/stickslip-py/src",
+    "crates/stickslip-report/src/draw",
+    "crates/stickslip-report/src/plot",
+    "crates/stickslip/src/body/couplings",
+    "crates/stickslip/src/body/loads",
+    "crates/stickslip/src/contact/discretisation",
+    "crates/stickslip/src/contact/enforcement",
+    "crates/stickslip/src/contact/interface",
+    "crates/stickslip/src/contact/kinematics",
+    "crates/stickslip/src/contact/law/damping",
+    "crates/stickslip/src/contact/law/friction",
+    "crates/stickslip/src/contact/law/normal",
+    "crates/stickslip/src/contact/law/slip",
+    "crates/stickslip/src/contact/mortar",
+    "crates/stickslip/src/contact/obstacle",
+    "crates/stickslip/src/linear/multifrontal",
+    "crates/stickslip/src/linear/multigrid",
+    "crates/stickslip/src/material",
+    "crates/stickslip/src/mesh/generators",
+    "crates/stickslip/src/newton",
+    "crates/stickslip/src/problem",
+    "crates/stickslip/src/problem/build",
+    "crates/stickslip/src/problem/check",
+    "crates/stickslip/src/shape",
+    "crates/stickslip/src/simulation",
+    "crates/stickslip/src/simulation/doctor",
+    "crates/stickslip/src/simulation/doctor/check",
+    "crates/stickslip/src/simulation/doctor/unjoined",
+    "crates/stickslip/src/time/scheme",
+    "xtask/src/decks",
+    "xtask/src/robustness",
+];
+
+/// Where this variable is set the picture is written instead of compared: `cargo xtask rooms` does that.
+const WRITE: &str = "STICKSLIP_WRITE_ROOMS";
+
+fn workspace() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.ancestors()
+        .nth(2)
+        .expect("the workspace")
+        .to_path_buf()
+}
+
+/// All crates of the workspace by the name under which code imports them, with their folder `src`.
+fn crates() -> BTreeMap<String, PathBuf> {
+    let folder = |path: PathBuf| {
+        let name = path.file_name()?.to_string_lossy().replace('-', "_");
+        Some((name, path.join("src"))).filter(|(_, src)| src.is_dir())
+    };
+    let entries = std::fs::read_dir(workspace().join("crates")).expect("the folder of crates");
+    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+    paths.push(workspace().join("xtask"));
+    paths.into_iter().filter_map(folder).collect()
+}
+
+fn library() -> Tree {
+    Tree::read(&crates()["stickslip"])
+}
+
+fn layer(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|modules| modules.contains(&module))
+}
+
+/// `FILE:LINE: PATH` of an arrow.
+fn place(arrow: &Arrow) -> String {
+    format!("{}:{}: `{}`", arrow.file.display(), arrow.line, arrow.path)
+}
+
+#[test]
+fn modules_know_only_the_layers_below() {
+    let arrows = library().arrows();
+    let between = arrows.iter().filter_map(|a| {
+        let (from, to) = (a.from.first()?, a.to.first()?);
+        (from != to).then_some((a, layer(from), layer(to)))
+    });
+    let between: Vec<_> = between.collect();
+    assert!(
+        between.len() > 100,
+        "the scan is broken: {} arrows",
+        between.len()
+    );
+    let up = between.iter().filter(|(_, from, to)| to >= from);
+    let up: Vec<String> = up.map(|(a, ..)| place(a)).collect();
+    assert!(up.is_empty(), "arrows up or aside:\n{}", up.join("\n"));
+}
+
+#[test]
+fn every_room_has_an_order() {
+    let mut wrong = Vec::new();
+    for src in crates().into_values() {
+        let tree = Tree::read(&src);
+        let arrows = tree.arrows();
+        for room in rooms::rooms(&tree) {
+            let folder = src.join(room.iter().collect::<PathBuf>());
+            let name = folder
+                .strip_prefix(workspace())
+                .expect("a folder of the workspace");
+            if UNORDERED.iter().any(|u| Path::new(u) == name) {
+                continue;
+            }
+            for circle in rooms::circles(&rooms::plan(&arrows, &room)) {
+                wrong.push(format!("{}:\n{}", name.display(), rooms::sentence(&circle)));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "circles in\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn laws_and_enforcement_see_numbers_only() {
+    let own = |m: &Module| {
+        m.len() > 1 && m[0] == "contact" && ["law", "enforcement"].contains(&m[1].as_str())
+    };
+    let arrows = library().arrows();
+    let of_laws: Vec<&Arrow> = arrows.iter().filter(|a| own(&a.from)).collect();
+    assert!(
+        of_laws.len() > 20,
+        "the scan is broken: {} arrows",
+        of_laws.len()
+    );
+    let wrong = of_laws.into_iter().filter(|a| {
+        let numbers =
+            a.to.first()
+                .is_some_and(|to| NUMBERS.contains(&to.as_str()));
+        !own(&a.to) && !numbers
+    });
+    let wrong: Vec<String> = wrong.map(place).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_module_of_the_library_has_a_layer_and_exists() {
+    let tree = library();
+    let mut tops: Vec<&str> = tree
+        .files
+        .keys()
+        .filter_map(|m| Some(m.first()?.as_str()))
+        .collect();
+    tops.dedup();
+    let mut listed: Vec<&str> = LAYERS.iter().copied().flatten().copied().collect();
+    listed.sort_unstable();
+    assert_eq!(tops, listed);
+}
+
+#[test]
+fn the_picture_of_the_rooms_is_current() {
+    let names: Vec<String> = crates().into_keys().collect();
+    let mut between = picture::Arrows::new();
+    for (name, src) in crates() {
+        let mut used = Tree::read(&src).crates(&names);
+        // The programs of a crate use its own library.
+        used.retain(|u| *u != name);
+        between.insert(name, used.into_iter().collect());
+    }
+    let mut rooms = picture::Arrows::new();
+    for arrow in library().arrows() {
+        if let (Some(from), Some(to)) = (arrow.from.first(), arrow.to.first())
+            && from != to
+        {
+            rooms.entry(from.clone()).or_default().insert(to.clone());
+        }
+    }
+    let file = workspace().join("ARCHITECTURE.md");
+    let text = std::fs::read_to_string(&file).expect("ARCHITECTURE.md");
+    let drawn = picture::draw(LAYERS, &rooms, &between);
+    let current =
+        picture::placed(&text, &drawn).expect("the marks of the picture in ARCHITECTURE.md");
+    if std::env::var_os(WRITE).is_some() {
+        std::fs::write(&file, current).expect("ARCHITECTURE.md can be written");
+        return;
+    }
+    assert!(
+        text == current,
+        "the picture in ARCHITECTURE.md is not current: run `cargo xtask rooms`"
+    );
+}
+
+/// A crate of the given files, as `(module, text)`.
+fn sample(texts: &[(&str, &str)]) -> Tree {
+    let one = |(module, text): &(&str, &str)| {
+        let names: Module = module
+            .split("::")
+            .filter(|n| !n.is_empty())
+            .map(str::to_string)
+            .collect();
+        (names, PathBuf::from(module), text.to_string())
+    };
+    Tree::of(texts.iter().map(one).collect())
+}
+
+/// The arrows of a sample as `from -> to:line`.
+fn arrows(texts: &[(&str, &str)]) -> Vec<String> {
+    let line = |a: Arrow| format!("{} -> {}:{}", a.from.join("::"), a.to.join("::"), a.line);
+    sample(texts).arrows().into_iter().map(line).collect()
+}
+
+#[test]
+fn imports_are_followed_to_where_things_are_defined() {
+    let found = arrows(&[
+        ("", "mod a; mod b; mod c;"),
+        (
+            "a",
+            "mod inner;\npub use inner::Deep as Named;\npub fn of_a() {}",
+        ),
+        ("a::inner", "pub struct Deep;"),
+        (
+            "b",
+            "use crate::{c::{self, Third}, a::Named};\nfn f() { c::third(); super::a::of_a(); }",
+        ),
+        ("c", "pub struct Third; pub fn third() {}"),
+    ]);
+    assert_eq!(found, ["b -> a:2", "b -> a::inner:1", "b -> c:1"]);
+}
+
+#[test]
+fn a_table_of_contents_is_no_arrow_and_its_use_is() {
+    let contents = ("room", "mod part;\npub use part::Part;");
+    let using = (
+        "room",
+        "mod part;\npub use part::Part;\npub enum All { Part(Part) }",
+    );
+    let part = ("room::part", "use super::All;\npub struct Part;");
+    assert_eq!(
+        arrows(&[("", "mod room;"), contents, part]),
+        ["room::part -> room:1"]
+    );
+    let both = ["room -> room::part:3", "room::part -> room:1"];
+    assert_eq!(arrows(&[("", "mod room;"), using, part]), both);
+}
+
+#[test]
+fn comments_strings_and_tests_import_nothing() {
+    let text = "// use crate::b::B;\n/* crate::b::B /* nested */ crate::b::B */\nconst S: &str = \"crate::b::\\\"B\"; const R: &str = r#\"crate::b\"B\"#;\n\
+        const Q: char = '\"'; fn f<'a>(x: &'a str) -> impl Iterator<Item = u8> + use<'a> {}\n#[cfg(test)]\nmod tests { use crate::b::B; }\n#[cfg(test)]\nuse crate::b::{B, C};\n\
+        #[cfg(test)]\nmod helper;\nfn last() { crate::c::third() }";
+    let found = arrows(&[
+        ("a", text),
+        ("a::helper", "use crate::b::B;"),
+        ("b", "pub struct B;"),
+        ("c", "pub fn third() {}"),
+    ]);
+    assert_eq!(found, ["a -> c:11"]);
+}
+
+#[test]
+fn a_circle_of_rooms_is_found_with_its_imports() {
+    let tree = sample(&[
+        ("", "mod law; mod side;"),
+        ("law", "mod first; mod second;"),
+        ("law::first", "use crate::side::near::Near;"),
+        ("law::second", "pub struct Second;"),
+        ("side", "mod near; mod far;"),
+        ("side::near", "pub struct Near;"),
+        ("side::far", "\nuse crate::law::second::Second;"),
+    ]);
+    let found = rooms::circles(&rooms::plan(&tree.arrows(), &[]));
+    let expected = "  law::first:1: `crate::side::near::Near`: law::first -> side::near\n  side::far:2: `crate::law::second::Second`: side::far -> law::second";
+    assert_eq!(
+        found.iter().map(|c| rooms::sentence(c)).collect::<Vec<_>>(),
+        [expected]
+    );
+    assert!(rooms::circles(&rooms::plan(&tree.arrows(), &["law".to_string()])).is_empty());
+}
