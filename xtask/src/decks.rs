@@ -1,32 +1,14 @@
 //! `cargo xtask decks [FOLDER]`: decks of CalculiX with the numbers that it prints, against ours, as a page of the book.
 
 mod blocks;
+mod outcome;
 mod page;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::workspace;
-use blocks::Comparison;
-
-/// What became of a deck.
-pub struct Outcome {
-    /// Its name.
-    pub name: String,
-    /// Why it was refused: the first finding.
-    pub refusal: Option<String>,
-    /// Against the reference, with hard contact as it is here, and with CalculiX's stiffness as the law.
-    pub found: Vec<(Variant, Comparison)>,
-}
-
-/// How a deck was run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Variant {
-    /// As it is.
-    Plain,
-    /// With the stiffness that CalculiX takes for hard contact.
-    Stiffness,
-}
+use outcome::{Outcome, Variant};
 
 /// Runs all decks of a folder that holds `NAME.inp` and `NAME.dat.ref`.
 pub fn run(arguments: &[String]) -> Result<(), String> {

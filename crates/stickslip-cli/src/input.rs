@@ -7,7 +7,7 @@ use stickslip::problem::{Document, Meshes, Problem};
 use stickslip::simulation::Model;
 use stickslip_deck::{Deck, Severity, Translation};
 
-use crate::commands::{Failure, located};
+use crate::failure::{Failure, located};
 
 /// A problem with where it comes from.
 pub struct Input {

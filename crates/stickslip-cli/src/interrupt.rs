@@ -12,7 +12,7 @@ pub fn watch() -> Interrupt {
     // Fails where somebody watches already (a second run in the same process, or Python): then Ctrl-C is theirs.
     let _ = ctrlc::set_handler(move || {
         if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(i32::from(crate::INTERRUPTED));
+            std::process::exit(i32::from(crate::failure::INTERRUPTED));
         }
         crate::progress::say("stopping; once more to stop at once");
     });

@@ -5,6 +5,7 @@
 //! Results and listings go to standard output, diagnostics to standard error.
 
 mod commands;
+mod failure;
 mod input;
 mod interrupt;
 mod lines;
@@ -16,6 +17,8 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+
+use failure::INPUT;
 
 /// Frictional contact of elastic bodies, in 2D and 3D.
 #[derive(Debug, Parser)]
@@ -41,13 +44,6 @@ enum Command {
     Completions(commands::completions::Arguments),
     Man(commands::man::Arguments),
 }
-
-/// The input is wrong; also the code of a wrong command line.
-const INPUT: u8 = 1;
-/// Results fail a check or the quality gate.
-const CHECK: u8 = 2;
-/// Stopped by Ctrl-C; results up to there are complete.
-const INTERRUPTED: u8 = 130;
 
 /// The command line as data, for completions and manual pages.
 fn command() -> clap::Command {
@@ -76,8 +72,8 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Plot(arguments) => commands::plot::run(&arguments),
         Command::Convert(arguments) => commands::convert::run(&arguments),
-        Command::Completions(arguments) => commands::completions::run(&arguments),
-        Command::Man(arguments) => commands::man::run(&arguments),
+        Command::Completions(arguments) => commands::completions::run(&arguments, command()),
+        Command::Man(arguments) => commands::man::run(&arguments, command()),
     };
     match outcome {
         Ok(code) => code,
@@ -99,6 +95,7 @@ pub fn number(code: ExitCode) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::failure::CHECK;
 
     #[test]
     fn exit_codes_have_their_numbers() {

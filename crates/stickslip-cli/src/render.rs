@@ -6,7 +6,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use stickslip::Error;
 use stickslip::error::ProblemError;
 
-use crate::commands::Failure;
+use crate::failure::Failure;
 
 /// Prints why a command failed.
 pub fn failure(failure: &Failure) {

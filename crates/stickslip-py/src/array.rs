@@ -5,8 +5,6 @@ use std::sync::{Arc, Mutex};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::run::Simulation;
-
 /// Memory of an array, read-only. `numpy.asarray` makes an array of it without a copy, and keeps it alive.
 #[pyclass(frozen)]
 pub struct Array {
@@ -24,10 +22,7 @@ pub enum Owner {
     /// The mesh of a model.
     Mesh(#[allow(dead_code)] Arc<stickslip::mesh::Mesh>),
     /// A simulation, until it goes on; after that the numbers are here.
-    Simulation(
-        #[allow(dead_code)] Arc<Kept>,
-        #[allow(dead_code)] Py<Simulation>,
-    ),
+    Simulation(#[allow(dead_code)] Arc<Kept>, #[allow(dead_code)] Py<PyAny>),
 }
 
 /// Where numbers of a simulation are moved to when it goes on while somebody still looks at them.

@@ -153,7 +153,7 @@ impl Simulation {
         });
         let values: &[f64] = this.values(quantity);
         Array::of(values, vec![points, dim], "<f8")
-            .with(Owner::Simulation(kept, slf.clone().unbind()))
+            .with(Owner::Simulation(kept, slf.clone().into_any().unbind()))
     }
 }
 

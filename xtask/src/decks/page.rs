@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Outcome, Variant};
+use super::outcome::{Outcome, Variant};
 
 /// Why a deck differs by more than a hundredth, or what else is to be said about it.
 const REASONS: &[(&str, &str)] = &[

@@ -1,5 +1,6 @@
 //! `cargo xtask robustness`: random problems and given ones, run one after the other and audited by what they leave behind.
 
+mod entry;
 mod outcome;
 mod summary;
 
@@ -11,7 +12,7 @@ use stickslip_audit::draw;
 use stickslip_audit::verdict::Verdict;
 
 use crate::workspace;
-use outcome::Outcome;
+use entry::Entry;
 
 /// What a problem may take; one takes seconds.
 const LIMIT: Duration = Duration::from_secs(60);
@@ -24,14 +25,6 @@ struct Wish {
     count: u64,
     keep: Option<PathBuf>,
     files: Vec<PathBuf>,
-}
-
-/// A problem that was run.
-struct Entry {
-    name: String,
-    family: &'static str,
-    words: String,
-    outcome: Outcome,
 }
 
 /// Runs and audits the problems, prints a table in Markdown and a summary.

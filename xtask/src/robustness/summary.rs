@@ -2,7 +2,7 @@
 
 use stickslip_audit::verdict::Verdict;
 
-use super::Entry;
+use super::entry::Entry;
 
 const VERDICTS: [Verdict; 8] = [
     Verdict::Sound,

@@ -1,6 +1,7 @@
 //! Random problems, the same for a seed for ever: bodies, laws, ways to evaluate contact, paths and motions.
 
 mod body;
+mod draft;
 mod law;
 mod moving;
 mod obstacle;
@@ -12,19 +13,9 @@ mod scene;
 mod sprung;
 mod stack;
 
-use body::Space;
-use random::Random;
+pub use draft::Draft;
 
-/// A problem file and what is in it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Draft {
-    /// Its family.
-    pub family: &'static str,
-    /// In a line.
-    pub words: String,
-    /// The file.
-    pub text: String,
-}
+use random::Random;
 
 /// The families, of which one problem after the other is drawn.
 pub const FAMILIES: [&str; 6] = [
@@ -47,14 +38,6 @@ pub fn problem(seed: u64, number: u64) -> Draft {
         &format!("Random problem {number} of series {seed}"),
     );
     draft
-}
-
-/// The first tables of every problem.
-fn beginning(space: Space) -> String {
-    format!(
-        "format = 1\ntitle = \"@TITLE\"\n\n[model]\nspace = \"{}\"\n\n[output]\nevery = 1\n\n",
-        space.name()
-    )
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use super::body::{Body, Form, Space, point};
+use super::draft::{Draft, beginning};
 use super::law::laws;
 use super::options::{formulation, options};
 use super::random::{Random, digits};
 use super::scene::{Scene, scene};
-use super::{Draft, beginning};
 
 /// A shape whose top is at height zero.
 pub struct Shape {

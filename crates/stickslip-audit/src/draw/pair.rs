@@ -1,11 +1,11 @@
 //! Two bodies, pressed and slid along a path.
 
+use super::draft::{Draft, beginning};
 use super::law::laws;
 use super::options::{formulation, options};
 use super::path::path;
 use super::random::Random;
 use super::scene::{Scene, scene};
-use super::{Draft, beginning};
 
 /// Draws a problem of two bodies.
 pub fn draw(random: &mut Random) -> Draft {

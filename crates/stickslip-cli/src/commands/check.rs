@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use stickslip::problem::Problem;
 
-use super::Outcome;
+use crate::failure::Outcome;
 use crate::input::Input;
 use crate::print;
 

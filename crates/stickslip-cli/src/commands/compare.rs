@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use super::Outcome;
+use crate::failure::Outcome;
 use crate::print;
 
 /// Compare the results in a directory with expected values.
@@ -24,6 +24,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
     Ok(if report.passes() {
         ExitCode::SUCCESS
     } else {
-        ExitCode::from(crate::CHECK)
+        ExitCode::from(crate::failure::CHECK)
     })
 }

@@ -1,6 +1,8 @@
 use std::process::ExitCode;
 
-use super::Outcome;
+use clap::Command;
+
+use crate::failure::Outcome;
 use crate::print;
 
 /// Print the completions of this command for a shell.
@@ -16,15 +18,10 @@ pub struct Arguments {
     shell: clap_complete::Shell,
 }
 
-/// Prints them.
-pub fn run(arguments: &Arguments) -> Outcome {
+/// Prints them; `all` is the whole command line.
+pub fn run(arguments: &Arguments, mut all: Command) -> Outcome {
     let mut script = Vec::new();
-    clap_complete::generate(
-        arguments.shell,
-        &mut crate::command(),
-        "stickslip",
-        &mut script,
-    );
+    clap_complete::generate(arguments.shell, &mut all, "stickslip", &mut script);
     print::out(&String::from_utf8_lossy(&script))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -5,7 +5,9 @@ use std::process::ExitCode;
 use stickslip::io::{abaqus, gmsh, vtu};
 use stickslip::mesh::Mesh;
 
-use super::{Failure, Outcome, spare};
+use super::spare;
+
+use crate::failure::{Failure, Outcome};
 use crate::print;
 
 /// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) and its

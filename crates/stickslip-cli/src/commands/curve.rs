@@ -5,7 +5,7 @@ use stickslip::contact::law::friction::FrictionPoint;
 use stickslip::contact::law::slip::Tangential;
 use stickslip::problem::Document;
 
-use super::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::print;
 
 /// Tabulate the laws of an interface alone, as CSV: pressure and shear limit against gap, shear against slip.

@@ -5,7 +5,7 @@ use serde_json::Value;
 use stickslip::simulation::Figure;
 use stickslip::simulation::doctor::{DoctorCause, Finding, Guilty, Severity};
 
-use super::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::print;
 
 /// Width of the printed text in characters.

@@ -1,9 +1,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::Command;
 use stickslip::Error;
 
-use super::Outcome;
+use crate::failure::Outcome;
 use crate::print;
 
 /// Print the manual page, or write the pages of all commands to a folder.
@@ -15,17 +16,17 @@ pub struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// Prints or writes them.
-pub fn run(arguments: &Arguments) -> Outcome {
+/// Prints or writes them; `all` is the whole command line.
+pub fn run(arguments: &Arguments, all: Command) -> Outcome {
     match &arguments.output {
         None => {
             let mut page = Vec::new();
-            clap_mangen::Man::new(crate::command()).render(&mut page)?;
+            clap_mangen::Man::new(all).render(&mut page)?;
             print::out(&String::from_utf8_lossy(&page))?;
         }
         Some(folder) => {
             std::fs::create_dir_all(folder)
-                .and_then(|()| clap_mangen::generate_to(crate::command(), folder))
+                .and_then(|()| clap_mangen::generate_to(all, folder))
                 .map_err(|e| Error::io(folder, e))?;
         }
     }

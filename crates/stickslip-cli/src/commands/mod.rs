@@ -15,19 +15,12 @@ pub mod schema;
 pub mod sweep;
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
 
-/// Gives findings about a problem their places in its file.
-pub fn located(document: &stickslip::problem::Document, error: Error) -> Error {
-    match error {
-        Error::Problem(e) if e.source.is_empty() => Error::Problem(document.error(e.findings)),
-        other => other,
-    }
-}
+use crate::failure::Failure;
 
 /// Sets the number of threads, if one was chosen: at most one a processor, as more only wait for each other. To be called before anything else
 /// uses threads.
@@ -72,59 +65,5 @@ pub fn spare(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
             "give the output another name".into(),
         )),
         None => Ok(()),
-    }
-}
-
-/// What a command ends with.
-pub type Outcome = Result<ExitCode, Failure>;
-
-/// Why a command could not do its work.
-#[derive(Debug)]
-pub enum Failure {
-    /// From the library.
-    Library(Error),
-    /// A deck that cannot be run as it is.
-    Deck(stickslip_deck::DeckError),
-    /// From the command line itself: the message and what to do.
-    Arguments(String, String),
-    /// Runs of a sweep failed; its table is written all the same.
-    Runs {
-        /// How many.
-        failed: usize,
-        /// Of how many.
-        all: usize,
-        /// The table.
-        table: PathBuf,
-    },
-    /// Standard output is closed or full.
-    Output(std::io::Error),
-}
-
-impl Failure {
-    /// The exit code.
-    pub fn code(&self) -> u8 {
-        match self {
-            Failure::Library(Error::Run(_)) => 3,
-            Failure::Library(Error::Interrupted(_)) => crate::INTERRUPTED,
-            _ => crate::INPUT,
-        }
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(e: Error) -> Self {
-        Failure::Library(e)
-    }
-}
-
-impl From<stickslip::error::ProblemError> for Failure {
-    fn from(e: stickslip::error::ProblemError) -> Self {
-        Failure::Library(Error::Problem(e))
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(e: std::io::Error) -> Self {
-        Failure::Output(e)
     }
 }

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use serde_json::Value;
 use stickslip::problem::{FamilyListing, families, nearest};
 
-use super::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::print;
 
 /// Width of the printed text in characters.

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use stickslip_report::plot::{self, Picture, View, When};
 
-use super::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::print;
 
 /// Make a picture of results, PNG or SVG, or plot columns of the history.

@@ -6,7 +6,7 @@ use stickslip::io::write_atomically;
 use stickslip::problem::Problem;
 use stickslip_report::Limits;
 
-use super::Outcome;
+use crate::failure::Outcome;
 use crate::print;
 
 /// Write a report on results: one HTML file that opens without a network.

@@ -6,7 +6,9 @@ use stickslip::newton::condensed::Library;
 use stickslip::simulation::{Claim, Observer, ResultFiles, Simulation};
 use stickslip_deck::{Printer, Status};
 
-use super::{Outcome, library, use_threads};
+use super::{library, use_threads};
+
+use crate::failure::Outcome;
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::progress::Progress;
@@ -99,7 +101,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         crate::progress::gate(quality, &simulation.summary.findings);
     }
     Ok(match quality.failed() {
-        true => ExitCode::from(crate::CHECK),
+        true => ExitCode::from(crate::failure::CHECK),
         false => ExitCode::SUCCESS,
     })
 }

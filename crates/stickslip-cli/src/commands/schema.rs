@@ -1,6 +1,6 @@
 use std::process::ExitCode;
 
-use super::Outcome;
+use crate::failure::Outcome;
 use crate::print;
 
 /// Print the JSON schema of the problem file, for completion in editors.

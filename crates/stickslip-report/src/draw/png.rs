@@ -5,7 +5,9 @@ use tiny_skia::{
     Stroke, StrokeDash, Transform,
 };
 
-use super::{Anchor, Canvas, Pen, font};
+use super::font;
+
+use super::canvas::{Anchor, Canvas, Pen};
 use crate::colour::Rgb;
 
 /// A picture in pixels.

@@ -1,6 +1,8 @@
 //! A canvas of shapes as text.
 
-use super::{Anchor, Canvas, Pen, png};
+use super::png;
+
+use super::canvas::{Anchor, Canvas, Pen};
 use crate::colour::{Rgb, hex};
 use crate::pack::base64;
 

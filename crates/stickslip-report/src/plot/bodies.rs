@@ -1,7 +1,7 @@
 //! Which bodies are drawn, and from where, so that the field can be seen.
 
-use super::Picture;
 use super::camera::{View, cross, unit};
+use super::picture::Picture;
 use crate::skin::Skin;
 
 /// What is drawn.

@@ -5,9 +5,10 @@ use stickslip::io::vtu::{self, Grid, PointFields};
 
 use super::bodies::{self, Shown};
 use super::camera::{Camera, Frame, cross, unit};
+use super::picture::Picture;
 use super::raster::{Corner, FINE, Raster};
 use super::words::{INK, SOFT, shorten};
-use super::{Picture, axis, legend};
+use super::{axis, legend};
 use crate::colour::Scale;
 use crate::draw::{Anchor, Canvas};
 use crate::field::{self, Field};

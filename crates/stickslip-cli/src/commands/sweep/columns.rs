@@ -5,7 +5,7 @@ use stickslip::error::RunError;
 use stickslip::simulation::compare::near;
 use stickslip::simulation::{Event, Observer, Simulation};
 
-use crate::commands::Failure;
+use crate::failure::Failure;
 
 /// Looks at the first row of a run. Ends the run if a column that was asked for is not there: a wrong name should
 /// not cost a whole run.

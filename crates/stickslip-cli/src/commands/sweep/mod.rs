@@ -18,14 +18,13 @@ use stickslip::simulation::{
     Claim, FileClaim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary,
 };
 
-use super::{Failure, Outcome, library, located, spare, use_threads};
+use super::{library, spare, use_threads};
+
+use crate::failure::{Failure, Outcome, located};
 use crate::progress::{found, say};
 use columns::Columns;
 use plan::Plan;
 use table::{Row, Table};
-
-/// Most runs of a sweep: more are a mistake in a range, or a matter for several sweeps.
-const MOST_RUNS: usize = 100_000;
 
 /// Run an analysis for many values and write one table: a row a run.
 #[derive(Debug, clap::Args)]
@@ -167,7 +166,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         table.path.display()
     ));
     match failed {
-        0 if poor > 0 => Ok(ExitCode::from(crate::CHECK)),
+        0 if poor > 0 => Ok(ExitCode::from(crate::failure::CHECK)),
         0 => Ok(ExitCode::SUCCESS),
         failed => Err(Failure::Runs {
             failed,

@@ -5,9 +5,8 @@ use stickslip::Diagnostic;
 use stickslip::error::ProblemError;
 use stickslip::problem::Document;
 
-use super::MOST_RUNS;
-use super::values::{self, Axis};
-use crate::commands::Failure;
+use super::values::{self, Axis, MOST_RUNS};
+use crate::failure::Failure;
 
 /// The runs: what is the same in all, and what differs.
 #[derive(Debug)]

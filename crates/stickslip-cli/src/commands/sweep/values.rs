@@ -1,6 +1,7 @@
 //! The text of an axis: `path=v1,v2,...`, where each `v` is a TOML value or a range `from..to:count`.
 
-use super::MOST_RUNS;
+/// Most runs of a sweep: more are a mistake in a range, or a matter for several sweeps.
+pub const MOST_RUNS: usize = 100_000;
 
 /// A key of the problem file and the values it takes.
 #[derive(Debug, Clone, PartialEq)]

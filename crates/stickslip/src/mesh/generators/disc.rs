@@ -1,4 +1,4 @@
-use super::Generate;
+use super::generate::Generate;
 use super::rectangle::quad4;
 use super::round::Round;
 use super::round_options::Refinement;

@@ -1,5 +1,5 @@
-use super::Generate;
 use super::cuboid::hex8;
+use super::generate::Generate;
 use super::round::Round;
 use super::round_options::{Refinement, Sector};
 use super::solid_ball::downwards;

@@ -1,5 +1,5 @@
-use super::Generate;
 use super::disc::downwards;
+use super::generate::Generate;
 use super::rectangle::quad4;
 use super::round::Round;
 use super::round_options::Refinement;

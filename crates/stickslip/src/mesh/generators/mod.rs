@@ -5,6 +5,7 @@
 
 mod cuboid;
 mod disc;
+mod generate;
 mod grading;
 mod half_ball;
 mod half_disc;
@@ -17,11 +18,9 @@ mod solid_ball;
 #[cfg(test)]
 mod tests;
 
-use super::Mesh;
-use crate::error::MeshError;
-
 pub use cuboid::Cuboid;
 pub use disc::Disc;
+pub use generate::Generate;
 pub use grading::{Grading, Stretch};
 pub use half_ball::HalfBall;
 pub use half_disc::HalfDisc;
@@ -29,15 +28,6 @@ pub use lattice::Diagonal;
 pub use rectangle::Rectangle;
 pub use round_options::{Refinement, Sector};
 pub use solid_ball::Ball;
-
-/// Makes a mesh from a few numbers. Points and cells are numbered from 1 in the order in which they are stored.
-pub trait Generate {
-    /// The mesh; it passes [`Mesh::check`].
-    ///
-    /// # Errors
-    /// If the numbers make no sense, with what they should be.
-    fn generate(&self) -> Result<Mesh, MeshError>;
-}
 
 crate::family! {
     /// The built-in meshes.

@@ -1,4 +1,4 @@
-use super::Generate;
+use super::generate::Generate;
 use super::grading::{Edge, Grading, affordable};
 use super::lattice::{Diagonal, Lattice, LatticeCell, at};
 use crate::error::MeshError;

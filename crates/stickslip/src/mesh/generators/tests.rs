@@ -1,8 +1,10 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::error::MeshError;
 use crate::math::{cross, distance, dot, scale, sub};
 use crate::mesh::FacetRef;
+use crate::mesh::Mesh;
 use crate::registry::{Family, Samples};
 use crate::shape::ElementKind;
 

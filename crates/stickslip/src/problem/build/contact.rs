@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::{FacetShape, Interface as Table, Problem, Roles};
 use super::faces::FaceGroups;
-use super::problem_error;
+use super::fault::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::{Space, tributary_areas};

@@ -1,7 +1,7 @@
 //! Equations and springs between points.
 
 use super::super::Problem;
-use super::problem_error;
+use super::fault::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
 use crate::body::couplings::{Coupling, CouplingKind, Couplings, Tie};

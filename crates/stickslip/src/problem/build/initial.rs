@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::Problem;
-use super::problem_error;
+use super::fault::problem_error;
 use super::rigid::{RigidBodies, refuse};
 use super::sets::Sets;
 use crate::error::{Diagnostic, Error};

@@ -2,17 +2,20 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::{Body, MeshSource, Problem};
-use super::{Meshes, problem_error};
+use super::fault::problem_error;
 use crate::body::Part;
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::io::gmsh;
 use crate::material::Stiffness;
 use crate::math::{add, scale};
 use crate::mesh::{Block, CellRef, Mesh};
+
+/// Meshes from memory, by the name under which a problem asks for them as a file: `gmsh = { file = "NAME" }`.
+pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
 
 /// All bodies in one mesh.
 pub(super) struct Built {

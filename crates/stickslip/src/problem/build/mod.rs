@@ -3,6 +3,7 @@
 mod contact;
 mod couplings;
 mod faces;
+mod fault;
 mod initial;
 mod meshes;
 mod rigid;
@@ -11,24 +12,22 @@ mod sets;
 mod snap;
 mod unused;
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::{Problem, SpaceKind};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
 use crate::body::{Elastic, Space};
-use crate::error::{Diagnostic, Error, ProblemError};
-use crate::mesh::Mesh;
+use crate::error::{Diagnostic, Error};
 use crate::newton::Settings;
 use crate::simulation::{Body, Model, OutputPlan, Prescribed, Probe, Support};
 use crate::system::{Dofs, Links};
+pub use meshes::Meshes;
+
+use fault::problem_error;
 use rigid::RigidBodies;
 use schedules::Timeline;
 use sets::Sets;
-
-/// Meshes from memory, by the name under which a problem asks for them as a file: `gmsh = { file = "NAME" }`.
-pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
 
 impl Problem {
     /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
@@ -177,25 +176,6 @@ impl Problem {
             mesh,
         })
     }
-}
-
-impl Diagnostic {
-    /// The same with its key below `parent`.
-    pub(crate) fn under(mut self, parent: &str) -> Self {
-        self.key = match self.key.as_str() {
-            "" => parent.to_string(),
-            key => format!("{parent}.{key}"),
-        };
-        self
-    }
-}
-
-fn problem_error(findings: Vec<Diagnostic>) -> Error {
-    Error::Problem(ProblemError {
-        file: None,
-        source: String::new(),
-        findings,
-    })
 }
 
 fn space(problem: &Problem) -> Space {

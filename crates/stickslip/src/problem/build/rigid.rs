@@ -1,6 +1,6 @@
 //! Rigid bodies: their mass from the mesh, and what is said of their points turned into something said of the bodies.
 
-use super::problem_error;
+use super::fault::problem_error;
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, sub, symmetric_eigen};

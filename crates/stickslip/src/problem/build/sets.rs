@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::{Problem, Select};
-use super::problem_error;
+use super::fault::problem_error;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, distance, dot, normalize, sub};
 use crate::mesh::{CellRef, FacetRef, Mesh};

@@ -4,13 +4,15 @@
 //! motion (`motion.rs`).
 //! Ranges of single numbers are stated where the key is declared and checked with the schema.
 
+mod findings;
 mod motion;
 mod names;
 mod steps;
 mod tables;
 
-use super::{FORMAT, Problem, key};
+use super::{FORMAT, Problem};
 use crate::error::Diagnostic;
+use findings::Findings;
 
 /// All findings, without places.
 pub(super) fn check(problem: &Problem) -> Vec<Diagnostic> {
@@ -24,46 +26,4 @@ pub(super) fn check(problem: &Problem) -> Vec<Diagnostic> {
     steps::check(problem, &mut findings);
     motion::check(problem, &mut findings);
     findings.0
-}
-
-struct Findings(Vec<Diagnostic>);
-
-impl Findings {
-    /// An empty help is none.
-    fn add(&mut self, key: &[&str], message: impl Into<String>, help: impl Into<String>) {
-        let help: String = help.into();
-        self.0.push(Diagnostic {
-            message: message.into(),
-            key: key::join(key),
-            span: None,
-            help: (!help.is_empty()).then_some(help),
-        });
-    }
-
-    /// What a model says about its own parameters; a parameter may be a path.
-    fn faults(&mut self, key: &[&str], faults: Vec<(&'static str, String)>) {
-        for (parameter, message) in faults {
-            self.0.push(Diagnostic::new(
-                format!("{}.{parameter}", key::join(key)),
-                format!("`{parameter}` {message}"),
-            ));
-        }
-    }
-
-    /// A vector must have a component a dimension, all finite.
-    fn vector(&mut self, problem: &Problem, key: &[&str], vector: &[f64]) {
-        let space = problem.model.space;
-        let (dim, components) = match space.dim() {
-            2 => (2, "x, y"),
-            n => (n, "x, y, z"),
-        };
-        if vector.len() != dim {
-            let message = format!(
-                "expected {dim} components ({components}) because the model is {}, found {}",
-                space.name(),
-                vector.len()
-            );
-            self.add(key, message, "");
-        }
-    }
 }

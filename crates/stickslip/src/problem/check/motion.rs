@@ -1,7 +1,7 @@
 //! What dynamic steps need.
 
 use super::super::Problem;
-use super::Findings;
+use super::findings::Findings;
 use crate::registry::Family;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {

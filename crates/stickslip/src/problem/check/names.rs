@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
 use super::super::{Problem, Select};
-use super::Findings;
+use super::findings::Findings;
 use crate::registry::Family;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
 use super::super::{Increments, Problem, Step};
-use super::Findings;
+use super::findings::Findings;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     if problem.step.is_empty() {

@@ -1,7 +1,7 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
 use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
-use super::Findings;
+use super::findings::Findings;
 use crate::body::Formulation;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::Start;

@@ -1,0 +1,80 @@
+//! What a command ends with: exit codes, and why it could not do its work.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stickslip::Error;
+use stickslip::error::ProblemError;
+use stickslip::problem::Document;
+use stickslip_deck::DeckError;
+
+/// The input is wrong; also the code of a wrong command line.
+pub const INPUT: u8 = 1;
+
+/// Results fail a check or the quality gate.
+pub const CHECK: u8 = 2;
+
+/// Stopped by Ctrl-C; results up to there are complete.
+pub const INTERRUPTED: u8 = 130;
+
+/// What a command ends with.
+pub type Outcome = Result<ExitCode, Failure>;
+
+/// Why a command could not do its work.
+#[derive(Debug)]
+pub enum Failure {
+    /// From the library.
+    Library(Error),
+    /// A deck that cannot be run as it is.
+    Deck(DeckError),
+    /// From the command line itself: the message and what to do.
+    Arguments(String, String),
+    /// Runs of a sweep failed; its table is written all the same.
+    Runs {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        all: usize,
+        /// The table.
+        table: PathBuf,
+    },
+    /// Standard output is closed or full.
+    Output(std::io::Error),
+}
+
+impl Failure {
+    /// The exit code.
+    pub fn code(&self) -> u8 {
+        match self {
+            Failure::Library(Error::Run(_)) => 3,
+            Failure::Library(Error::Interrupted(_)) => INTERRUPTED,
+            _ => INPUT,
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(e: Error) -> Self {
+        Failure::Library(e)
+    }
+}
+
+impl From<ProblemError> for Failure {
+    fn from(e: ProblemError) -> Self {
+        Failure::Library(Error::Problem(e))
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(e: std::io::Error) -> Self {
+        Failure::Output(e)
+    }
+}
+
+/// Gives findings about a problem their places in its file.
+pub fn located(document: &Document, error: Error) -> Error {
+    match error {
+        Error::Problem(e) if e.source.is_empty() => Error::Problem(document.error(e.findings)),
+        other => other,
+    }
+}
