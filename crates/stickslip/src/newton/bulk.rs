@@ -1,4 +1,5 @@
-use super::settings::{Settings, Statistics};
+use super::settings::Settings;
+use super::statistics::Statistics;
 use crate::system::{Assembler, StepFailure};
 
 /// Everything that acts on the unknowns but the interfaces: bodies, springs, inertia, loads. Its forces are linear in the

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::linearised::{Operator, apply, describe, not_finite};
-use super::settings::Statistics;
+use super::failure::{describe, not_finite};
+use super::operator::Operator;
+use super::statistics::Statistics;
 use crate::linear::{
     BlockCsr, GapVariables, GmresSettings, LinearError, MeshHints, Multigrid, MultigridSettings,
     gmres,
@@ -13,15 +14,15 @@ use crate::linear::{
 use crate::math::Vec3;
 use crate::system::{Cause, ContactBlock, ContactPair, StepFailure};
 
-/// What multigrid has to know of the points of a mesh.
+/// What multigrid has to know of the points that have dofs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Places {
-    /// Coordinates of all points that have dofs `[m]`.
+pub struct BodyPoints {
+    /// Their coordinates `[m]`.
     pub coordinates: Vec<Vec3>,
     /// The body of each.
     pub bodies: Vec<u32>,
-    /// Points of the mesh; those that follow have the dofs of rigid bodies.
-    pub meshed: usize,
+    /// How many of them belong to elastic bodies; those that follow have the dofs of rigid ones.
+    pub elastic: usize,
 }
 
 /// Iterations after which a hierarchy is made anew if it is not fresh.
@@ -48,7 +49,7 @@ const FLOATING: f64 = 1e-8;
 /// one, is part of the matrix it is made of.
 #[derive(Debug)]
 pub(super) struct Grids {
-    places: Arc<Places>,
+    points: Arc<BodyPoints>,
     made: Option<Made>,
     /// Set when multigrid does not work here.
     given_up: bool,
@@ -61,7 +62,7 @@ struct Made {
     gaps: GapVariables,
     levels: Multigrid,
     /// Contact that is part of the matrix: its points and the trace of its stiffness.
-    loose: Vec<(Vec<usize>, f64)>,
+    assembled: Vec<(Vec<usize>, f64)>,
     /// Nothing has changed but what [`Multigrid::update`] takes.
     fresh: bool,
     /// The last solution took too many iterations.
@@ -72,9 +73,9 @@ struct Made {
 type Groups = Vec<(Vec<usize>, Vec<f64>)>;
 
 impl Grids {
-    pub fn new(places: Arc<Places>) -> Self {
+    pub fn new(points: Arc<BodyPoints>) -> Self {
         Grids {
-            places,
+            points,
             made: None,
             given_up: false,
             note: None,
@@ -85,7 +86,7 @@ impl Grids {
     pub fn without_levels(&self) -> Self {
         Grids {
             given_up: self.given_up,
-            ..Grids::new(Arc::clone(&self.places))
+            ..Grids::new(Arc::clone(&self.points))
         }
     }
 
@@ -116,7 +117,7 @@ impl Grids {
         statistics: &mut Statistics,
     ) -> Result<Option<(Vec<f64>, usize)>, StepFailure> {
         let dim = operator.matrix.block_size();
-        if operator.fixed[self.places.meshed * dim..]
+        if operator.fixed[self.points.elastic * dim..]
             .iter()
             .any(|fixed| !fixed)
         {
@@ -134,7 +135,7 @@ impl Grids {
             };
             let started = Instant::now();
             let report = gmres(
-                &mut |v, out| apply(operator, v, out),
+                &mut |v, out| operator.apply(v, out),
                 &mut |v| {
                     made.gaps.transpose(v);
                     made.levels.cycle(v);
@@ -200,19 +201,19 @@ impl Grids {
             made.gaps = gaps;
             made.fresh = false;
             made.slow = false;
-            let (added, loose) = split(operator, &made.gaps);
-            if changed(&made.loose, &loose) {
+            let (added, assembled) = split(operator, &made.gaps);
+            if changed(&made.assembled, &assembled) {
                 return self.set_up(operator, statistics);
             }
             made.levels
-                .refresh(&transformed(operator.matrix, &made.gaps, &loose))?;
-            made.loose = traces(&loose);
+                .refresh(&transformed(operator.matrix, &made.gaps, &assembled))?;
+            made.assembled = traces(&assembled);
             made.levels.update(&added);
             statistics.refreshes += 1;
             return Ok(());
         }
-        let (added, loose) = split(operator, &made.gaps);
-        if changed(&made.loose, &loose) || made.slow && !made.fresh {
+        let (added, assembled) = split(operator, &made.gaps);
+        if changed(&made.assembled, &assembled) || made.slow && !made.fresh {
             return self.set_up(operator, statistics);
         }
         made.levels.update(&added);
@@ -234,19 +235,19 @@ impl Grids {
                 normals.push((pair.point, pair.normal));
             }
         }
-        let (added, loose) = split(operator, &gaps);
+        let (added, assembled) = split(operator, &gaps);
         let hints = MeshHints {
-            coordinates: &self.places.coordinates,
-            bodies: &self.places.bodies,
+            coordinates: &self.points.coordinates,
+            bodies: &self.points.bodies,
             gaps: &normals,
         };
         let mut settings = MultigridSettings::default();
-        if floats(operator, &self.places) {
+        if floats(operator, &self.points) {
             // halves the iterations, at half as much again for each
             settings.smoother_steps = 3;
             settings.smoother_ratio = 20.0;
         }
-        let matrix = transformed(operator.matrix, &gaps, &loose);
+        let matrix = transformed(operator.matrix, &gaps, &assembled);
         let mut levels = Multigrid::new(&matrix, operator.fixed, hints, settings)?;
         levels.update(&added);
         statistics.setups += 1;
@@ -257,7 +258,7 @@ impl Grids {
             fixed: operator.fixed.to_vec(),
             gaps,
             levels,
-            loose: traces(&loose),
+            assembled: traces(&assembled),
             fresh: true,
             slow: false,
         });
@@ -341,7 +342,7 @@ fn drift(operator: Operator, gaps: &GapVariables) -> f64 {
 fn split(operator: Operator, gaps: &GapVariables) -> (Vec<(usize, [f64; 9])>, Groups) {
     let dim = operator.matrix.block_size();
     let mut added: Vec<(usize, [f64; 9])> = Vec::new();
-    let mut loose = Vec::new();
+    let mut assembled = Vec::new();
     let drifts = drifts(operator, gaps);
     for block in operator.blocks {
         if block.surrogate.iter().all(|s| *s == 0.0) {
@@ -349,7 +350,7 @@ fn split(operator: Operator, gaps: &GapVariables) -> (Vec<(usize, [f64; 9])>, Gr
         }
         let point = block.dofs[0] / dim;
         if !is_gap_stiffness(block, operator, gaps, &drifts) {
-            loose.push(group(block, dim));
+            assembled.push(group(block, dim));
             continue;
         }
         let mut stiffness = [0.0; 9];
@@ -369,7 +370,7 @@ fn split(operator: Operator, gaps: &GapVariables) -> (Vec<(usize, [f64; 9])>, Gr
         }
         same
     });
-    (added, loose)
+    (added, assembled)
 }
 
 /// Whether a block acts on the gap of its first point: on nothing free but the point and the facet it has a gap to.
@@ -416,12 +417,12 @@ fn group(block: &ContactBlock, dim: usize) -> (Vec<usize>, Vec<f64>) {
     (points, dense)
 }
 
-fn traces(loose: &Groups) -> Vec<(Vec<usize>, f64)> {
+fn traces(assembled: &Groups) -> Vec<(Vec<usize>, f64)> {
     let trace = |(points, dense): &(Vec<usize>, Vec<f64>)| {
         let width = dense.len().isqrt();
         (points.clone(), dense.iter().step_by(width + 1).sum())
     };
-    loose.iter().map(trace).collect()
+    assembled.iter().map(trace).collect()
 }
 
 /// Whether stiffnesses are not nearly those of before.
@@ -434,18 +435,18 @@ fn changed(before: &[(Vec<usize>, f64)], now: &Groups) -> bool {
 }
 
 /// The matrix in gap variables.
-fn transformed(matrix: &BlockCsr, gaps: &GapVariables, loose: &Groups) -> BlockCsr {
-    if loose.is_empty() {
+fn transformed(matrix: &BlockCsr, gaps: &GapVariables, assembled: &Groups) -> BlockCsr {
+    if assembled.is_empty() {
         gaps.transform(matrix)
     } else {
-        gaps.transform(&matrix.with_groups(loose))
+        gaps.transform(&matrix.with_groups(assembled))
     }
 }
 
 /// Whether a body may be shifted at next to no cost.
-fn floats(operator: Operator, places: &Places) -> bool {
+fn floats(operator: Operator, points: &BodyPoints) -> bool {
     let dim = operator.matrix.block_size();
-    let count = places.bodies.iter().max().map_or(0, |m| *m as usize + 1);
+    let count = points.bodies.iter().max().map_or(0, |m| *m as usize + 1);
     let diagonal = operator.matrix.diagonal();
     let mut out = vec![0.0; diagonal.len()];
     (0..dim).any(|c| {
@@ -456,7 +457,7 @@ fn floats(operator: Operator, places: &Places) -> bool {
         operator.matrix.mul(&shift, &mut out);
         let (mut cost, mut scale) = (vec![0.0; count], vec![0.0; count]);
         for dof in (c..diagonal.len()).step_by(dim).filter(|&dof| moves(dof)) {
-            let body = places.bodies[dof / dim] as usize;
+            let body = points.bodies[dof / dim] as usize;
             cost[body] += out[dof];
             scale[body] += diagonal[dof];
         }

@@ -3,25 +3,13 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::grids::{Grids, Places};
-use super::settings::{Settings, Statistics};
-use crate::linear::{BlockCsr, Factor, GmresSettings, LinearError, Symbolic, gmres};
-use crate::system::{Cause, ContactBlock, ContactPair, StepFailure};
-
-/// The matrix of one Newton iteration: the bulk on the free dofs plus the blocks of the interfaces.
-#[derive(Debug, Clone, Copy)]
-pub struct Operator<'a> {
-    /// The bulk, over all dofs.
-    pub matrix: &'a BlockCsr,
-    /// Prescribed dofs, whose rows and columns are left out.
-    pub fixed: &'a [bool],
-    /// Contact points.
-    pub blocks: &'a [ContactBlock],
-    /// Dofs that may come to be coupled by contact, for the symbolic factorisation.
-    pub couplings: &'a [Vec<usize>],
-    /// Which points meet which facets, for multigrid.
-    pub pairs: &'a [ContactPair],
-}
+use super::failure::{describe, not_finite, not_reached};
+use super::grids::{BodyPoints, Grids};
+use super::operator::Operator;
+use super::settings::Settings;
+use super::statistics::Statistics;
+use crate::linear::{Factor, GmresSettings, LinearError, Symbolic, gmres};
+use crate::system::StepFailure;
 
 /// A symmetric positive definite factor that outlives the state it was made at.
 ///
@@ -50,9 +38,9 @@ impl Linearised {
     }
 
     /// Solves by multigrid on this mesh.
-    pub(super) fn multigrid(places: Arc<Places>) -> Self {
+    pub(super) fn multigrid(points: Arc<BodyPoints>) -> Self {
         Linearised {
-            grids: Some(Grids::new(places)),
+            grids: Some(Grids::new(points)),
             ..Linearised::default()
         }
     }
@@ -150,13 +138,7 @@ impl Linearised {
         let (x, its, done) = self.krylov(operator, b, tolerance, 200, statistics)?;
         spent += its;
         if !done {
-            return Err(StepFailure::new(
-                Cause::LinearSolver,
-                format!("the linear solver did not reach its tolerance in {its} iterations"),
-            )
-            .help(
-                "a body may be nearly free to move; `stickslip check` lists free rigid-body modes",
-            ));
+            return Err(not_reached(its));
         }
         self.stale = its > settings.krylov_patience;
         Ok((x, spent))
@@ -176,7 +158,7 @@ impl Linearised {
         };
         let mut x = vec![0.0; b.len()];
         let report = gmres(
-            &mut |v, out| apply(operator, v, out),
+            &mut |v, out| operator.apply(v, out),
             &mut |v| factor.solve(v),
             b,
             &mut x,
@@ -192,43 +174,5 @@ impl Linearised {
             return Err(not_finite());
         }
         Ok((x, report.iterations, report.converged))
-    }
-}
-
-pub(super) fn not_finite() -> StepFailure {
-    StepFailure::new(Cause::NotFinite, "the linear solution is not finite")
-}
-
-/// `out = (bulk + blocks) v` on the free dofs.
-pub(super) fn apply(operator: Operator, v: &[f64], out: &mut [f64]) {
-    operator.matrix.mul(v, out);
-    let (mut moved, mut force) = (Vec::new(), Vec::new());
-    for block in operator.blocks {
-        moved.clear();
-        moved.extend(block.dofs.iter().map(|&dof| v[dof]));
-        force.clear();
-        force.resize(moved.len(), 0.0);
-        block.apply(&moved, &mut force);
-        for (&dof, f) in block.dofs.iter().zip(&force) {
-            out[dof] += f;
-        }
-    }
-    for (o, &fixed) in out.iter_mut().zip(operator.fixed) {
-        if fixed {
-            *o = 0.0;
-        }
-    }
-}
-
-pub(super) fn describe(error: LinearError) -> StepFailure {
-    let cause = match error {
-        LinearError::Singular { .. } | LinearError::NotPositive { .. } => Cause::Singular,
-        LinearError::NotFinite { .. } => Cause::NotFinite,
-        LinearError::OutOfMemory { .. } => Cause::Memory,
-        _ => Cause::LinearSolver,
-    };
-    StepFailure {
-        dof: error.dof(),
-        ..StepFailure::new(cause, error.to_string())
     }
 }

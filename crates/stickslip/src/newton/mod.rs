@@ -4,19 +4,36 @@
 //! [`Whole`] is the bulk as one sparse matrix, factored whenever the interfaces have changed too much, or solved by multigrid; in
 //! [`condensed`] it is factored once.
 
+mod attempt;
+mod balance;
 mod bulk;
 pub mod condensed;
+mod equilibrium;
+mod factors;
+mod failure;
 mod grids;
 mod linearised;
+mod operator;
+mod progress;
+mod rounds;
 mod settings;
 mod solve;
+mod statistics;
+mod step_length;
 mod strategy;
+mod system;
+mod ways;
 mod whole;
 
 pub use bulk::Bulk;
-pub use grids::Places;
-pub use linearised::{Linearised, Operator};
-pub use settings::{Progress, Settings, Statistics};
-pub use solve::{Converged, Newton, System};
+pub use factors::Factors;
+pub use grids::BodyPoints;
+pub use linearised::Linearised;
+pub use operator::Operator;
+pub use progress::{Converged, Progress};
+pub use settings::Settings;
+pub use solve::Newton;
+pub use statistics::Statistics;
 pub use strategy::{Fallback, Strategy};
-pub use whole::{Factors, Origin, Whole};
+pub use system::System;
+pub use whole::{Origin, Whole};

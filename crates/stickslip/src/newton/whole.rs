@@ -1,11 +1,10 @@
 //! The bulk as one sparse matrix, solved anew in every iteration.
 
-use std::sync::Arc;
-
 use super::bulk::Bulk;
-use super::grids::Places;
-use super::linearised::{Linearised, Operator};
-use super::settings::{Settings, Statistics};
+use super::linearised::Linearised;
+use super::operator::Operator;
+use super::settings::Settings;
+use super::statistics::Statistics;
 use crate::linear::BlockCsr;
 use crate::system::{Assembler, StepFailure};
 
@@ -128,62 +127,4 @@ impl Bulk for Whole<'_> {
     }
 
     fn advance(&mut self, _step: f64) {}
-}
-
-/// The factors, or multigrid hierarchies, of several matrices, told apart by keys.
-#[derive(Debug, Default)]
-pub struct Factors {
-    /// The last used last.
-    kept: Vec<(u64, Linearised)>,
-    /// Set where multigrid is to be used.
-    places: Option<Arc<Places>>,
-    notes: Vec<String>,
-}
-
-/// Most matrices whose factors are kept.
-const MOST_FACTORS: usize = 4;
-
-/// Most matrices whose hierarchies are kept.
-const MOST_HIERARCHIES: usize = 2;
-
-impl Factors {
-    /// Hierarchies on this mesh in place of factors. Where multigrid fails, factors take over, and [`notes`](Factors::notes) tell why.
-    pub fn multigrid(places: Places) -> Self {
-        Factors {
-            places: Some(Arc::new(places)),
-            ..Factors::default()
-        }
-    }
-
-    /// The factor for the matrix with this key. The least recently used one is dropped when there are too many.
-    pub fn of(&mut self, key: u64) -> &mut Linearised {
-        let last = match self.kept.iter().position(|(k, _)| *k == key) {
-            Some(i) => self.kept.remove(i),
-            None => {
-                // the symbolic factorisation serves all
-                let like = self.kept.last().map(|(_, l)| l.without_factor());
-                let new = || self.places.clone().map(Linearised::multigrid);
-                (key, like.or_else(new).unwrap_or_default())
-            }
-        };
-        let most = if last.1.uses_multigrid() {
-            MOST_HIERARCHIES
-        } else {
-            MOST_FACTORS
-        };
-        while self.kept.len() >= most {
-            self.notes.extend(self.kept[0].1.note());
-            self.kept.remove(0);
-        }
-        self.kept.push(last);
-        let i = self.kept.len() - 1;
-        &mut self.kept[i].1
-    }
-
-    /// What a user should know since the last time somebody asked.
-    pub fn notes(&mut self) -> Vec<String> {
-        let mut notes = std::mem::take(&mut self.notes);
-        notes.extend(self.kept.iter_mut().filter_map(|(_, l)| l.note()));
-        notes
-    }
 }

@@ -8,7 +8,7 @@ use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::{Change, Interface};
 use crate::math::Mat3;
 use crate::mesh::Mesh;
-use crate::newton::{Places, Settings};
+use crate::newton::{BodyPoints, Settings};
 use crate::system::{Dofs, Fields, Links, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
@@ -170,7 +170,7 @@ impl Model {
     }
 
     /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).
-    pub fn places(&self) -> Places {
+    pub fn places(&self) -> BodyPoints {
         let meshed = self.mesh.points.len();
         let mut bodies = vec![self.bodies.len() as u32; self.dofs.points];
         for (i, body) in self.bodies.iter().enumerate() {
@@ -178,10 +178,10 @@ impl Model {
         }
         let mut coordinates = self.mesh.points.clone();
         coordinates.resize(self.dofs.points, [0.0; 3]);
-        Places {
+        BodyPoints {
             coordinates,
             bodies,
-            meshed,
+            elastic: meshed,
         }
     }
 

@@ -4,7 +4,8 @@ use super::condensation::Condensation;
 use super::lu::{Entry, Lu};
 use super::substructure::{Floating, dot, norm};
 use crate::linear::{Compliance, GmresSettings, gmres};
-use crate::newton::settings::{Settings, Statistics};
+use crate::newton::settings::Settings;
+use crate::newton::statistics::Statistics;
 use crate::system::{Cause, ContactBlock, StepFailure};
 
 /// Solves `(I + K W) y = …` for the forces at the dofs that interfaces touch.

@@ -1,7 +1,8 @@
 use super::condensation::Condensation;
 use super::gaps::{Gaps, TINY};
 use crate::newton::bulk::Bulk;
-use crate::newton::settings::{Settings, Statistics};
+use crate::newton::settings::Settings;
+use crate::newton::statistics::Statistics;
 use crate::system::{Assembler, Cause, StepFailure};
 
 /// The bulk as it is felt at the contact candidates.

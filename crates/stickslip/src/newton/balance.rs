@@ -1,0 +1,110 @@
+use std::time::Instant;
+
+use super::statistics::Statistics;
+use super::system::System;
+use crate::system::{Assembler, Links, Stage, State, StepFailure};
+
+/// A residual and what it is compared with.
+pub(super) struct Balance {
+    /// Bulk and interfaces, by dof.
+    pub forces: Vec<f64>,
+    /// Norm over the free dofs.
+    pub norm: f64,
+    /// Size of the forces in play.
+    pub scale: f64,
+    /// What rounding leaves of the forces.
+    pub floor: f64,
+    /// The merit function: out-of-balance forces and residuals of multipliers.
+    pub merit: f64,
+}
+
+/// Roundings of the largest term that the force at a dof of the bulk may be off by: a row of a stiffness has terms of both signs.
+const ROUNDINGS: f64 = 4.0;
+
+impl Balance {
+    /// Evaluates all forces from the state `from` at the state `at`; `out` gets those of the interfaces, with their tangents if `tangent`.
+    pub fn evaluate(
+        system: &mut System,
+        (from, at): (&State, &State),
+        out: &mut Assembler,
+        tangent: bool,
+        statistics: &mut Statistics,
+    ) -> Result<Balance, StepFailure> {
+        let started = Instant::now();
+        let stage = Stage {
+            from,
+            at,
+            dt: at.t - from.t,
+            rate: system.rate,
+        };
+        out.reset(tangent);
+        for force in &mut system.contact {
+            force.prepare(&stage);
+            force.assemble(&stage, out)?;
+        }
+        statistics.seconds_contact += started.elapsed().as_secs_f64();
+        let mut forces = vec![0.0; at.u.len()];
+        let others = system.bulk.forces(&at.u, &mut forces);
+        // Forces in play are those on the points: what a rigid body gets from two sides may cancel.
+        let contact: f64 = out.residual.iter().map(|r| r * r).sum();
+        transfer(system.links, out);
+        if tangent && !out.tentative {
+            system.bulk.covers(out)?;
+        }
+        let (mut norm, mut bulk) = (0.0, 0.0);
+        let fixed = system.bulk.fixed();
+        for &i in system.bulk.dofs() {
+            forces[i] += out.residual[i];
+            if !fixed[i] {
+                let stiffness = system.bulk.diagonal(i);
+                bulk += (ROUNDINGS * f64::EPSILON * stiffness * at.u[i]).powi(2);
+                norm += forces[i] * forces[i];
+            }
+        }
+        Ok(Balance {
+            forces,
+            norm: norm.sqrt(),
+            merit: (norm + out.multiplier_merit).sqrt(),
+            scale: others.max(contact.sqrt()),
+            floor: (out.rounding + bulk).sqrt(),
+        })
+    }
+
+    /// The out-of-balance force relative to the forces in play.
+    pub fn relative(&self) -> f64 {
+        if self.norm == 0.0 {
+            0.0
+        } else {
+            self.compared(self.norm)
+        }
+    }
+
+    /// A force relative to those in play.
+    pub fn compared(&self, force: f64) -> f64 {
+        force / self.scale.max(f64::MIN_POSITIVE)
+    }
+
+    /// The force that counts as none.
+    pub fn target(&self, tolerance: f64) -> f64 {
+        (tolerance * self.scale).max(self.floor)
+    }
+}
+
+/// Lets what acts on the points of rigid bodies act on the bodies.
+fn transfer(links: &Links, out: &mut Assembler) {
+    if links.is_empty() {
+        return;
+    }
+    links.transfer(&mut out.residual);
+    links.transfer(&mut out.condensed);
+    for block in &mut out.blocks {
+        if let Some(moved) = links.transform(block) {
+            *block = moved;
+        }
+    }
+    for dofs in &mut out.couplings {
+        if let Some(moved) = links.transform_dofs(dofs) {
+            *dofs = moved;
+        }
+    }
+}
