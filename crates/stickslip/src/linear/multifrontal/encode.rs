@@ -7,6 +7,7 @@ use super::super::ordering::NONE;
 use super::super::symbolic::FIXED;
 use super::numeric::PartialFactor;
 use super::symbolic::Fronts;
+use super::tree::FrontTree;
 
 /// Names the format and its version.
 const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
@@ -39,8 +40,8 @@ impl PartialFactor {
         }
         let counts = (0..fronts.len()).map(|front| fronts.sizes(front).1 as u32);
         write_indices(out, fronts.position_of.iter().copied())?;
-        write_indices(out, fronts.first[1..].iter().copied())?;
-        write_indices(out, fronts.parents.iter().copied())?;
+        write_indices(out, fronts.tree.first[1..].iter().copied())?;
+        write_indices(out, fronts.tree.parents.iter().copied())?;
         write_indices(out, counts)?;
         write_indices(out, fronts.rows.iter().copied())?;
         let mut bytes = Vec::new();
@@ -97,25 +98,21 @@ impl PartialFactor {
             return Err(invalid("counts"));
         }
         let position_of = read_indices(input, (end - start) * block)?;
-        let mut first = vec![0];
-        first.extend(read_indices(input, fronts)?);
+        let first = read_indices(input, fronts)?;
         let parents = read_indices(input, fronts)?;
         let row_counts = read_indices(input, fronts)?;
         let rows = read_indices(input, rows)?;
-
+        let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
+        tree.first.extend(first);
         let fronts = Fronts {
             shape: (points, block),
             points: start..end,
             interior: vec![NONE; interior],
             root: vec![NONE; root],
             position_of,
-            first,
-            parents,
-            row_starts: vec![0],
+            tree,
             rows,
             targets: Vec::new(),
-            child_starts: Vec::new(),
-            children: Vec::new(),
             pieces: Vec::new(),
         };
         let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
@@ -164,11 +161,11 @@ fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
         }
     }
     let complete = !fronts.interior.contains(&NONE) && fronts.root.is_sorted_by(|a, b| a < b);
-    let ordered = fronts.first.is_sorted_by(|a, b| a < b);
+    let ordered = fronts.tree.first.is_sorted_by(|a, b| a < b);
     if !(complete && !fronts.root.contains(&NONE) && ordered) {
         return None;
     }
-    if fronts.first.last() != Some(&(interior as u32)) {
+    if fronts.tree.first.last() != Some(&(interior as u32)) {
         return None;
     }
     let mut start = 0usize;
@@ -177,33 +174,15 @@ fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
         let rows = fronts.rows.get(start..end)?;
         let behind = rows
             .first()
-            .is_none_or(|&row| row >= fronts.first[front + 1]);
+            .is_none_or(|&row| row >= fronts.tree.first[front + 1]);
         let inside = rows.last().is_none_or(|&row| (row as usize) < n);
         if !(behind && inside && rows.is_sorted_by(|a, b| a < b)) {
             return None;
         }
-        fronts.row_starts.push(end);
+        fronts.tree.row_starts.push(end);
         start = end;
     }
     (start == fronts.rows.len()).then_some(())?;
-    // Subtrees have to be contiguous, parents behind them.
-    let count = fronts.parents.len();
-    let mut sizes = vec![1usize; count];
-    let mut begins: Vec<usize> = (0..count).collect();
-    for front in 0..count {
-        if begins[front] + sizes[front] != front + 1 {
-            return None;
-        }
-        let parent = fronts.parents[front];
-        if parent != NONE {
-            let parent = parent as usize;
-            if parent <= front || parent >= count {
-                return None;
-            }
-            sizes[parent] += sizes[front];
-            begins[parent] = begins[parent].min(begins[front]);
-        }
-    }
     fronts.link()?;
     Some(fronts)
 }

@@ -8,98 +8,193 @@ use faer::sparse::linalg::cholesky::simplicial;
 
 use super::super::ordering::{Graph, NONE};
 use super::super::{BlockCsr, LinearError};
+use super::supernodes::Supernodes;
 
-/// Refuses couplings of a free dof of the points to a free dof elsewhere.
-pub(super) fn check_closed(
-    matrix: &BlockCsr,
-    points: &Range<usize>,
-    fixed: &[bool],
-) -> Result<(), LinearError> {
-    let b = matrix.block_size();
-    let free = |point: usize| (point * b..(point + 1) * b).find(|&dof| !fixed[dof]);
-    for point in points.clone() {
-        let Some(dof) = free(point) else { continue };
-        let outside = (matrix.neighbours(point).iter())
-            .map(|&other| other as usize)
-            .filter(|other| !points.contains(other))
-            .find_map(free);
-        if let Some(other) = outside {
-            return Err(LinearError::NotAnalysed { dofs: [dof, other] });
-        }
-    }
-    Ok(())
+/// The points of a substructure that have free dofs, as nodes of a graph: those that are eliminated, behind them the kept ones.
+pub(super) struct Nodes<'a> {
+    matrix: &'a BlockCsr,
+    fixed: &'a [bool],
+    /// The points of the substructure.
+    pub points: Range<usize>,
+    /// Points that are eliminated.
+    pub inner: Vec<u32>,
+    /// Points that are kept.
+    outer: Vec<u32>,
+    /// The node of each of the points, or [`NONE`].
+    node_of: Vec<u32>,
 }
 
-/// The couplings of the points of `nodes`, by nodes, as far as `wanted` says of the other and the own node.
-pub(super) fn couplings(
-    matrix: &BlockCsr,
-    nodes: &[u32],
-    wanted: impl Fn(u32, u32) -> bool,
-    node_of: impl Fn(u32) -> u32,
-) -> Graph {
-    let mut graph = Graph {
-        starts: vec![0],
-        neighbours: Vec::new(),
-    };
-    for (own, &point) in nodes.iter().enumerate() {
-        let others = matrix.neighbours(point as usize).iter();
-        graph.neighbours.extend(
-            others
-                .map(|&other| node_of(other))
-                .filter(|&other| wanted(other, own as u32)),
-        );
-        graph.starts.push(graph.neighbours.len());
-    }
-    graph
-}
-
-/// Entries in every column of the factor of the graph of points, by step of elimination.
-pub(super) fn column_counts(
-    matrix: &BlockCsr,
-    inner: &[u32],
-    outer: &[u32],
-    order: &[u32],
-    step_of: &[u32],
-    node_of: impl Fn(u32) -> u32,
-) -> Result<Vec<usize>, LinearError> {
-    let n = step_of.len();
-    // The upper triangle, column by column; couplings among the kept points do not matter here.
-    let mut starts = vec![0];
-    let mut rows = Vec::new();
-    for step in 0..n {
-        let point = match order.get(step) {
-            Some(&node) => inner[node as usize],
-            None => outer[step - inner.len()],
+impl<'a> Nodes<'a> {
+    /// The nodes of some points. Refuses couplings of a free dof of these points to a free dof elsewhere.
+    pub fn new(
+        matrix: &'a BlockCsr,
+        points: Range<usize>,
+        fixed: &'a [bool],
+        kept: &[bool],
+    ) -> Result<Nodes<'a>, LinearError> {
+        let mut nodes = Nodes {
+            matrix,
+            fixed,
+            inner: Vec::new(),
+            outer: Vec::new(),
+            node_of: vec![NONE; points.len()],
+            points,
         };
-        let others = matrix.neighbours(point as usize).iter();
-        rows.extend(
-            others
-                .map(|&other| node_of(other))
-                .filter(|&node| node != NONE)
-                .map(|node| step_of[node as usize] as usize)
-                .filter(|&other| other < step && other < inner.len()),
-        );
-        rows.push(step);
-        starts.push(rows.len());
+        nodes.check_closed()?;
+        for point in nodes.points.clone() {
+            if nodes.free_of(point).next().is_some() {
+                let list = if kept[point] {
+                    &mut nodes.outer
+                } else {
+                    &mut nodes.inner
+                };
+                list.push(point as u32);
+            }
+        }
+        for (node, &point) in nodes.inner.iter().chain(&nodes.outer).enumerate() {
+            nodes.node_of[point as usize - nodes.points.start] = node as u32;
+        }
+        Ok(nodes)
     }
-    let upper = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &starts, None, &rows);
-    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, rows.len());
-    let mut memory =
-        MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory { bytes: 0 })?;
-    let mut parents = vec![0isize; n];
-    let mut counts = vec![0usize; n];
-    let stack = MemStack::new(&mut memory);
-    simplicial::prefactorize_symbolic_cholesky(&mut parents, &mut counts, upper, stack);
-    Ok(counts)
+
+    fn check_closed(&self) -> Result<(), LinearError> {
+        for point in self.points.clone() {
+            let Some(dof) = self.free_of(point).next() else {
+                continue;
+            };
+            let outside = (self.matrix.neighbours(point).iter())
+                .map(|&other| other as usize)
+                .filter(|other| !self.points.contains(other))
+                .find_map(|other| self.free_of(other).next());
+            if let Some(other) = outside {
+                return Err(LinearError::NotAnalysed { dofs: [dof, other] });
+            }
+        }
+        Ok(())
+    }
+
+    fn free_of(&self, point: usize) -> impl Iterator<Item = usize> {
+        let b = self.matrix.block_size();
+        (point * b..(point + 1) * b).filter(|&dof| !self.fixed[dof])
+    }
+
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.inner.len() + self.outer.len()
+    }
+
+    /// Points and block size of the matrix.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.matrix.points(), self.matrix.block_size())
+    }
+
+    /// The free dofs of a node.
+    pub fn free(&self, node: u32) -> impl Iterator<Item = u32> {
+        self.free_of(self.point(node)).map(|dof| dof as u32)
+    }
+
+    fn point(&self, node: u32) -> usize {
+        let node = node as usize;
+        let point = match node.checked_sub(self.inner.len()) {
+            None => self.inner[node],
+            Some(kept) => self.outer[kept],
+        };
+        point as usize
+    }
+
+    /// The nodes that a node is coupled to, itself among them.
+    fn coupled(&self, node: u32) -> impl Iterator<Item = u32> {
+        let others = self.matrix.neighbours(self.point(node)).iter();
+        others
+            .filter_map(|&other| (other as usize).checked_sub(self.points.start))
+            .filter_map(|local| self.node_of.get(local).copied())
+            .filter(|&node| node != NONE)
+    }
+
+    /// The couplings of the nodes that are eliminated.
+    pub fn inner_graph(&self) -> Graph {
+        let mut graph = Graph {
+            starts: vec![0],
+            neighbours: Vec::new(),
+        };
+        let count = self.inner.len() as u32;
+        for own in 0..count {
+            let others = self.coupled(own);
+            let wanted = others.filter(|&other| other < count && other != own);
+            graph.neighbours.extend(wanted);
+            graph.starts.push(graph.neighbours.len());
+        }
+        graph
+    }
+
+    /// Entries in every column of the factor of the graph of points, by step of elimination; `order` has the nodes eliminated.
+    pub fn column_counts(&self, order: &[u32]) -> Result<Vec<usize>, LinearError> {
+        let n = self.count();
+        let nodes = self.with_kept(order.iter().copied());
+        let step_of = inverse(&nodes);
+        // The upper triangle, column by column; couplings among the kept points do not matter here.
+        let mut starts = vec![0];
+        let mut rows = Vec::new();
+        for (step, &node) in nodes.iter().enumerate() {
+            rows.extend(
+                self.coupled(node)
+                    .map(|other| step_of[other as usize] as usize)
+                    .filter(|&other| other < step && other < self.inner.len()),
+            );
+            rows.push(step);
+            starts.push(rows.len());
+        }
+        let upper = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &starts, None, &rows);
+        let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, rows.len());
+        let mut memory =
+            MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory { bytes: 0 })?;
+        let mut parents = vec![0isize; n];
+        let mut counts = vec![0usize; n];
+        let stack = MemStack::new(&mut memory);
+        simplicial::prefactorize_symbolic_cholesky(&mut parents, &mut counts, upper, stack);
+        Ok(counts)
+    }
+
+    /// The nodes coupled to each group of steps behind its own ones, in the order of elimination by groups: couplings of its own and of its
+    /// children.
+    pub fn rows(&self, order: &[u32], supernodes: &Supernodes) -> Vec<Vec<u32>> {
+        let steps = supernodes.groups.iter().flatten();
+        let nodes = self.with_kept(steps.map(|&step| order[step as usize]));
+        let place_of = inverse(&nodes);
+        let coupled = |place: u32| {
+            let others = self.coupled(nodes[place as usize]);
+            others.map(|other| place_of[other as usize])
+        };
+        let mut rows = rows_of_groups(supernodes, coupled, nodes.len());
+        for place in rows.iter_mut().flatten() {
+            *place = nodes[*place as usize];
+        }
+        rows
+    }
+
+    /// The nodes eliminated in some order, behind them the kept ones.
+    fn with_kept(&self, eliminated: impl Iterator<Item = u32>) -> Vec<u32> {
+        let kept = self.inner.len() as u32..self.count() as u32;
+        eliminated.chain(kept).collect()
+    }
 }
 
-/// The places of points coupled to each group behind its own ones, ascending: its couplings and those of its children.
-pub(super) fn rows_of_groups<I: Iterator<Item = u32>>(
-    groups: &[Vec<u32>],
-    parents: &[u32],
+/// Where each number stands in a permutation.
+fn inverse(permutation: &[u32]) -> Vec<u32> {
+    let mut inverse = vec![NONE; permutation.len()];
+    for (at, &number) in permutation.iter().enumerate() {
+        inverse[number as usize] = at as u32;
+    }
+    inverse
+}
+
+/// The places of nodes coupled to each group behind its own ones, ascending: its couplings and those of its children.
+fn rows_of_groups<I: Iterator<Item = u32>>(
+    supernodes: &Supernodes,
     coupled: impl Fn(u32) -> I,
     places: usize,
 ) -> Vec<Vec<u32>> {
+    let Supernodes { groups, parents } = supernodes;
     let mut rows: Vec<Vec<u32>> = vec![Vec::new(); groups.len()];
     let mut seen_by = vec![NONE; places];
     let mut end = 0;

@@ -18,6 +18,7 @@ mod sweep;
 mod symbolic;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 pub use numeric::PartialFactor;
 pub use symbolic::Fronts;

@@ -204,10 +204,10 @@ impl Work<'_> {
             bytes: 8 * total as u64,
         })?;
         let square = |front: usize| fronts.sizes(front).1.pow(2);
-        let [even, odd] = piece.stacks(fronts, square);
+        let [even, odd] = piece.stacks(&fronts.tree, square);
         let mut stacks = [self.buffers.take(even)?, self.buffers.take(odd)?];
         let mut tops = [0; 2];
-        let depths = piece.depths(fronts);
+        let depths = piece.depths(&fronts.tree);
         let mut top = self.buffers.take(square(piece.top()))?;
         for front in piece.fronts.clone() {
             let parity = depths.of(front);
@@ -288,7 +288,7 @@ impl Work<'_> {
             }
             diagonal.push(column[j]);
         }
-        let large = dense::is_large(fronts.flops_of(front));
+        let large = dense::is_large(fronts.tree.flops_of(front));
         dense::add_to_panel(panel, columns, children, large);
         dense::factor_panel(panel, columns, large)
             .map_err(|column| LinearError::NotPositive { dof: dof(column) })?;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::ordering::NONE;
-use super::symbolic::Fronts;
+use super::tree::FrontTree;
 
 /// A subtree is split while it holds more than this part of all work.
 const PARTS: f64 = 16.0;
@@ -32,19 +32,19 @@ impl Piece {
     }
 
     /// Splits the tree by its work alone, so that nothing depends on the number of threads.
-    pub fn partition(fronts: &Fronts) -> Vec<Piece> {
-        let n = fronts.len();
-        let mut work: Vec<f64> = (0..n).map(|front| fronts.flops_of(front)).collect();
+    pub fn partition(tree: &FrontTree) -> Vec<Piece> {
+        let n = tree.len();
+        let mut work: Vec<f64> = (0..n).map(|front| tree.flops_of(front)).collect();
         let mut begin: Vec<usize> = (0..n).collect();
         for front in 0..n {
-            let parent = fronts.parents[front] as usize;
+            let parent = tree.parents[front] as usize;
             if parent < n {
                 work[parent] += work[front];
                 begin[parent] = begin[parent].min(begin[front]);
             }
         }
         let total: f64 = (0..n)
-            .filter(|&front| fronts.parents[front] == NONE)
+            .filter(|&front| tree.parents[front] == NONE)
             .map(|front| work[front])
             .sum();
         let most = (total / PARTS).max(SMALL);
@@ -54,7 +54,7 @@ impl Piece {
         let mut pieces = Vec::new();
         let mut piece_of = vec![0u32; n];
         for front in (0..n).rev() {
-            let parent = fronts.parents[front];
+            let parent = tree.parents[front];
             let above = parent == NONE || split[parent as usize];
             depth[front] = if parent == NONE {
                 0
@@ -76,7 +76,7 @@ impl Piece {
             let top = piece.top();
             piece_of[top] = at as u32;
             if split[top] {
-                let children = fronts.children(top).iter();
+                let children = tree.children(top).iter();
                 piece.children = children.map(|&front| piece_of[front as usize]).collect();
             }
         }
@@ -85,12 +85,12 @@ impl Piece {
 
     /// The largest sizes of two stacks that hold the contributions of the fronts below the top: those of even and of
     /// odd depth. A front finds its children on top of the one stack and adds its own to the other.
-    pub fn stacks(&self, fronts: &Fronts, size: impl Fn(usize) -> usize) -> [usize; 2] {
+    pub fn stacks(&self, tree: &FrontTree, size: impl Fn(usize) -> usize) -> [usize; 2] {
         let (mut now, mut most) = ([0; 2], [0; 2]);
-        let odd = self.depths(fronts);
+        let odd = self.depths(tree);
         for front in self.fronts.clone() {
             let own = odd.of(front);
-            for &child in fronts
+            for &child in tree
                 .children(front)
                 .iter()
                 .filter(|_| self.children.is_empty())
@@ -106,27 +106,27 @@ impl Piece {
     }
 
     /// The parity of the depth of each front below the top.
-    pub fn depths(&self, fronts: &Fronts) -> Depths {
+    pub fn depths(&self, tree: &FrontTree) -> Depths {
         let start = self.fronts.start;
         let mut odd = vec![0u8; self.fronts.len()];
         for front in self.fronts.clone().rev().skip(1) {
-            odd[front - start] = 1 - odd[fronts.parents[front] as usize - start];
+            odd[front - start] = 1 - odd[tree.parents[front] as usize - start];
         }
         Depths { start, odd }
     }
 
     /// The most numbers held by contributions at any time if one task does all.
-    pub fn peak(fronts: &Fronts) -> u64 {
-        let square = |front: usize| (fronts.sizes(front).1 as u64).pow(2);
-        let mut peaks = vec![0u64; fronts.pieces.len()];
+    pub fn peak(pieces: &[Piece], tree: &FrontTree) -> u64 {
+        let square = |front: usize| (tree.sizes(front).1 as u64).pow(2);
+        let mut peaks = vec![0u64; pieces.len()];
         let mut most = 0;
-        for (at, piece) in fronts.pieces.iter().enumerate() {
+        for (at, piece) in pieces.iter().enumerate() {
             let own = square(piece.top());
-            let stacks = piece.stacks(fronts, |front| square(front) as usize);
+            let stacks = piece.stacks(tree, |front| square(front) as usize);
             let (mut held, mut peak) = (0, 0);
             for &child in &piece.children {
                 peak = peak.max(held + peaks[child as usize]);
-                held += square(fronts.pieces[child as usize].top());
+                held += square(pieces[child as usize].top());
             }
             peaks[at] = peak.max(held + own + (stacks[0] + stacks[1]) as u64);
             if piece.last {

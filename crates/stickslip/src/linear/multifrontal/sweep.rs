@@ -174,9 +174,9 @@ impl<'a> Sweep<'a> {
             .unwrap_or_else(PoisonError::into_inner);
         let mut panels = &self.factor.panels[at][..];
         let rows = |front: usize| fronts.sizes(front).1 * c;
-        let mut stacks = piece.stacks(fronts, rows).map(|size| vec![0.0; size]);
+        let mut stacks = piece.stacks(&fronts.tree, rows).map(|size| vec![0.0; size]);
         let mut tops = [0; 2];
-        let depths = piece.depths(fronts);
+        let depths = piece.depths(&fronts.tree);
         let mut vector = vec![0.0; tallest(fronts, piece.fronts.clone()) * c];
         let mut product = vec![0.0; if c > 1 { vector.len() } else { 0 }];
         let mut done = 0;
@@ -280,7 +280,7 @@ impl<'a> Sweep<'a> {
             if front == piece.top() {
                 w.copy_from_slice(&stack);
             } else {
-                let parent = fronts.parents[front] as usize;
+                let parent = fronts.tree.parents[front] as usize;
                 while above.last().is_some_and(|&(last, _)| last != parent) {
                     above.pop();
                 }

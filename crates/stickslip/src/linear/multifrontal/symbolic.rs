@@ -3,9 +3,10 @@ use std::ops::Range;
 use super::super::ordering::{NONE, elimination_order, elimination_tree};
 use super::super::symbolic::FIXED;
 use super::super::{BlockCsr, LinearError};
-use super::graph::{check_closed, column_counts, couplings, rows_of_groups};
+use super::graph::Nodes;
 use super::schedule::Piece;
 use super::supernodes::Supernodes;
+use super::tree::FrontTree;
 
 /// Where the entries of a partial factor are; its size and cost are known before any arithmetic.
 ///
@@ -21,19 +22,12 @@ pub struct Fronts {
     pub(super) root: Vec<u32>,
     /// The position of each dof of `points`, or [`FIXED`].
     pub(super) position_of: Vec<u32>,
-    /// The first position a front eliminates; length `fronts + 1`.
-    pub(super) first: Vec<u32>,
-    /// The front above, or [`NONE`] for the root.
-    pub(super) parents: Vec<u32>,
-    /// Where the rows of a front start in `rows`; length `fronts + 1`.
-    pub(super) row_starts: Vec<usize>,
+    /// The fronts.
+    pub(super) tree: FrontTree,
     /// Positions of the rows below the eliminated ones, ascending in each front.
     pub(super) rows: Vec<u32>,
     /// The same rows as local rows of the front above (its eliminated ones first), or as places in `root`.
     pub(super) targets: Vec<u32>,
-    /// Where the children of a front start in `children`; length `fronts + 1`.
-    pub(super) child_starts: Vec<u32>,
-    pub(super) children: Vec<u32>,
     /// What one task does, children first.
     pub(super) pieces: Vec<Piece>,
 }
@@ -57,116 +51,59 @@ impl Fronts {
         assert_eq!(fixed.len(), matrix.rows(), "length of `fixed`");
         assert_eq!(kept.len(), matrix.points(), "length of `kept`");
         assert!(points.start <= points.end && points.end <= kept.len());
-        let b = matrix.block_size();
-        let free = |point: usize| (point * b..(point + 1) * b).filter(|&dof| !fixed[dof]);
-        let active = |point: &usize| free(*point).next().is_some();
-        check_closed(matrix, &points, fixed)?;
-
-        let inner: Vec<u32> = (points.clone())
-            .filter(|p| !kept[*p] && active(p))
-            .map(|p| p as u32)
-            .collect();
-        let outer: Vec<u32> = (points.clone())
-            .filter(|p| kept[*p] && active(p))
-            .map(|p| p as u32)
-            .collect();
-        let mut node_of = vec![NONE; points.len()];
-        for (node, &point) in inner.iter().chain(&outer).enumerate() {
-            node_of[point as usize - points.start] = node as u32;
-        }
-        let node_of = |point: u32| {
-            let local = (point as usize).checked_sub(points.start);
-            local.and_then(|at| node_of.get(at)).map_or(NONE, |&n| n)
-        };
-
-        let graph = couplings(
-            matrix,
-            &inner,
-            |node, own| (node as usize) < inner.len() && node != own,
-            node_of,
-        );
+        let nodes = Nodes::new(matrix, points, fixed, kept)?;
+        let graph = nodes.inner_graph();
         let order = elimination_order(&graph);
         let tree = elimination_tree(&graph, &order);
         drop(graph);
-        // From here on the nodes are numbered by elimination, the kept ones behind.
-        let mut step_of = vec![NONE; inner.len() + outer.len()];
-        for (step, &node) in order.iter().enumerate() {
-            step_of[node as usize] = step as u32;
-        }
-        for (node, step) in step_of.iter_mut().enumerate().skip(inner.len()) {
-            *step = node as u32;
-        }
-        let counts = column_counts(matrix, &inner, &outer, &order, &step_of, node_of)?;
-        let supernodes = Supernodes::new(&tree, &counts[..inner.len()], b);
+        let counts = nodes.column_counts(&order)?;
+        let counts = &counts[..nodes.inner.len()];
+        let supernodes = Supernodes::new(&tree, counts, matrix.block_size());
+        let rows = nodes.rows(&order, &supernodes);
+        Fronts::of_groups(&nodes, &order, supernodes, &rows)
+    }
 
-        // And now once more, by groups of columns.
-        let mut fronts = Fronts {
-            shape: (matrix.points(), b),
-            points: points.clone(),
-            interior: Vec::new(),
-            root: outer
-                .iter()
-                .flat_map(|&p| free(p as usize))
-                .map(|dof| dof as u32)
-                .collect(),
-            position_of: Vec::new(),
-            first: vec![0],
-            parents: supernodes.parents,
-            row_starts: vec![0],
-            rows: Vec::new(),
-            targets: Vec::new(),
-            child_starts: Vec::new(),
-            children: Vec::new(),
-            pieces: Vec::new(),
-        };
-        let mut place_of = vec![NONE; step_of.len()];
-        let mut place = 0;
-        for group in &supernodes.groups {
+    /// From the groups of steps eliminated together, and the nodes in the rows below each.
+    fn of_groups(
+        nodes: &Nodes,
+        order: &[u32],
+        supernodes: Supernodes,
+        rows: &[Vec<u32>],
+    ) -> Result<Fronts, LinearError> {
+        let Supernodes { groups, parents } = supernodes;
+        let mut tree = FrontTree::of(parents).expect("groups come subtree by subtree");
+        let mut interior = Vec::new();
+        for group in &groups {
             for &step in group {
-                let node = order[step as usize] as usize;
-                place_of[node] = place;
-                place += 1;
-                fronts
-                    .interior
-                    .extend(free(inner[node] as usize).map(|dof| dof as u32));
+                interior.extend(nodes.free(order[step as usize]));
             }
-            fronts.first.push(fronts.interior.len() as u32);
+            tree.first.push(interior.len() as u32);
         }
-        for (node, place) in place_of.iter_mut().enumerate().skip(inner.len()) {
-            *place = node as u32;
-        }
-        if fronts.interior.len() + fronts.root.len() >= FIXED as usize {
+        let kept = nodes.inner.len()..nodes.count();
+        let root: Vec<u32> = kept.flat_map(|node| nodes.free(node as u32)).collect();
+        if interior.len() + root.len() >= FIXED as usize {
             return Err(LinearError::OutOfMemory { bytes: 0 });
         }
+        let mut fronts = Fronts {
+            shape: nodes.shape(),
+            points: nodes.points.clone(),
+            interior,
+            root,
+            position_of: Vec::new(),
+            tree,
+            rows: Vec::new(),
+            targets: Vec::new(),
+            pieces: Vec::new(),
+        };
         fronts.number_positions();
-
-        // Rows of the fronts, first by places of points.
-        let mut point_at = vec![0; place_of.len()];
-        for (node, &place) in place_of.iter().enumerate() {
-            point_at[place as usize] = *inner
-                .get(node)
-                .unwrap_or_else(|| &outer[node - inner.len()]);
-        }
-        let rows = rows_of_groups(
-            &supernodes.groups,
-            &fronts.parents,
-            |at| {
-                let point = point_at[at as usize];
-                (matrix.neighbours(point as usize).iter())
-                    .map(|&other| node_of(other))
-                    .filter(|&node| node != NONE)
-                    .map(|node| place_of[node as usize])
-            },
-            place_of.len(),
-        );
-        for places in rows {
-            for place in places {
-                let dofs = free(point_at[place as usize] as usize);
-                fronts
-                    .rows
-                    .extend(dofs.map(|dof| fronts.position_of[dof - points.start * b]));
+        let origin = fronts.points.start * fronts.shape.1;
+        for rows in rows {
+            for &node in rows {
+                let dofs = nodes.free(node).map(|dof| dof as usize - origin);
+                let positions = dofs.map(|dof| fronts.position_of[dof]);
+                fronts.rows.extend(positions);
             }
-            fronts.row_starts.push(fronts.rows.len());
+            fronts.tree.row_starts.push(fronts.rows.len());
         }
         // Rows of a front are among those of the front above it, by construction.
         let linked = fronts.link();
@@ -183,28 +120,10 @@ impl Fronts {
         }
     }
 
-    /// Fills what follows from the rows and parents; `None` if rows are missing in a front above.
+    /// Fills what follows from the rows and the tree; `None` if rows are missing in a front above.
     pub(super) fn link(&mut self) -> Option<()> {
-        let fronts = self.len();
-        let mut starts = vec![0u32; fronts + 1];
-        for &parent in self.parents.iter().filter(|p| **p != NONE) {
-            starts[parent as usize + 1] += 1;
-        }
-        for i in 0..fronts {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        self.children = vec![0; starts[fronts] as usize];
-        for (front, &parent) in self.parents.iter().enumerate() {
-            if parent != NONE {
-                self.children[next[parent as usize] as usize] = front as u32;
-                next[parent as usize] += 1;
-            }
-        }
-        self.child_starts = starts;
-
         let mut targets = Vec::with_capacity(self.rows.len());
-        for (front, &parent) in self.parents.iter().enumerate() {
+        for (front, &parent) in self.tree.parents.iter().enumerate() {
             let (own, above) = match parent {
                 NONE => (self.interior.len()..self.interior.len(), None),
                 _ => (
@@ -225,46 +144,43 @@ impl Fronts {
             }
         }
         self.targets = targets;
-        self.pieces = Piece::partition(self);
+        self.pieces = Piece::partition(&self.tree);
         Some(())
     }
 
     /// Number of fronts, without the root.
     pub(super) fn len(&self) -> usize {
-        self.parents.len()
+        self.tree.len()
     }
 
     /// Positions a front eliminates.
     #[inline]
     pub(super) fn columns(&self, front: usize) -> Range<usize> {
-        self.first[front] as usize..self.first[front + 1] as usize
+        self.tree.columns(front)
     }
 
     /// Positions of the rows of a front below the eliminated ones.
     #[inline]
     pub(super) fn rows(&self, front: usize) -> &[u32] {
-        &self.rows[self.row_starts[front]..self.row_starts[front + 1]]
+        &self.rows[self.tree.rows(front)]
     }
 
     /// Where the rows of a front are in the front above.
     #[inline]
     pub(super) fn targets(&self, front: usize) -> &[u32] {
-        &self.targets[self.row_starts[front]..self.row_starts[front + 1]]
+        &self.targets[self.tree.rows(front)]
     }
 
     /// The fronts that contribute to a front, ascending.
     #[inline]
     pub(super) fn children(&self, front: usize) -> &[u32] {
-        &self.children[self.child_starts[front] as usize..self.child_starts[front + 1] as usize]
+        self.tree.children(front)
     }
 
     /// Columns and rows below them of a front.
     #[inline]
     pub(super) fn sizes(&self, front: usize) -> (usize, usize) {
-        (
-            self.columns(front).len(),
-            self.row_starts[front + 1] - self.row_starts[front],
-        )
+        self.tree.sizes(front)
     }
 
     /// The eliminated dofs in the order of elimination.
@@ -279,14 +195,7 @@ impl Fronts {
 
     /// Additions and multiplications of the partial factorisation, those of the Schur complement included.
     pub fn flops(&self) -> f64 {
-        (0..self.len()).map(|front| self.flops_of(front)).sum()
-    }
-
-    /// The same for one front: the square of the length of each column.
-    pub(super) fn flops_of(&self, front: usize) -> f64 {
-        let (columns, rows) = self.sizes(front);
-        let sum = |n: f64| n * (n + 1.0) * (2.0 * n + 1.0) / 6.0;
-        sum((columns + rows) as f64) - sum(rows as f64)
+        (0..self.len()).map(|front| self.tree.flops_of(front)).sum()
     }
 
     /// Stored entries of the factor on and below the diagonal, with the zeros stored to make its blocks larger.
@@ -313,7 +222,7 @@ impl Fronts {
             + self.root.len()
             + self.position_of.len()
             + 2 * self.rows.len()
-            + 8 * self.parents.len();
+            + 8 * self.len();
         4 * words as u64
     }
 
@@ -325,6 +234,6 @@ impl Fronts {
             .sum();
         let schur = (self.root.len() as u64).pow(2);
         let words = self.position_of.len() + self.interior.len() + 2 * self.rows.len();
-        8 * (blocks + schur + Piece::peak(self)) + 4 * words as u64
+        8 * (blocks + schur + Piece::peak(&self.pieces, &self.tree)) + 4 * words as u64
     }
 }

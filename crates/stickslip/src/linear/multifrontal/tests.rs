@@ -270,7 +270,7 @@ fn sizes_are_known_before() {
 fn bits_do_not_depend_on_threads() {
     let (a, fixed, kept) = cube(15);
     let fronts = Arc::new(Fronts::analyze(&a, 0..a.points(), &fixed, &kept).unwrap());
-    let large = (0..fronts.len()).filter(|&f| super::dense::is_large(fronts.flops_of(f)));
+    let large = (0..fronts.len()).filter(|&f| super::dense::is_large(fronts.tree.flops_of(f)));
     assert!(large.count() > 2);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()

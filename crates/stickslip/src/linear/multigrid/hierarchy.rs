@@ -1,12 +1,12 @@
 //! All levels together.
 
-use super::MultigridSettings;
 use super::aggregate::aggregate;
 use super::blocks::{Block, Blocks, Rows, galerkin};
 use super::bottom::Bottom;
 use super::jacobi::BlockJacobi;
 use super::level::{Added, Level, Vector};
 use super::prolong::{Nodes, Normals, smoothed, tentative};
+use super::settings::MultigridSettings;
 
 /// Levels at most; coarsening that stops to reduce ends before.
 const MAX_LEVELS: usize = 12;

@@ -1,6 +1,6 @@
 //! Two blocks on top of each other, meshes not matching, with contact on the face between them: a model problem.
 
-use super::BlockCsr;
+use super::super::BlockCsr;
 
 /// What the points of the interface do.
 #[derive(Debug, Clone, Copy, PartialEq)]
