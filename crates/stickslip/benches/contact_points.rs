@@ -14,7 +14,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
-use stickslip::contact::interface::{Initial, Interface, Memory, Primary};
+use stickslip::contact::interface::{
+    Attempt, Cache, Directives, History, Initial, Interface, Primary,
+};
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
 use stickslip::contact::response::Laws;
@@ -160,7 +162,10 @@ fn interface(
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
-        memory: Memory::default(),
+        history: History::default(),
+        attempt: Attempt::default(),
+        directives: Directives::default(),
+        cache: Cache::default(),
     }
 }
 

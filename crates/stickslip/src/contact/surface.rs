@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::contact::pairing::evaluate;
+use crate::contact::pairing::{FACET_NODES, evaluate};
 use crate::math::{Vec3, angle, distance};
 use crate::shape::ElementKind;
 
@@ -62,6 +62,17 @@ pub struct Facet {
     pub modulus: f64,
     /// User's number of the cell beneath.
     pub cell: u64,
+}
+
+impl Facet {
+    /// Coordinates of its nodes.
+    #[inline]
+    pub fn gather<'a>(&self, x: &[Vec3], out: &'a mut [Vec3; FACET_NODES]) -> &'a [Vec3] {
+        for (c, &n) in out.iter_mut().zip(&self.nodes) {
+            *c = x[n];
+        }
+        &out[..self.nodes.len()]
+    }
 }
 
 /// A face of the secondary as it lies there, whatever contact is checked at.

@@ -32,9 +32,6 @@ const FEW: f64 = 1.0 / 12.0;
 /// Part of the free memory that may be taken.
 const MEMORY: f64 = 0.85;
 
-/// Bytes of what interfaces remember, a contact point and pending increment: 625 points took 275 MB with 2 pending and 413 MB with 16.
-const PENDING: f64 = 15e3;
-
 /// Seconds above which the other ways are looked at in any case.
 const LONG: f64 = 60.0;
 
@@ -69,7 +66,7 @@ impl Simulation {
         let iterations = static_ * NEWTON[0] + moving * NEWTON[1];
         let memory = available_memory().map(|free| free as f64);
         let points: usize = self.model.interfaces.iter().map(|i| i.points.len()).sum();
-        let bytes = cost.bytes as f64 + PENDING * points as f64 * static_.min(TOGETHER as f64);
+        let bytes = cost.bytes as f64 + self.pending_bytes() as f64 * static_.min(TOGETHER as f64);
         let what = format!(
             "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
             cost.candidates,

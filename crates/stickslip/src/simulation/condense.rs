@@ -440,12 +440,8 @@ impl Simulation {
         };
         self.commit(&condensed.state, pending.trial, &pending.accepted);
         pending.seen = std::mem::take(&mut self.seen);
-        pending.memories = self
-            .model
-            .interfaces
-            .iter()
-            .map(|i| i.memory.clone())
-            .collect();
+        let interfaces = self.model.interfaces.iter();
+        pending.histories = interfaces.map(|i| i.history.clone()).collect();
         pending.couplings = self.model.couplings.memory.clone();
         let Condensed {
             condensation,

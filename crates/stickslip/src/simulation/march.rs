@@ -255,7 +255,7 @@ impl Simulation {
             fields: due,
             row: due || increment.is_multiple_of(plan.history_every),
             seen: Vec::new(),
-            memories: Vec::new(),
+            histories: Vec::new(),
             couplings: CouplingsMemory::default(),
             found: None,
         };

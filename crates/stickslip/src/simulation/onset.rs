@@ -151,8 +151,6 @@ impl Simulation {
             events: None,
             ..*dynamic
         };
-        let interfaces = &self.model.interfaces;
-        let memories: Vec<_> = interfaces.iter().map(|i| i.memory.clone()).collect();
         let couplings = self.model.couplings.memory.clone();
         let tried = TRIALS.map(|part| {
             let trial = Trial {
@@ -166,10 +164,8 @@ impl Simulation {
                 difference(&accepted.contact, &coupled)
             });
             self.model.couplings.memory = couplings.clone();
-            let interfaces = self.model.interfaces.iter_mut().zip(&memories);
-            let after: Vec<_> = interfaces
-                .map(|(i, before)| std::mem::replace(&mut i.memory, before.clone()))
-                .collect();
+            let interfaces = self.model.interfaces.iter();
+            let after: Vec<_> = interfaces.map(|i| i.tried()).collect();
             tried.map(|contact| (contact, after))
         });
         let [Ok((short, after)), Ok((long, _))] = tried else {

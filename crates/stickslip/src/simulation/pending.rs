@@ -7,7 +7,7 @@ use super::accepted::Accepted;
 use super::history;
 use super::run::{Advance, Event, Observer, Simulation};
 use crate::body::couplings::CouplingsMemory;
-use crate::contact::interface::Memory;
+use crate::contact::interface::History;
 use crate::error::Error;
 use crate::newton::Progress;
 use crate::newton::condensed::Amplitudes;
@@ -26,8 +26,8 @@ pub(super) struct Pending {
     pub row: bool,
     /// Newton iterations nobody has been told of.
     pub seen: Vec<Progress>,
-    /// What the interfaces knew after it; empty if it is reported at once.
-    pub memories: Vec<Memory>,
+    /// The histories of the interfaces after it; empty if it is reported at once.
+    pub histories: Vec<History>,
     /// The same of the couplings.
     pub couplings: CouplingsMemory,
     /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
@@ -51,8 +51,8 @@ impl Pending {
 /// Increments whose interiors are known, on their way to the observers.
 pub(super) struct Recovered {
     queue: VecDeque<Pending>,
-    /// What the interfaces know after the last of them.
-    now: Vec<Memory>,
+    /// The histories of the interfaces after the last of them.
+    now: Vec<History>,
     /// And the couplings.
     coupled: CouplingsMemory,
 }
@@ -60,7 +60,17 @@ pub(super) struct Recovered {
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
 pub(super) const TOGETHER: usize = 16;
 
+/// Vectors by dof that such an increment holds: displacements, forces of contact and loads, and what is swept to find its interior.
+const VECTORS: usize = 4;
+
 impl Simulation {
+    /// Memory that an increment takes until it is reported `[bytes]`.
+    pub(super) fn pending_bytes(&self) -> usize {
+        let interfaces = self.model.interfaces.iter();
+        let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
+        histories + VECTORS * size_of::<f64>() * self.model.dofs.count()
+    }
+
     /// Goes on from an accepted increment: at once, or with others in one sweep.
     pub(super) fn go_on(
         &mut self,
@@ -102,7 +112,7 @@ impl Simulation {
         let interfaces = self.model.interfaces.iter_mut();
         self.recovered = Some(Recovered {
             queue: pending.into(),
-            now: interfaces.map(|i| std::mem::take(&mut i.memory)).collect(),
+            now: interfaces.map(|i| std::mem::take(&mut i.history)).collect(),
             coupled: std::mem::take(&mut self.model.couplings.memory),
         });
     }
@@ -117,7 +127,7 @@ impl Simulation {
         };
         let mut outcome = Ok(());
         if let Some(mut one) = recovered.queue.pop_front() {
-            self.remember(std::mem::take(&mut one.memories));
+            self.remember(std::mem::take(&mut one.histories));
             self.model.couplings.memory = std::mem::take(&mut one.couplings);
             outcome = self.complete(&mut one);
             if outcome.is_ok() {
@@ -133,9 +143,9 @@ impl Simulation {
         outcome.map(|()| true)
     }
 
-    fn remember(&mut self, memories: Vec<Memory>) {
-        for (interface, memory) in self.model.interfaces.iter_mut().zip(memories) {
-            interface.memory = memory;
+    fn remember(&mut self, histories: Vec<History>) {
+        for (interface, history) in self.model.interfaces.iter_mut().zip(histories) {
+            interface.history = history;
         }
     }
 

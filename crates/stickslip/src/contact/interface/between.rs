@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
 use crate::contact::pairing::{beyond, evaluate, facet_distance, project};
 use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin};
@@ -224,7 +224,7 @@ impl Interface {
     }
 
     fn lowest_of_facets(&self, facets: &[Facet], x: &[Vec3], lowest: &mut [f64]) {
-        let committed = self.memory.committed.iter();
+        let committed = self.history.points.iter();
         let deep = committed.fold(0.0_f64, |m, h| m.max(-h.gap));
         let theirs = Side::new(
             facets.iter().collect(),
@@ -271,7 +271,7 @@ impl Interface {
     /// What was found, beside what the contact points say.
     fn compare(&self, lowest: &[f64], t: f64) -> Between {
         let mut out = Between::default();
-        let committed = &self.memory.committed;
+        let committed = &self.history.points;
         if committed.len() != self.points.len() {
             return out;
         }
@@ -280,7 +280,7 @@ impl Interface {
         // Gaps of the meshes, with what the start of the interface takes off; a point that has nothing opposite says nothing.
         let said = |i: usize| match committed[i].normal == [0.0; 3] {
             true => f64::INFINITY,
-            false => committed[i].gap + self.initial.offset(i, t),
+            false => committed[i].gap + self.offset(i, t),
         };
         let mut around = vec![f64::INFINITY; self.points.len()];
         for (skin, &least) in self.skin.iter().zip(lowest) {

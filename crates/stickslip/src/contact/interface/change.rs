@@ -1,6 +1,6 @@
 //! Laws that are exchanged between two steps.
 
-use super::Interface;
+use super::definition::Interface;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 

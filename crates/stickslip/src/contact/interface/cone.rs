@@ -1,8 +1,9 @@
 //! Whether points carry what the law of friction says, judged by the tractions that are reported and by how the points have moved: nothing here knows
 //! frames, trial tractions or slip rules.
 
-use super::evaluate::Evaluation;
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::evaluation::Evaluation;
+use super::history::Cone;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
@@ -14,15 +15,6 @@ const MOMENT: f64 = 1e-4;
 /// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
 const YIELDING: f64 = 1e-2;
 
-/// What is wrong with the shear of an interface after an increment, and what that is relative to.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Cone {
-    /// Largest amount by which the shear is not what friction says `[Pa]`.
-    pub worst: f64,
-    /// Largest limit `[Pa]`.
-    pub limit: f64,
-}
-
 impl Interface {
     /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
     /// limit, in the tangent plane and not along its slip; one that sticks carries no more than its limit.
@@ -32,7 +24,7 @@ impl Interface {
         if !law.frictional() || self.laws.tied || !self.schedule.active(stage.at.t) {
             return cone;
         }
-        let points = self.memory.last.points.iter().zip(&self.memory.committed);
+        let points = self.cache.last.points.iter().zip(&self.history.points);
         for (i, (e, before)) in points.enumerate() {
             let pressure = e.response.traction[0];
             if e.response.status == Status::Open || pressure <= 0.0 {
@@ -106,7 +98,7 @@ impl Interface {
         if let Primary::Rigid(_, motion) = &self.primary {
             let t = stage.at.t;
             let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
-            let x = self.points[i].position(&self.memory.x);
+            let x = self.points[i].position(&self.cache.x);
             let surface = sub(x, then.outward(now.inward(x)));
             moved = add_scaled(moved, -1.0 / MOMENT, surface);
             // The point has seen other velocities on its way.

@@ -1,6 +1,6 @@
 //! Friction made easier, for equilibria that Newton's method does not find at once.
 
-use super::Interface;
+use super::definition::Interface;
 use crate::system::{Continuation, Way};
 
 /// Stick that yields like the bodies at first, then ever more stiffly.
@@ -36,8 +36,8 @@ impl Continuation for Interface {
 
     fn ease(&mut self, to: Option<(&'static str, f64)>) {
         let of = |name| to.filter(|(way, _)| *way == name).map(|(_, value)| value);
-        self.memory.softening = of(STICK);
-        self.memory.mobilised = of(LIMIT);
+        self.directives.softening = of(STICK);
+        self.directives.mobilised = of(LIMIT);
     }
 }
 

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::evaluate::Evaluation;
-use super::{Evaluations, Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::evaluation::{Evaluation, Evaluations};
 use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
 use crate::contact::mortar::FACE_NODES;
 use crate::contact::pairing::{evaluate, invert2};
@@ -94,11 +94,11 @@ impl Interface {
                 (self.share * t[0], shear)
             })
         };
-        let x = &self.memory.x;
+        let x = &self.cache.x;
         let dim = self.dofs.dim;
         let faces = mortar.faces.par_chunks(CHUNK);
         let blocks: Vec<Vec<Block>> = faces
-            .zip(self.memory.integrals.par_chunks(CHUNK))
+            .zip(self.cache.integrals.par_chunks(CHUNK))
             .map(|(faces, integrals)| {
                 let mut room = Vec::new();
                 // The second derivatives of the gap do not ask for it.

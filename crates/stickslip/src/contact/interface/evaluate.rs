@@ -1,47 +1,34 @@
 //! Evaluation of one contact point: pairing, kinematics, response, force and tangent.
 
-use super::{Interface, Primary, turning};
+use super::cache::Cache;
+use super::definition::{Interface, Primary};
+use super::evaluation::{Batch, Evaluation, Question, components};
+use super::initial::TOUCHING;
+use super::pass::Wants;
+use super::turning;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{
     Pair, Stencil, add_average_hessian, add_rigid_hessian, average, carried_over, rigid_stencil,
     tangents,
 };
 use crate::contact::law::friction::FrictionPoint;
-use crate::contact::mortar::FaceIntegral;
 use crate::contact::obstacle::Pose;
-use crate::contact::pairing::{
-    FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
-};
-use crate::contact::response::{Circumstances, Response, Status, Told};
-use crate::contact::search::Box3;
+use crate::contact::pairing::{Anchor, FACET_NODES, Previous};
+use crate::contact::response::{Circumstances, Status, Told};
 use crate::contact::surface::Facet;
 use crate::math::{
-    Mat3, Vec3, add, add_scaled, cross, dot, identity, inverse, mat_vec, norm, normalize, scale,
-    sub,
+    Mat3, Vec3, add, add_scaled, dot, identity, inverse, mat_vec, norm, normalize, scale, sub,
 };
-use crate::system::{Rate, Tangent};
+use crate::system::Rate;
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
-
-/// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
-const KEPT: f64 = 1e-3;
-
-/// Distances from facets, relative to their size, and cosines that are equal but for rounding.
-const TIE: f64 = 1e-9;
-
-/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
-/// some 1e-6 of the facet.
-const FLAT: f64 = 1e-5;
 
 /// Part of the area of a point of a mortar that has to have something opposite for it to take part.
 const LEAST_AREA: f64 = 1e-6;
 
 /// Roundings of the largest coordinate that a gap of a mortar may be off.
 const ROUNDING: f64 = 32.0;
-
-/// Gap relative to the cell beneath up to which a point counts as touching at the very start.
-pub(super) const TOUCHING: f64 = 1e-6;
 
 /// What is wanted of laws that are asked for all points at once, instead of a response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,23 +38,11 @@ pub(super) enum Asking {
     Friction,
 }
 
-/// What a law is asked at a point.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Question {
-    pub point: usize,
-    pub gap: f64,
-    pub friction: FrictionPoint,
-}
-
 /// What all points of one evaluation share.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
-    pub x: &'a [Vec3],
-    pub before: &'a [Vec3],
-    /// Boxes around the facets; empty where they are not looked for.
-    pub boxes: &'a [Box3],
-    /// Integrals over the faces of a mortar; empty without one.
-    pub integrals: &'a [FaceIntegral],
+    /// Coordinates, boxes, integrals and the iterate before.
+    pub cache: &'a Cache,
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,
     /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
@@ -77,11 +52,8 @@ pub(super) struct Scene<'a> {
     pub dt: f64,
     /// Time at the end of the increment.
     pub t: f64,
-    /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
-    pub initial: bool,
-    pub tangent: bool,
-    pub surrogate: bool,
-    /// What such laws have said, by point; empty where none is asked so.
+    pub wants: Wants,
+    /// What laws that are asked for all points at once have said, by point; empty where none is asked so.
     pub told: &'a [Told],
     pub asking: Asking,
 }
@@ -94,193 +66,6 @@ impl Scene<'_> {
             None => self.belt,
         }
     }
-}
-
-/// The outcome at one point. What has a size of its own lies in a [`Batch`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Evaluation {
-    /// Number of dofs, zero where there is no force, and where they start.
-    n: usize,
-    dofs: usize,
-    /// Where force, `3 × n` gradients and changes, and matrices start, where there are such.
-    force: Option<usize>,
-    rows: Option<usize>,
-    hessian: Option<usize>,
-    surrogate: Option<usize>,
-    /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
-    pub saddle: Option<([f64; 3], [f64; 3])>,
-    /// Force that rounding may leave.
-    pub rounding: f64,
-    pub response: Response,
-    pub gap: f64,
-    pub normal: Vec3,
-    /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
-    pub frame: [Vec3; 2],
-    pub frame_before: [Vec3; 2],
-    /// Unit normal to the directions at the last accepted state.
-    pub normal_before: Vec3,
-    /// Relative slip since the last accepted state, belt included, along the frame of that state.
-    pub moved: Vec3,
-    pub facet: Option<usize>,
-    /// It stays off the outer edge of the primary, but lies beneath its surface.
-    pub stranded: bool,
-    /// Whether something lies opposite.
-    pub over: bool,
-    /// Area that the point stands for.
-    pub area: f64,
-    /// Number of nodes that take part, and where their weights start.
-    nodes: usize,
-    sides: usize,
-    pub normal_stiffness: f64,
-    pub tangential_stiffness: f64,
-    /// Shear traction at the last accepted state, in the frame.
-    pub carried: [f64; 2],
-    /// Multipliers as components in the frame, where they are unknowns.
-    pub multiplier: [f64; 3],
-}
-
-impl Evaluation {
-    /// A point that carries nothing.
-    pub fn open(gap: f64) -> Self {
-        Evaluation {
-            gap,
-            ..Evaluation::default()
-        }
-    }
-}
-
-/// Numbers of the points of one chunk, one point after the other, and room to work in. The memory is used again by the next evaluation.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Batch {
-    dofs: Vec<usize>,
-    /// Nodes and their weights in gap and slip: positive on the secondary, negative on the primary.
-    sides: Vec<(usize, f64)>,
-    force: Vec<f64>,
-    /// Gradients of gap and slip and how the tractions along them change, multipliers eliminated; `(3, n)` a point.
-    rows: Vec<f64>,
-    change: Vec<f64>,
-    hessian: Vec<f64>,
-    surrogate: Vec<f64>,
-    stencil: Stencil,
-    /// Gradients of the slip as friction sees it; empty where they are those of the slip.
-    rated: [Vec<f64>; 2],
-    /// The gradient of the gap of a mortar's point by node.
-    gradients: Vec<Vec3>,
-    /// What laws are to be asked for all points at once.
-    pub questions: Vec<Question>,
-}
-
-impl Batch {
-    pub fn clear(&mut self) {
-        self.questions.clear();
-        self.dofs.clear();
-        self.sides.clear();
-        self.force.clear();
-        self.rows.clear();
-        self.change.clear();
-        self.hessian.clear();
-        self.surrogate.clear();
-    }
-
-    /// Dofs of a point; none where there is no force.
-    pub fn dofs(&self, e: &Evaluation) -> &[usize] {
-        &self.dofs[e.dofs..e.dofs + e.n]
-    }
-
-    /// Nodes that take part and their weights: positive on the secondary, negative on the primary.
-    pub fn sides(&self, e: &Evaluation) -> &[(usize, f64)] {
-        &self.sides[e.sides..e.sides + e.nodes]
-    }
-
-    /// Force on them; `None` where a point carries nothing.
-    pub fn force(&self, e: &Evaluation) -> Option<&[f64]> {
-        e.force.map(|start| &self.force[start..start + e.n])
-    }
-
-    /// What a tangent evaluation leaves for the assembler.
-    pub fn tangent(&self, e: &Evaluation) -> Option<Tangent<'_>> {
-        let start = e.rows?;
-        let matrix = |all: &'_ [f64], start: Option<usize>| -> std::ops::Range<usize> {
-            start.map_or(all.len()..all.len(), |s| s..s + e.n * e.n)
-        };
-        Some(Tangent {
-            rows: &self.rows[start..start + 3 * e.n],
-            change: &self.change[start..start + 3 * e.n],
-            area: e.area,
-            hessian: &self.hessian[matrix(&self.hessian, e.hessian)],
-            surrogate: &self.surrogate[matrix(&self.surrogate, e.surrogate)],
-        })
-    }
-}
-
-/// The projection of a point on a facet at the last accepted state. It is kept from one evaluation to the next with the coordinates that it
-/// follows from.
-#[derive(Debug, Clone)]
-pub(super) struct Anchor {
-    facet: usize,
-    point: Vec3,
-    nodes: [Vec3; FACET_NODES],
-    foot: Option<FacetPoint>,
-}
-
-impl Anchor {
-    /// The projection, made anew if `kept` is another one.
-    fn at<'a>(
-        kept: &'a mut Option<Anchor>,
-        f: usize,
-        facet: &Facet,
-        before: &[Vec3],
-        point: Vec3,
-    ) -> Option<&'a FacetPoint> {
-        let mut nodes = [[0.0; 3]; FACET_NODES];
-        let then = gather(facet, before, &mut nodes);
-        let same = matches!(kept, Some(k) if k.facet == f && k.point == point
-            && k.nodes[..then.len()] == *then);
-        if !same {
-            let foot = project(facet.kind, then, point);
-            *kept = Some(Anchor {
-                facet: f,
-                point,
-                nodes,
-                foot,
-            });
-        }
-        kept.as_ref()?.foot.as_ref()
-    }
-}
-
-/// Coordinates of the nodes of a facet.
-#[inline]
-fn gather<'a>(facet: &Facet, x: &[Vec3], out: &'a mut [Vec3; FACET_NODES]) -> &'a [Vec3] {
-    for (c, &n) in out.iter_mut().zip(&facet.nodes) {
-        *c = x[n];
-    }
-    &out[..facet.nodes.len()]
-}
-
-/// A point over one of its candidates.
-struct Look {
-    p: FacetPoint,
-    /// A length of the facet, for tolerances.
-    size: f64,
-    away: f64,
-    beyond: f64,
-    carried: bool,
-}
-
-/// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
-pub(super) fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
-    let g11 = dot(e[0], e[0]);
-    let b1 = dot(v, e[0]);
-    if dim == 2 {
-        return [b1 / g11, 0.0];
-    }
-    let (g12, g22, b2) = (dot(e[0], e[1]), dot(e[1], e[1]), dot(v, e[1]));
-    let det = g11 * g22 - g12 * g12;
-    if det == 0.0 {
-        return [0.0; 2];
-    }
-    [(g22 * b1 - g12 * b2) / det, (g11 * b2 - g12 * b1) / det]
 }
 
 /// The positive semi-definite part of a symmetric 2×2 matrix given as `[a11, a22, a12]`.
@@ -300,163 +85,6 @@ fn positive_part([a, b, c]: [f64; 3]) -> [f64; 3] {
 }
 
 impl Interface {
-    /// A length of a facet, for tolerances.
-    fn facet_size(facet: &Facet, p: &FacetPoint) -> f64 {
-        match facet.kind.dim() {
-            1 => 2.0 * norm(p.a[0]),
-            _ => norm(cross(p.a[0], p.a[1])).sqrt(),
-        }
-    }
-
-    /// Normal out of the secondary at a point.
-    fn outward(&self, i: usize) -> Vec3 {
-        let turned = self.memory.facing.get(i).copied();
-        turned.unwrap_or(self.points[i].normal)
-    }
-
-    /// A point at `position` over a facet; `None` if it has no projection there, or if the two do not face each other.
-    fn look(
-        &self,
-        facet: &Facet,
-        x: &[Vec3],
-        (i, position): (usize, Vec3),
-        near: Option<[f64; 2]>,
-    ) -> Option<Look> {
-        let mut nodes = [[0.0; 3]; FACET_NODES];
-        let nodes = gather(facet, x, &mut nodes);
-        let p = match near {
-            Some(xi) => project_near(facet.kind, nodes, position, xi)?,
-            None => project(facet.kind, nodes, position)?,
-        };
-        if dot(p.normal, self.outward(i)) >= 0.0 {
-            return None;
-        }
-        let size = Self::facet_size(facet, &p);
-        let over = beyond(facet.kind, nodes, &p);
-        // A facet is extended for points near its edge. Behind the plane of a distant one lie points that no facet nearby faces, such as
-        // those on the far side of a ball.
-        let behind = dot(sub(position, p.x), p.normal) < 0.0;
-        let extended = facet.continues[over.edge] && !(behind && over.distance > size);
-        Some(Look {
-            p,
-            size,
-            away: facet_distance(position, &p, over),
-            beyond: over.distance,
-            carried: over.distance <= self.edge_tolerance * size || extended,
-        })
-    }
-
-    /// The facet a point belongs to and its projection there; the distance to the surface if it belongs to none.
-    ///
-    /// The nearest facet wins; between equally near ones the one it was on, `previous`, where its projection was at `near`. Beyond an edge
-    /// where the surface goes on the facet is extended, so that a point in a re-entrant corner is not lost; beyond an outer edge the
-    /// point is free.
-    pub(super) fn closest(
-        &self,
-        i: usize,
-        x: &[Vec3],
-        boxes: &[Box3],
-        previous: Option<usize>,
-        near: Option<[f64; 2]>,
-    ) -> Result<(usize, FacetPoint), f64> {
-        let Primary::Facets(facets) = &self.primary else {
-            return Err(f64::INFINITY);
-        };
-        let point = &self.points[i];
-        let position = point.position(x);
-        let candidates = &self.memory.candidates[i];
-        let box_distance2 = |f: usize| boxes[f].distance2(position);
-        // The likely one first: facets that cannot be as near need not be projected on.
-        let first = previous.filter(|f| candidates.binary_search(f).is_ok());
-        let first = first.or_else(|| {
-            let nearest = candidates.iter().map(|&f| (box_distance2(f), f));
-            nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f)
-        });
-        let Some(first) = first else {
-            return Err(f64::INFINITY);
-        };
-        let near = near.filter(|_| previous == Some(first));
-        let mut seed = self.look(&facets[first], x, (i, position), near);
-        let mut nearest = seed.as_ref().map_or(f64::INFINITY, |look| look.away);
-        let mut best: Option<(usize, Look)> = None;
-        let mut kept: Option<FacetPoint> = None;
-        for &f in candidates {
-            let look = if f == first {
-                seed.take()
-            } else {
-                // Beyond a facet `away` is the distance to a place of it, at least that to its box. The summand leaves room for ties.
-                let limit = 1.5 * (nearest + 1e-8 * self.memory.margin);
-                if box_distance2(f) > limit * limit {
-                    continue;
-                }
-                self.look(&facets[f], x, (i, position), None)
-            };
-            let Some(look) = look else {
-                continue;
-            };
-            nearest = nearest.min(look.away);
-            if previous == Some(f) && look.carried && look.beyond <= KEPT * look.size {
-                kept = Some(look.p);
-            }
-            let better = match &best {
-                None => true,
-                Some((b, held)) => {
-                    // Distances equal but for rounding: an edge both facets share.
-                    let tie = (look.away - held.away).abs() <= TIE * look.size;
-                    match (look.carried, held.carried, tie) {
-                        (true, false, true) => true,
-                        (false, true, true) => false,
-                        (_, _, true) if previous == Some(f) || previous == Some(*b) => {
-                            previous == Some(f)
-                        }
-                        (_, _, true) => self.precedes((f, &look), (*b, held), i),
-                        _ => look.away < held.away,
-                    }
-                }
-            };
-            if better {
-                best = Some((f, look));
-            }
-        }
-        match (best, kept, previous) {
-            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
-            (Some((_, look)), Some(k), Some(f))
-                if look.carried && dot(look.p.normal, k.normal) > 1.0 - FLAT =>
-            {
-                Ok((f, k))
-            }
-            (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
-            _ => Err(nearest),
-        }
-    }
-
-    /// Which of two facets that are equally near a point is its own, whatever their numbers: the one that looks at it more, or, where they look alike, the one
-    /// whose middle comes first in the reference configuration.
-    fn precedes(&self, a: (usize, &Look), b: (usize, &Look), i: usize) -> bool {
-        let Primary::Facets(facets) = &self.primary else {
-            return false;
-        };
-        let outward = self.outward(i);
-        let facing = |look: &Look| dot(look.p.normal, outward);
-        let apart = facing(a.1) - facing(b.1);
-        if apart.abs() > TIE {
-            return apart < 0.0;
-        }
-        let middle = |f: usize| {
-            let nodes = &facets[f].nodes;
-            let sum = nodes
-                .iter()
-                .fold([0.0; 3], |s, &n| add(s, self.reference[n]));
-            scale(1.0 / nodes.len() as f64, sum)
-        };
-        let first = sub(middle(a.0), middle(b.0));
-        let tie = TIE.sqrt() * a.1.size;
-        first
-            .iter()
-            .find(|d| d.abs() > tie)
-            .is_some_and(|d| *d < 0.0)
-    }
-
     /// `last`: this point at the evaluation before, in this attempt.
     pub(super) fn evaluate(
         &self,
@@ -466,8 +94,13 @@ impl Interface {
         anchor: &mut Option<Anchor>,
         batch: &mut Batch,
     ) -> Evaluation {
-        let unglued = self.memory.glued.get(i).is_some_and(|gap| gap.is_nan());
-        if unglued || self.memory.asleep.get(i) == Some(&true) {
+        let unglued = self
+            .history
+            .start
+            .glued
+            .get(i)
+            .is_some_and(|gap| gap.is_nan());
+        if unglued || self.directives.asleep.get(i) == Some(&true) {
             return Evaluation::open(f64::INFINITY);
         }
         match &self.primary {
@@ -488,25 +121,30 @@ impl Interface {
     ) -> Evaluation {
         let point = &self.points[i];
         let frozen = self.kinematics.as_dyn().frozen();
-        let mut position = point.position(scene.x);
-        let mut position_before = point.position(scene.before);
+        let mut position = point.position(&scene.cache.x);
+        let mut position_before = point.position(&scene.cache.before);
         let found = if frozen {
-            self.memory.frozen[i].ok_or(f64::INFINITY)
+            scene.cache.frozen[i].ok_or(f64::INFINITY)
         } else {
             let previous = last.and_then(|e| e.facet);
-            let previous = previous.or(self.memory.committed[i].facet);
+            let previous = previous.or(self.history.points[i].facet);
             // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
             // depend on the way to it.
             let near = previous.and_then(|f| {
-                let foot = Anchor::at(anchor, f, &facets[f], scene.before, position_before);
+                let foot = Anchor::at(anchor, f, &facets[f], &scene.cache.before, position_before);
                 foot.map(|foot| foot.xi)
             });
-            self.closest(i, scene.x, scene.boxes, previous, near)
+            let cache = scene.cache;
+            let previous = Previous {
+                facet: previous,
+                near,
+            };
+            self.closest(i, (&cache.x, &cache.boxes), &cache.search, previous)
         };
         // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
         // off until the rest has settled, and if it leaves twice again until the next increment.
         let found = match found {
-            Ok((_, p)) if self.memory.flips[i].left >= 2 => {
+            Ok((_, p)) if self.attempt.flips[i].left >= 2 => {
                 let away = sub(position, p.x);
                 return Evaluation {
                     stranded: dot(away, p.normal) < 0.0,
@@ -521,11 +159,11 @@ impl Interface {
         };
         let facet = &facets[f];
         let mut now = [[0.0; 3]; FACET_NODES];
-        let now = gather(facet, scene.x, &mut now);
+        let now = facet.gather(&scene.cache.x, &mut now);
         let anchor = if frozen {
             // relative to the material place of the frozen foot
             let mut then = [[0.0; 3]; FACET_NODES];
-            let then = gather(facet, scene.before, &mut then);
+            let then = facet.gather(&scene.cache.before, &mut then);
             let place = |nodes: &[Vec3]| {
                 nodes
                     .iter()
@@ -536,7 +174,7 @@ impl Interface {
             position_before = add(foot.x, sub(position_before, place(then)));
             &foot
         } else {
-            match Anchor::at(anchor, f, facet, scene.before, position_before) {
+            match Anchor::at(anchor, f, facet, &scene.cache.before, position_before) {
                 Some(anchor) => anchor,
                 None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
             }
@@ -582,7 +220,10 @@ impl Interface {
             return Evaluation::open(f64::INFINITY);
         };
         let point = &self.points[i];
-        let (x, before) = (point.position(scene.x), point.position(scene.before));
+        let (x, before) = (
+            point.position(&scene.cache.x),
+            point.position(&scene.cache.before),
+        );
         let dim = self.dofs.dim;
         let Some(feet) = rigid_stencil(
             shape.as_dyn(),
@@ -603,7 +244,7 @@ impl Interface {
                 shape_now.0,
                 shape_now.1,
                 point,
-                scene.x,
+                &scene.cache.x,
                 dim,
                 &mut batch.stencil,
             )
@@ -629,14 +270,14 @@ impl Interface {
             }
             let along = [0.0, t1, t2];
             let slips = add_rigid_hessian(pose, point, &feet, dim, along, out);
-            add_average_hessian(shape, pose, point, scene.x, dim, normal, out) || slips
+            add_average_hessian(shape, pose, point, &scene.cache.x, dim, normal, out) || slips
         });
         e
     }
 
     /// A point of a mortar: sums over the faces around it.
     fn evaluate_mortar(&self, i: usize, scene: &Scene, batch: &mut Batch) -> Evaluation {
-        let (Some(mortar), true) = (&self.mortar, !scene.integrals.is_empty()) else {
+        let (Some(mortar), true) = (&self.mortar, !scene.cache.integrals.is_empty()) else {
             return Evaluation::open(f64::INFINITY);
         };
         let point = &self.points[i];
@@ -652,12 +293,12 @@ impl Interface {
         let around = &mortar.around[i];
         let whole: f64 = around
             .iter()
-            .map(|&(f, a)| scene.integrals[f].area[a])
+            .map(|&(f, a)| scene.cache.integrals[f].area[a])
             .sum();
         // What is left of weights that cancel is rounding.
         let least = 1e-13 * whole;
         for &(f, a) in around {
-            let face = &scene.integrals[f];
+            let face = &scene.cache.integrals[f];
             area += face.area[a];
             gap += face.gap[a];
             let own = &mortar.faces[f].nodes;
@@ -715,7 +356,7 @@ impl Interface {
             self.turned(i, scene)
         };
         // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
-        let before = &self.memory.committed[i];
+        let before = &self.history.points[i];
         let normal_before = match frozen || before.normal == [0.0; 3] {
             true => turning::back(&own, normal),
             false => before.normal,
@@ -728,9 +369,9 @@ impl Interface {
             .zip(&batch.gradients)
             .enumerate()
         {
-            let x = scene.x[node];
-            moved = add_scaled(moved, w, sub(x, scene.before[node]));
-            arm = add_scaled(arm, w, scene.before[node]);
+            let x = scene.cache.x[node];
+            moved = add_scaled(moved, w, sub(x, scene.cache.before[node]));
+            arm = add_scaled(arm, w, scene.cache.before[node]);
             reach = reach.max(dot(x, x));
             if frozen {
                 gap += dot(*gradient, sub(x, self.reference[node]));
@@ -744,8 +385,8 @@ impl Interface {
         }
         if !frozen {
             // The distance of the two sides turns with them, but for that which is no gap.
-            let glued = self.memory.glued.get(i).copied().unwrap_or(0.0);
-            let apart = glued + self.initial.offset(i, scene.t);
+            let glued = self.history.start.glued.get(i).copied().unwrap_or(0.0);
+            let apart = glued + self.offset(i, scene.t);
             let arm = add_scaled(arm, -apart, normal_before);
             moved = turning::slid(sub(moved, turning::swung(&own, arm)), &own, &other);
         }
@@ -755,7 +396,7 @@ impl Interface {
         }
         // Surfaces that just touch must not be in contact or apart by the rounding of the integrals.
         let rounding = ROUNDING * f64::EPSILON * (reach.sqrt() + norm(self.origin));
-        if self.memory.untouched && gap.abs() <= rounding {
+        if self.attempt.untouched && gap.abs() <= rounding {
             gap = 0.0;
         }
         stencil.gap = gap;
@@ -774,10 +415,13 @@ impl Interface {
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return (identity(), identity());
         };
-        let (at, dim) = ((scene.x, scene.before), self.dofs.dim);
+        let (at, dim) = (
+            (scene.cache.x.as_slice(), scene.cache.before.as_slice()),
+            self.dofs.dim,
+        );
         let around = mortar.around[i].iter().map(|&(f, _)| f);
         let other = around
-            .flat_map(|f| &scene.integrals[f].pieces)
+            .flat_map(|f| &scene.cache.integrals[f].pieces)
             .map(|piece| {
                 let facet = &facets[piece.facet];
                 (&facet.nodes[..facet.kind.corner_count()], piece.area)
@@ -790,7 +434,7 @@ impl Interface {
 
     /// Closing velocity over the increment; zero for a point that had no gap before.
     fn closing(&self, i: usize, gap: f64, dt: f64) -> f64 {
-        let before = &self.memory.committed[i];
+        let before = &self.history.points[i];
         if before.normal == [0.0; 3] || !before.gap.is_finite() {
             return 0.0;
         }
@@ -804,14 +448,14 @@ impl Interface {
     /// as long as the point is in contact.
     fn rest(&self, i: usize) -> f64 {
         if !self.unknown() {
-            return self.memory.rest.get(i).copied().unwrap_or(0.0);
+            return self.history.rest.get(i).copied().unwrap_or(0.0);
         }
-        let before = &self.memory.committed[i];
+        let before = &self.history.points[i];
         match before.status {
             Status::Open => 0.0,
             _ => before
                 .gap
-                .clamp(-self.memory.accepted, self.memory.accepted),
+                .clamp(-self.attempt.accepted, self.attempt.accepted),
         }
     }
 
@@ -826,10 +470,10 @@ impl Interface {
     ) -> Evaluation {
         let dim = self.dofs.dim;
         let point = &self.points[i];
-        if let Some(glued) = self.memory.glued.get(i) {
+        if let Some(glued) = self.history.start.glued.get(i) {
             batch.stencil.gap -= glued;
         }
-        batch.stencil.gap -= self.initial.offset(i, scene.t);
+        batch.stencil.gap -= self.offset(i, scene.t);
         let stencil = &batch.stencil;
         let first = batch.dofs.len();
         for &(node, _) in &batch.sides[sides..] {
@@ -855,9 +499,9 @@ impl Interface {
         } else {
             f64::INFINITY
         };
-        let multiplier = &self.memory.multipliers[i];
+        let multiplier = &self.attempt.multipliers[i];
         // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
-        let soft = self.memory.softening.map(|factor| factor * own);
+        let soft = self.directives.softening.map(|factor| factor * own);
         let tangential_stiffness = tangential_stiffness.min(soft.unwrap_or(f64::INFINITY));
         // Where the surface was met before it may have had another normal.
         let in_frame = |shear: Vec3, normal: Vec3| {
@@ -867,7 +511,7 @@ impl Interface {
             };
             components(there, &stencil.frame_before, dim)
         };
-        let before = &self.memory.committed[i];
+        let before = &self.history.points[i];
         let shear = in_frame(multiplier.shear, multiplier.normal);
         let carried = in_frame(before.shear, before.normal);
         let centre = match enforcement.multipliers() {
@@ -886,14 +530,14 @@ impl Interface {
             multiplier: [multiplier.pressure, shear[0], shear[1]],
             centre,
             carried,
-            slack: if scene.tangent && self.memory.flips[i].last[0].is_none() {
+            slack: if scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
                 FIRST_SLACK
             } else {
                 0.0
             },
             softness: soft.map_or(0.0, |soft| 1.0 / soft),
             weight: own.min(normal_stiffness).min(tangential_stiffness),
-            touching: if self.memory.untouched && stencil.gap <= TOUCHING * point.size {
+            touching: if self.attempt.untouched && stencil.gap <= TOUCHING * point.size {
                 point.stiffness
             } else {
                 0.0
@@ -902,10 +546,10 @@ impl Interface {
             path: None,
             unknown,
             rest: self.rest(i),
-            sticking: self.memory.committed[i].status != Status::Slip,
+            sticking: self.history.points[i].status != Status::Slip,
             closing: self.closing(i, stencil.gap, scene.dt),
-            held: self.held(i, &stencil.frame_before, dim),
-            mobilised: self.memory.mobilised.unwrap_or(1.0),
+            held: self.attempt.freezing.held(i, &stencil.frame_before, dim),
+            mobilised: self.directives.mobilised.unwrap_or(1.0),
             told: scene.told.get(i).copied().unwrap_or_default(),
         };
         for row in &mut batch.rated {
@@ -974,7 +618,7 @@ impl Interface {
         hessian: impl FnOnce(&Stencil, [f64; 3], &mut [f64]) -> bool,
     ) {
         let r = &e.response;
-        let unknown = self.unknown() && !scene.initial;
+        let unknown = self.unknown() && !scene.wants.initial;
         let traction = if unknown { e.multiplier } else { r.traction };
         let stencil = &batch.stencil;
         let (n, area) = (stencil.n, e.area);
@@ -994,7 +638,7 @@ impl Interface {
             .fold(0.0_f64, |m, d| m.max(d.abs()));
         e.rounding = 4.0 * f64::EPSILON * stencil.reach * slope * area;
         // K_ll = I - ∂T/∂Σ is 1/ω times the weight in contact, and the unit matrix where open: never singular for a finite ω.
-        let k_ll_inverse = (unknown && scene.tangent).then(|| {
+        let k_ll_inverse = (unknown && scene.wants.tangent).then(|| {
             let k_ll: Mat3 = std::array::from_fn(|i| {
                 std::array::from_fn(|j| (if i == j { 1.0 } else { 0.0 }) - r.d_multiplier[i][j])
             });
@@ -1006,7 +650,7 @@ impl Interface {
             let shift = k_ll_inverse.map_or([0.0; 3], |k| k.map(|k| dot(k, rest)));
             e.saddle = Some((rest, shift));
         }
-        if !scene.tangent {
+        if !scene.wants.tangent {
             return;
         }
         let first = batch.rows.len();
@@ -1051,7 +695,7 @@ impl Interface {
                 batch.hessian.truncate(start);
             }
         }
-        if scene.surrogate {
+        if scene.wants.surrogate {
             let start = batch.surrogate.len();
             e.surrogate = Some(start);
             batch.surrogate.resize(start + n * n, 0.0);
@@ -1094,7 +738,7 @@ fn rate_slip<'a>(
     let mut slip = stencil.slip;
     let mut k = 0;
     for &node in nodes {
-        let (x, before) = (scene.x[node], scene.before[node]);
+        let (x, before) = (scene.cache.x[node], scene.cache.before[node]);
         for (x, before) in x.iter().zip(before).take(dim) {
             let dof = dofs[k];
             for i in 0..2 {

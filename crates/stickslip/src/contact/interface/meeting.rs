@@ -1,7 +1,7 @@
 //! How far a motion of whole bodies may go until the surfaces of an interface touch.
 
-use super::evaluate::TOUCHING;
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::initial::TOUCHING;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
 use crate::contact::surface::{ContactPoint, Facet, triangulate};
@@ -56,7 +56,7 @@ impl Interface {
 
     /// Whether any point is in contact at the last accepted state.
     pub fn touched(&self) -> bool {
-        let committed = self.memory.committed.iter();
+        let committed = self.history.points.iter();
         committed.into_iter().any(|h| h.status != Status::Open)
     }
 
@@ -122,7 +122,7 @@ impl Interface {
                 continue;
             }
             let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
-            let gap = gap - self.initial.offset(i, t);
+            let gap = gap - self.offset(i, t);
             if gap <= CLOSE * TOUCHING * point.size {
                 meeting.touching.push((self.nodes[point.nodes[0]], None));
                 continue;
@@ -179,19 +179,19 @@ impl Interface {
             way: f64::INFINITY,
             touching: Vec::new(),
         };
-        self.search(x);
-        let mut boxes = Vec::new();
-        self.enclose(x, &mut boxes);
-        let Primary::Facets(facets) = &self.primary else {
-            return meeting;
-        };
-        let margin = self.memory.margin;
+        let mut search = std::mem::take(&mut self.cache.search);
+        self.search(&mut search, x);
+        self.cache.search = search;
+        let search = &self.cache.search;
+        let feet = self.closest_of_all(x, search);
+        let facets = self.facets();
+        let margin = search.margin;
         let stride = STRIDE * margin / (2.0 * largest);
         for (i, point) in self.points.iter().enumerate() {
             let (position, v) = (point.position(x), point.position(speeds));
-            let offset = self.initial.offset(i, t);
-            let foot = self.closest(i, x, &boxes, None, None).ok();
-            let foot = foot.map(|(f, foot)| {
+            let offset = self.offset(i, t);
+            let foot = feet[i].as_ref().ok();
+            let foot = foot.map(|&(f, ref foot)| {
                 let nodes = facets[f].nodes.iter().zip(&foot.n);
                 let carried = nodes.fold([0.0; 3], |s, (&node, &n)| add_scaled(s, n, speeds[node]));
                 let gap = dot(sub(position, foot.x), foot.normal) - offset;
@@ -208,7 +208,7 @@ impl Interface {
             }
             // Along the motion another facet may be met before the nearest one.
             let mut way = f64::INFINITY;
-            for &f in &self.memory.candidates[i] {
+            for &f in &search.candidates[i] {
                 way = way.min(along_ray(&facets[f], x, speeds, position, v, largest));
             }
             if way * largest > CLOSE * TOUCHING * point.size {

@@ -2,16 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::*;
+use super::definition::{Interface, Primary};
+use super::history::PointHistory;
+use super::{Attempt, Cache, Directives, History, Initial};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
-use crate::contact::kinematics::{Pop1995, SmallSliding};
+use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::law::slip::{Regularised, SlipModel};
-use crate::contact::mortar::Face;
-use crate::contact::surface::{connect, skin};
-use crate::math::{Mat3, cross, dot, mat_vec, norm, normalize, rotation, sub};
+use crate::contact::mortar::{Face, Mortar};
+use crate::contact::response::{Laws, Status};
+use crate::contact::surface::{ContactPoint, Facet, connect, skin};
+use crate::math::{Mat3, Vec3, add, cross, dot, mat_vec, norm, normalize, rotation, scale, sub};
 use crate::shape::ElementKind;
-use crate::system::State;
+use crate::system::{Assembler, Dofs, Force, Schedule, Stage, State};
 
 const AROUND: usize = 48;
 const LAYERS: usize = 2;
@@ -158,7 +161,7 @@ fn drum(
         extents: vec![1.0; nodes.len()],
         nodes,
     });
-    let mortar = mortar.then(|| super::Mortar::new(faces.collect(), points.len()));
+    let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
     Interface {
         name: "shoe".into(),
         dofs: Dofs {
@@ -188,12 +191,39 @@ fn drum(
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
-        memory: Memory::default(),
+        history: History::default(),
+        attempt: Attempt::default(),
+        directives: Directives::default(),
+        cache: Cache::default(),
     }
 }
 
 /// Accepts an increment that ends where `place` puts the points of the reference.
-fn accept(interface: &mut Interface, from: &State, place: impl Fn(usize, Vec3) -> Vec3) -> State {
+pub(super) fn accept(
+    interface: &mut Interface,
+    from: &State,
+    place: impl Fn(usize, Vec3) -> Vec3,
+) -> State {
+    let at = tried(interface, from, place);
+    interface.commit(&stage(from, &at));
+    at
+}
+
+fn stage<'a>(from: &'a State, at: &'a State) -> Stage<'a> {
+    Stage {
+        from,
+        at,
+        dt: 1.0,
+        rate: None,
+    }
+}
+
+/// Tries an increment that ends where `place` puts the points of the reference.
+pub(super) fn tried(
+    interface: &mut Interface,
+    from: &State,
+    place: impl Fn(usize, Vec3) -> Vec3,
+) -> State {
     let mut at = State {
         t: from.t + 1.0,
         u: vec![0.0; interface.dofs.count()],
@@ -205,29 +235,23 @@ fn accept(interface: &mut Interface, from: &State, place: impl Fn(usize, Vec3) -
             at.u[interface.dofs.of(k, c)] = *u;
         }
     }
-    let stage = Stage {
-        from,
-        at: &at,
-        dt: 1.0,
-        rate: None,
-    };
+    let stage = stage(from, &at);
     let mut out = Assembler::new(interface.dofs.count());
     out.reset(false);
     interface.prepare(&stage);
     interface.begin();
     interface.assemble(&stage, &mut out).expect("forces");
-    interface.commit(&stage);
     at
 }
 
-fn start(interface: &Interface) -> State {
+pub(super) fn start(interface: &Interface) -> State {
     State {
         u: vec![0.0; interface.dofs.count()],
         ..State::default()
     }
 }
 
-fn all(dim: usize) -> Vec<(String, Interface)> {
+pub(super) fn all(dim: usize) -> Vec<(String, Interface)> {
     let mut out = Vec::new();
     let convective = KinematicsModel::default;
     let pop = || KinematicsModel::Pop1995(Pop1995 {});
@@ -273,7 +297,7 @@ fn a_pair_that_turns_together_keeps_its_traction() {
                     false => [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]],
                 };
                 let mut state = accept(&mut interface, &origin, sheared);
-                let before = interface.memory.committed.clone();
+                let before = interface.history.points.clone();
                 let axis = if dim == 2 {
                     [0.0, 0.0, 1.0]
                 } else {
@@ -298,13 +322,13 @@ fn a_pair_that_turns_together_keeps_its_traction() {
 }
 
 /// All is as it was before a turn, and has turned.
-fn has_turned(interface: &Interface, before: &[History], turn: &Mat3, what: &str) {
+fn has_turned(interface: &Interface, before: &[PointHistory], turn: &Mat3, what: &str) {
     let largest = before.iter().fold(0.0_f64, |m, h| m.max(norm(h.shear)));
     let most = before.iter().fold(0.0_f64, |m, h| m.max(h.pressure));
     assert!(largest > 0.0 && most > 0.0, "{what}");
     let sticks = interface.laws.slip.as_dyn().sticks();
-    let points = before.iter().zip(&interface.memory.committed);
-    for ((a, b), e) in points.zip(&interface.memory.last.points) {
+    let points = before.iter().zip(&interface.history.points);
+    for ((a, b), e) in points.zip(&interface.cache.last.points) {
         assert!(norm(e.moved) < 1e-14, "{what}: {:e}", norm(e.moved));
         let apart = (a.pressure - b.pressure).abs();
         assert!(apart <= 1e-10 * most, "{what}: {apart:e} of {most:e}");
@@ -335,9 +359,9 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
                     false => x,
                 });
                 let x = interface.coordinates(&at.u);
-                let points = interface.points.iter().zip(&interface.memory.committed);
+                let points = interface.points.iter().zip(&interface.history.points);
                 let mut slid = 0;
-                for ((p, h), e) in points.zip(&interface.memory.last.points) {
+                for ((p, h), e) in points.zip(&interface.cache.last.points) {
                     if h.pressure == 0.0 {
                         continue;
                     }
@@ -383,7 +407,7 @@ fn small_sliding_carries_its_limit_in_the_plane_of_the_reference() {
             true => [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]],
             false => x,
         });
-        let slipping = (interface.memory.committed.iter()).filter(|h| h.status == Status::Slip);
+        let slipping = (interface.history.points.iter()).filter(|h| h.status == Status::Slip);
         let mut slid = 0;
         for h in slipping {
             slid += 1;

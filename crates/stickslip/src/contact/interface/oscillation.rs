@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Interface;
+use super::definition::Interface;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, inverse, norm, scale, sub};
 
@@ -155,7 +155,7 @@ impl Interface {
     /// `|d|` there and at the neighbour of opposite sign, and the index is the sum of half of that over the sum of pressures, weighted by
     /// areas: 1 for a checkerboard of zero and twice the mean, `a` for `p̄ (1 ± a)`, some 1e-3 or less for a Hertz pressure.
     pub fn oscillation(&self) -> f64 {
-        let committed = &self.memory.committed;
+        let committed = &self.history.points;
         if committed.len() != self.points.len() || self.neighbours.len() != self.points.len() {
             return 0.0;
         }
@@ -193,7 +193,7 @@ impl Interface {
 
 #[cfg(test)]
 mod tests {
-    use super::super::History;
+    use super::super::history::PointHistory;
     use super::super::tests::sample;
     use super::*;
     use crate::contact::kinematics::KinematicsModel;
@@ -237,11 +237,11 @@ mod tests {
         };
         let inner = &interface.neighbours[SIDE + 1];
         assert_eq!(*inner, [1, SIDE, SIDE + 2, 2 * SIDE + 1]);
-        let history = reference.iter().enumerate().map(|(k, x)| History {
+        let history = reference.iter().enumerate().map(|(k, x)| PointHistory {
             pressure: pressure(x[0], x[1], k / SIDE + k % SIDE),
-            ..History::default()
+            ..PointHistory::default()
         });
-        interface.memory.committed = history.collect();
+        interface.history.points = history.collect();
         interface.reference = reference;
         interface.oscillation()
     }

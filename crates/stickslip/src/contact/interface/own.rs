@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use super::evaluate::{Anchor, Asking, Question, Scene};
-use super::{Evaluations, Interface};
+use super::definition::Interface;
+use super::evaluate::{Asking, Scene};
+use super::evaluation::{Evaluations, Question};
+use super::pass::Wants;
 use crate::contact::law::own::{LimitFunction, OwnFriction, OwnNormal, PressureFunction};
+use crate::contact::pairing::Anchor;
 use crate::contact::response::Told;
 
 /// Negative limit relative to the pressure that is none.
@@ -75,8 +78,11 @@ impl Interface {
         let scene = Scene {
             told,
             asking,
-            tangent: false,
-            surrogate: false,
+            wants: Wants {
+                tangent: false,
+                surrogate: false,
+                ..scene.wants
+            },
             ..*scene
         };
         self.evaluate_points(&scene, out, anchors);

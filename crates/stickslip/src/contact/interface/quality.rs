@@ -1,11 +1,9 @@
 //! Figures by which a solution can be judged: what is left of the conditions of contact, and whether the two sides balance.
 
-use std::collections::BTreeMap;
-
-use super::Interface;
+use super::definition::Interface;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
-use crate::math::{Vec3, add, add_scaled, cross, norm, sub};
+use crate::math::{Vec3, add, cross, norm, sub};
 
 /// Figures by which a solution can be judged.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
@@ -60,13 +58,13 @@ pub struct Balance {
 impl Interface {
     /// Whether the interface acts through springs in place of its enforcement: in an explicit step.
     pub fn on_springs(&self) -> bool {
-        self.memory.explicit
+        self.history.springs
     }
 
     /// How well contact and stick hold at the last committed state.
     pub fn quality(&self) -> Quality {
         let mut q = Quality {
-            creep: self.memory.creep,
+            creep: self.history.creep,
             oscillation: self.oscillation(),
             ..Quality::default()
         };
@@ -83,8 +81,8 @@ impl Interface {
         let (mut bridged, mut pressed) = (0.0, 0.0);
         let (mut carried, mut stiffness) = (0.0, 0.0);
         let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
-        let committed = self.memory.committed.iter();
-        for (i, (h, e)) in committed.zip(&self.memory.last.points).enumerate() {
+        let acting = self.history.points.iter().filter(|_| self.history.acting);
+        for (i, h) in acting.enumerate() {
             let (p, area) = (&self.points[i], self.area_of(i));
             let shear = norm(h.shear);
             if h.pressure > 0.0 {
@@ -106,18 +104,18 @@ impl Interface {
                 }
             }
             if h.status == Status::Stick && sticks {
-                let slid = norm(e.moved);
+                let slid = h.moved;
                 q.false_slip = q.false_slip.max(slid);
                 // Springs that nothing removes hold what all increments have put into them.
                 let left = match updated {
                     true => slid,
-                    false => shear / e.tangential_stiffness,
+                    false => shear / h.stiffness[1],
                 };
                 q.violation_work += area * shear * left;
             }
             if h.status != Status::Open && self.laws.friction_law().frictional() {
-                most = most.max(e.response.limit);
-                over_limit = over_limit.max(shear - e.response.limit);
+                most = most.max(h.limit);
+                over_limit = over_limit.max(shear - h.limit);
             }
         }
         if stiffness > 0.0 {
@@ -131,7 +129,7 @@ impl Interface {
         if most > 0.0 {
             q.excess_shear = over_limit / most;
         }
-        let cone = self.memory.cone;
+        let cone = self.history.cone;
         if cone.limit > 0.0 {
             q.friction_law = cone.worst / cone.limit;
         }
@@ -141,49 +139,35 @@ impl Interface {
     /// The smallest stiffness of the enforcement in use, as a multiple of the bodies' own; `None` where nothing numerical is between the
     /// laws and the solution, or nothing is in contact.
     pub fn numerical_factor(&self) -> Option<f64> {
-        let points = self.points.iter().zip(&self.memory.last.points);
-        let closed = points.filter(|(_, e)| e.response.status != Status::Open);
-        let ratio =
-            closed.map(|(p, e)| e.normal_stiffness.min(e.tangential_stiffness) / p.stiffness);
+        let points = self.points.iter().zip(&self.history.points);
+        let closed = points.filter(|(_, h)| h.status != Status::Open);
+        let ratio = closed.map(|(p, h)| h.stiffness[0].min(h.stiffness[1]) / p.stiffness);
         let least = ratio.fold(f64::INFINITY, f64::min);
-        (least.is_finite() && !self.memory.explicit).then_some(least)
+        (least.is_finite() && !self.history.springs).then_some(least)
     }
 
-    /// Forces and moments on both sides in the last evaluation, at the displacements `u` of the mesh points. On an obstacle only one side
-    /// is known: nothing is summed.
+    /// Forces and moments on both sides at the last committed state, with displacements `u` of the mesh points. On an obstacle only one side is known:
+    /// nothing is summed.
     pub fn balance(&self, u: &[f64]) -> Balance {
         let mut b = Balance::default();
-        let last = &self.memory.last;
-        if self.rigid() || last.points.is_empty() {
+        if self.rigid() || !self.history.acting {
             return b;
         }
         let x = self.coordinates(u);
-        let nodes = self.nodes.iter().enumerate();
-        let local: BTreeMap<usize, usize> = nodes.map(|(i, &node)| (node, i)).collect();
+        let origin = x.first().copied().unwrap_or_default();
+        for (&x, &force) in x.iter().zip(&self.history.nodal) {
+            b.force = add(b.force, force);
+            b.moment = add(b.moment, cross(sub(x, origin), force));
+        }
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
-        let origin = x.first().copied().unwrap_or_default();
-        for (i, e) in last.points.iter().enumerate() {
-            let place = self.points[i].position(&x);
+        for (i, (point, h)) in self.points.iter().zip(&self.history.points).enumerate() {
+            let place = point.position(&x);
             for c in 0..3 {
                 low[c] = low[c].min(place[c]);
                 high[c] = high[c].max(place[c]);
             }
-            let batch = last.batch(i);
-            let Some(force) = batch.force(e) else {
-                continue;
-            };
-            let t = e.response.traction;
-            b.scale += self.area_of(i) * norm(t);
-            for (&dof, f) in batch.dofs(e).iter().zip(force) {
-                let (node, component) = self.dofs.locate(dof);
-                let mut v = [0.0; 3];
-                v[component] = *f;
-                b.force = add(b.force, v);
-                if let Some(&n) = local.get(&node) {
-                    b.moment = add_scaled(b.moment, 1.0, cross(sub(x[n], origin), v));
-                }
-            }
+            b.scale += self.area_of(i) * h.pressure.hypot(norm(h.shear));
         }
         b.size = norm(sub(high, low));
         b

@@ -1,11 +1,12 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::search::Search;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
-use crate::contact::search::{Box3, Tree};
+use crate::contact::search::Tree;
 use crate::contact::surface::ContactPoint;
-use crate::math::{Vec3, distance};
+use crate::math::{Vec3, distance, dot, sub};
 
 /// How far contact may come before somebody has to look again.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,65 +35,76 @@ impl Interface {
         self.ready();
         let x = self.coordinates(u);
         let distances = self.distances(&x, reach);
-        let mut size: f64 = 0.0;
-        let mut lists = Vec::new();
-        if let Primary::Facets(facets) = &self.primary {
-            let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
-            size = facets.iter().map(|f| length(&f.nodes)).fold(0.0, f64::max);
-            let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
-            let faces = self.mortar.iter().flat_map(|m| &m.faces);
-            let own = faces.map(|f| length(&f.nodes)).fold(0.0, f64::max);
-            let margin = reach.along + size + own;
-            lists = (self.points.iter().zip(&distances))
-                .map(|(point, &d)| {
-                    let mut near = Vec::new();
-                    if d <= reach.approach + MARGIN * size {
-                        tree.near(point.position(&x), margin, &mut near);
-                    }
-                    near
-                })
-                .collect();
-        }
+        let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
+        let facets = self.facets().iter().map(|f| length(&f.nodes));
+        let size = facets.fold(0.0, f64::max);
+        let near = self.facets_near(&x, &distances, reach, size);
         let own = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
         let limit = reach.approach + MARGIN * size.max(own);
-        let memory = &mut self.memory;
-        memory.asleep.clear();
-        memory.inner = Vec::with_capacity(distances.len());
+        let mut asleep = Vec::with_capacity(distances.len());
+        let mut inner = Vec::with_capacity(distances.len());
         for (i, (point, &d)) in self.points.iter().zip(&distances).enumerate() {
             let known = point.nodes.iter().all(|&n| kept[self.nodes[n]]);
-            let awake = d <= limit || known || memory.committed[i].status != Status::Open;
-            memory.asleep.push(!awake);
-            memory.inner.push(d <= INNER * limit || known);
-            if !awake {
-                continue;
-            }
-            for &n in &point.nodes {
-                kept[self.nodes[n]] = true;
-            }
-            if let Some(mortar) = &self.mortar {
-                let around = mortar.around[i].iter();
-                for &n in around.flat_map(|&(f, _)| &mortar.faces[f].nodes) {
-                    kept[self.nodes[n]] = true;
-                }
-            }
-            if let (Primary::Facets(facets), Some(near)) = (&self.primary, lists.get(i)) {
-                let was = memory.committed[i].facet;
-                for &f in near.iter().chain(&was) {
-                    for &n in &facets[f].nodes {
-                        kept[self.nodes[n]] = true;
-                    }
-                }
+            let awake = d <= limit || known || self.history.points[i].status != Status::Open;
+            asleep.push(!awake);
+            inner.push(d <= INNER * limit || known);
+            if awake {
+                self.mark(i, near.get(i), kept);
             }
         }
-        if memory.asleep.iter().all(|asleep| !asleep) {
-            memory.asleep.clear();
+        if asleep.iter().all(|asleep| !asleep) {
+            asleep.clear();
+        }
+        self.directives.asleep = asleep;
+        self.directives.inner = inner;
+    }
+
+    /// Facets that points may meet which are within reach of the primary, by point; nothing of an obstacle.
+    fn facets_near(
+        &self,
+        x: &[Vec3],
+        distances: &[f64],
+        reach: Reach,
+        size: f64,
+    ) -> Vec<Vec<usize>> {
+        let Primary::Facets(facets) = &self.primary else {
+            return Vec::new();
+        };
+        let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
+        let faces = self.mortar.iter().flat_map(|m| &m.faces);
+        let own = faces.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
+        let margin = reach.along + size + own.fold(0.0, f64::max);
+        (self.points.iter().zip(distances))
+            .map(|(point, &d)| {
+                let mut near = Vec::new();
+                if d <= reach.approach + MARGIN * size {
+                    tree.near(point.position(x), margin, &mut near);
+                }
+                near
+            })
+            .collect()
+    }
+
+    /// Marks the nodes of a point, and those of the facets that it may meet or met.
+    fn mark(&self, i: usize, near: Option<&Vec<usize>>, kept: &mut [bool]) {
+        let mut keep = |nodes: &[usize]| nodes.iter().for_each(|&n| kept[self.nodes[n]] = true);
+        keep(&self.points[i].nodes);
+        if let Some(mortar) = &self.mortar {
+            for &(f, _) in &mortar.around[i] {
+                keep(&mortar.faces[f].nodes);
+            }
+        }
+        if let (Primary::Facets(facets), Some(near)) = (&self.primary, near) {
+            for &f in near.iter().chain(&self.history.points[i].facet) {
+                keep(&facets[f].nodes);
+            }
         }
     }
 
     /// Lets all points take part and marks all nodes.
     pub fn wake(&mut self, kept: &mut [bool]) {
-        self.memory.asleep.clear();
-        self.memory.inner.clear();
+        self.directives.asleep.clear();
+        self.directives.inner.clear();
         for &node in &self.nodes {
             kept[node] = true;
         }
@@ -100,18 +112,18 @@ impl Interface {
 
     /// Whether contact has come so near to points that do not take part that they should.
     pub fn spreads(&self) -> bool {
-        if self.memory.asleep.is_empty() {
+        if self.directives.asleep.is_empty() {
             return false;
         }
-        let points = self.memory.last.points.iter().zip(&self.memory.inner);
+        let points = self.cache.last.points.iter().zip(&self.directives.inner);
         points
             .into_iter()
             .any(|(e, &inner)| !inner && e.response.status != Status::Open)
     }
 
     /// The number of points that do not take part although they penetrate the primary at displacements `u`.
-    pub fn overlooked(&mut self, u: &[f64], t: f64) -> usize {
-        if self.memory.asleep.is_empty() {
+    pub fn overlooked(&self, u: &[f64], t: f64) -> usize {
+        if self.directives.asleep.is_empty() {
             return 0;
         }
         let x = self.coordinates(u);
@@ -120,7 +132,7 @@ impl Interface {
             along: 0.0,
             span: [t, t],
         };
-        let asleep = self.memory.asleep.clone();
+        let asleep = &self.directives.asleep;
         let gaps = self.gaps(&x, span);
         let smallest = |i: usize| -1e-9 * self.points[i].size;
         (0..asleep.len())
@@ -130,7 +142,7 @@ impl Interface {
 
     /// Finds the gaps of points that do not take part, for reports of the state with displacements `u` at time `t`.
     pub fn measure(&mut self, u: &[f64], t: f64) {
-        if self.memory.asleep.is_empty() {
+        if self.directives.asleep.is_empty() {
             return;
         }
         let x = self.coordinates(u);
@@ -140,17 +152,16 @@ impl Interface {
             span: [t, t],
         };
         let gaps = self.gaps(&x, here);
-        let memory = &mut self.memory;
-        for (i, &gap) in gaps.iter().enumerate().filter(|(i, _)| memory.asleep[*i]) {
-            if let Some(e) = memory.last.points.get_mut(i) {
-                e.gap = gap;
+        let points = self.history.points.iter_mut().zip(gaps);
+        for ((history, gap), asleep) in points.zip(&self.directives.asleep) {
+            if *asleep {
+                history.gap = gap;
             }
-            memory.committed[i].gap = gap;
         }
     }
 
     /// Distances from the primary, whatever side of it.
-    fn distances(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
+    fn distances(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
         self.gaps(x, reach)
             .into_iter()
             .map(|g| g.max(0.0))
@@ -158,15 +169,14 @@ impl Interface {
     }
 
     /// The smallest gaps over the span; infinite where a point does not face the primary.
-    fn gaps(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
+    fn gaps(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
         let gaps = self.distances_to_primary(x, reach);
         let end = reach.span[1];
         let gaps = gaps.into_iter().enumerate();
-        gaps.map(|(i, gap)| gap - self.initial.offset(i, end))
-            .collect()
+        gaps.map(|(i, gap)| gap - self.offset(i, end)).collect()
     }
 
-    fn distances_to_primary(&mut self, x: &[Vec3], reach: Reach) -> Vec<f64> {
+    fn distances_to_primary(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
         match &self.primary {
             Primary::Rigid(shape, motion) => {
                 let [from, to] = reach.span;
@@ -182,14 +192,15 @@ impl Interface {
                 self.points.iter().map(gap).collect()
             }
             Primary::Facets(_) => {
-                self.search(x);
-                let mut boxes: Vec<Box3> = Vec::new();
-                self.enclose(x, &mut boxes);
-                (0..self.points.len())
-                    .map(|i| match self.closest(i, x, &boxes, None, None) {
+                // A search of its own: what is asked here must leave no trace in what is computed.
+                let mut search = Search::default();
+                self.search(&mut search, x);
+                let found = self.closest_of_all(x, &search).into_iter().enumerate();
+                found
+                    .map(|(i, found)| match found {
                         Ok((_, foot)) => {
-                            let away = crate::math::sub(self.points[i].position(x), foot.x);
-                            crate::math::dot(away, foot.normal)
+                            let away = sub(self.points[i].position(x), foot.x);
+                            dot(away, foot.normal)
                         }
                         Err(distance) => distance,
                     })

@@ -1,10 +1,9 @@
 //! What an interface says of itself: energy, resultants, output fields.
 
-use super::evaluate::Evaluation;
-use super::{Interface, Primary, Wants};
+use super::definition::{Interface, Primary};
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, scale, sub};
-use crate::system::{Fields, Force, Location, Stage};
+use crate::system::{Energy, Fields, Location};
 
 /// Forces of an interface on what the problem calls its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -48,17 +47,15 @@ const CANCELLED: f64 = 1e-9;
 impl Interface {
     /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield, in both directions.
     pub(super) fn stored_energy(&self) -> f64 {
+        if !self.history.acting {
+            return 0.0;
+        }
         let own = self.law_energies();
-        self.memory
-            .committed
-            .iter()
-            .zip(&self.memory.last.points)
-            .enumerate()
-            .map(|(i, (h, e))| {
-                let spring = if e.normal_stiffness.is_finite() && self.laws.needs_normal_stiffness()
-                {
+        (self.history.points.iter().enumerate())
+            .map(|(i, h)| {
+                let spring = if h.stiffness[0].is_finite() && self.laws.needs_normal_stiffness() {
                     // what is left of the constraint's violation, a spring from λ to p
-                    let rest = self.memory.rest.get(i).copied().unwrap_or(0.0);
+                    let rest = self.history.rest.get(i).copied().unwrap_or(0.0);
                     let left = rest - h.gap;
                     // Tied surfaces pull as well, where something is opposite.
                     let pulls = self.laws.tied && h.gap.is_finite();
@@ -72,6 +69,14 @@ impl Interface {
             .sum()
     }
 
+    /// Energies at the last committed state.
+    pub fn energy(&self) -> Energy {
+        Energy {
+            stored: self.stored_energy(),
+            ..self.history.energy
+        }
+    }
+
     /// Recoverable energy of the normal law alone `[J]`.
     pub fn law_energy(&self) -> f64 {
         let energies = self.law_energies();
@@ -81,7 +86,7 @@ impl Interface {
 
     /// The same by point and per area `[J/m²]`.
     fn law_energies(&self) -> Vec<f64> {
-        let gaps = self.memory.committed.iter().map(|h| h.gap);
+        let gaps = self.history.points.iter().map(|h| h.gap);
         match &self.laws.own.normal {
             Some(own) => own.energies(&gaps.collect::<Vec<_>>()),
             None => {
@@ -97,7 +102,7 @@ impl Interface {
         let mut r = Resultant::default();
         // Tied surfaces pull as well as they press.
         let mut signed = 0.0;
-        for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
+        for (i, (p, h)) in self.points.iter().zip(&self.history.points).enumerate() {
             if h.status == Status::Open {
                 continue;
             }
@@ -119,7 +124,7 @@ impl Interface {
         let averaged = self.points.iter().any(|p| p.nodes.len() > 1);
         if matches!(self.primary, Primary::Rigid(..)) && averaged {
             // The mean of normals around a point is shorter than one: what nodes are given is the force.
-            let all = self.memory.nodal.iter().fold([0.0; 3], |s, &f| add(s, f));
+            let all = self.history.nodal.iter().fold([0.0; 3], |s, &f| add(s, f));
             r.normal = sub(all, r.shear);
         }
         r.centre = match signed.abs() > CANCELLED * r.total {
@@ -136,7 +141,7 @@ impl Interface {
 
     /// Normal of the primary, shear on the secondary and slip of it at a point, of the sides as they are named.
     fn vectors(&self, i: usize) -> [Vec3; 3] {
-        let h = &self.memory.committed[i];
+        let h = &self.history.points[i];
         let normal = match h.normal == [0.0; 3] {
             true => scale(-1.0, self.points[i].normal),
             false => h.normal,
@@ -148,7 +153,7 @@ impl Interface {
     pub fn centre_and_normal(&self, u: &[f64]) -> (Vec3, Vec3) {
         let x = self.coordinates(u);
         let (mut centre, mut normal, mut area) = ([0.0; 3], [0.0; 3], 0.0);
-        for (i, (p, h)) in self.points.iter().zip(&self.memory.committed).enumerate() {
+        for (i, (p, h)) in self.points.iter().zip(&self.history.points).enumerate() {
             if h.status != Status::Open {
                 centre = add_scaled(centre, self.area_of(i), p.position(&x));
                 // Pressure pushes the secondary along the normal of the primary.
@@ -167,7 +172,7 @@ impl Interface {
     /// weights of the nodes have the same sum, but where the gradient of a gap or slip turns from node to node they are other forces.
     pub(super) fn nodal_forces(&self, active: bool) -> Vec<Vec3> {
         let mut forces = vec![[0.0; 3]; self.nodes.len()];
-        let last = &self.memory.last;
+        let last = &self.cache.last;
         for (i, e) in last.points.iter().enumerate().filter(|_| active) {
             let batch = last.batch(i);
             let Some(force) = batch.force(e) else {
@@ -183,15 +188,15 @@ impl Interface {
         forces
     }
 
-    /// Adds CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
+    /// Adds the fields of the last committed state: CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
     /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
     /// their areas there; where both surfaces are secondary only of those that hang on it, as slip and shear of the other half have the other sign. Where no
     /// interface is the values are NaN, except for forces, which are zero.
-    pub(super) fn add_fields(&self, out: &mut Fields) {
+    pub fn fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let mut sums = vec![[0.0; 7]; self.nodes.len()];
         let mut statuses = vec![(0.0, 0.0); self.nodes.len()];
-        for (i, h) in self.memory.committed.iter().enumerate() {
+        for (i, h) in self.history.points.iter().enumerate() {
             let [normal, shear, slip] = self.vectors(i);
             let frame = output_frame(normal, dim);
             let status = match h.status {
@@ -221,8 +226,8 @@ impl Interface {
                 }
             };
             let half = self.share < 1.0;
-            let opposite = self.facet_weights(i).filter(|_| !half);
-            for (node, w) in self.own_weights(i).chain(opposite) {
+            let opposite = self.history.opposite.of(i).iter().filter(|_| !half);
+            for (node, w) in self.own_weights(i).chain(opposite.copied()) {
                 give(node, w.max(0.0));
             }
         }
@@ -245,7 +250,7 @@ impl Interface {
             }
         }
         let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);
-        for (&force, &node) in self.memory.nodal.iter().zip(&self.nodes) {
+        for (&force, &node) in self.history.nodal.iter().zip(&self.nodes) {
             for (total, f) in field.values[3 * node..].iter_mut().zip(force) {
                 *total += f;
             }
@@ -258,7 +263,7 @@ impl Interface {
     fn add_traces(&self, out: &mut Fields) {
         let points = self.dofs.points;
         let mut sums = vec![[0.0; 3]; self.nodes.len()];
-        for (i, h) in self.memory.committed.iter().enumerate() {
+        for (i, h) in self.history.points.iter().enumerate() {
             let area = self.area_of(i);
             for (node, w) in self.own_weights(i) {
                 let share = area * w.max(0.0);
@@ -286,7 +291,7 @@ impl Interface {
                 }
             }
             for local in self.primary_nodes() {
-                let trace = self.memory.traces.get(local).map_or(0.0, |t| t[k]);
+                let trace = self.history.traces.get(local).map_or(0.0, |t| t[k]);
                 field.values[self.nodes[local]] = other * trace;
             }
         }
@@ -304,7 +309,7 @@ impl Interface {
         let rows: Vec<Vec<f64>> = self
             .points
             .iter()
-            .zip(&self.memory.committed)
+            .zip(&self.history.points)
             .enumerate()
             .map(|(i, (p, h))| {
                 let area = self.area_of(i);
@@ -346,24 +351,6 @@ impl Interface {
 
     /// Gaps of all points at the last accepted state; NaN or infinite where there is nothing opposite.
     pub fn initial_gaps(&self) -> Vec<f64> {
-        self.memory.committed.iter().map(|h| h.gap).collect()
-    }
-
-    /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
-    pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
-        self.prepare(stage);
-        self.begin();
-        let evaluations = self.evaluate_all(stage, Wants::default());
-        let opposite = |e: &Evaluation| e.over;
-        let gaps = evaluations.points.iter();
-        let gaps = gaps.map(|e| if opposite(e) { e.gap } else { f64::INFINITY });
-        let gaps = gaps.collect();
-        self.memory.trial = evaluations;
-        gaps
-    }
-
-    /// Whether the primary is an obstacle.
-    pub fn rigid(&self) -> bool {
-        matches!(self.primary, Primary::Rigid(..))
+        self.history.points.iter().map(|h| h.gap).collect()
     }
 }

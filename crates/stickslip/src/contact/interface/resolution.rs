@@ -1,6 +1,6 @@
 //! Whether the points in contact are enough to tell where contact is.
 
-use super::Interface;
+use super::definition::Interface;
 use crate::contact::response::Status;
 
 /// How finely contact is resolved.
@@ -21,7 +21,7 @@ impl Interface {
     /// A patch is three points across where one of them has nothing but points in contact beside it. Surfaces in contact all over are resolved
     /// by any mesh.
     pub fn resolution(&self) -> Option<Resolution> {
-        let committed = &self.memory.committed;
+        let committed = &self.history.points;
         let count = self.points.len();
         if committed.len() != count || self.neighbours.len() != count {
             return None;

@@ -1,6 +1,7 @@
 //! The two sides of an interface: which nodes a point hangs on, for what area it stands, and what sliding leaves on them.
 
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::history::History;
 
 /// What sliding has worn off both surfaces.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -20,7 +21,7 @@ impl Interface {
     /// Area that a point stands for `[m²]`, at the last committed state; what it would stand for with the whole primary opposite where
     /// nothing is.
     pub(super) fn area_of(&self, i: usize) -> f64 {
-        match self.memory.committed.get(i) {
+        match self.history.points.get(i) {
             Some(h) if h.area > 0.0 => h.area,
             _ => self.points[i].area * self.share,
         }
@@ -34,16 +35,37 @@ impl Interface {
 
     /// Nodes that take part in a point and their weights at the last evaluation.
     fn met(&self, i: usize) -> &[(usize, f64)] {
-        let last = &self.memory.last;
+        let last = &self.cache.last;
         let e = last.points.get(i).filter(|e| e.over);
         e.map_or(&[], |e| last.batch(i).sides(e))
     }
 
-    /// Nodes of the primary that a point lies over and its weights there; nothing where it lies over none.
+    /// Nodes of the primary that a point lies over at the last evaluation and its weights there; nothing where it lies over none.
     pub(super) fn facet_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
         let met = self.met(i).iter();
         met.filter(|(node, _)| *node < self.primary_nodes)
             .map(|&(node, w)| (node, -w))
+    }
+
+    /// Memory that a history takes `[bytes]`. A point of a mortar is taken to meet a facet more than it has faces around it.
+    pub fn history_bytes(&self) -> usize {
+        let facet = self.facets().iter().map(|f| f.nodes.len()).max();
+        let facets: usize = match &self.mortar {
+            Some(mortar) => mortar.around.iter().map(|faces| faces.len() + 1).sum(),
+            None => self.points.len(),
+        };
+        let opposite = facets * facet.unwrap_or(0);
+        History::bytes(self.points.len(), opposite, self.nodes.len())
+    }
+
+    /// Takes note of them in the history.
+    pub(super) fn note_opposite(&mut self) {
+        let mut opposite = std::mem::take(&mut self.history.opposite);
+        opposite.clear();
+        for i in 0..self.points.len() {
+            opposite.push(self.facet_weights(i));
+        }
+        self.history.opposite = opposite;
     }
 
     /// Nodes of both sides with the share of the force of a point that each receives: positive on the secondary (but for corners of
@@ -80,7 +102,7 @@ impl Interface {
                 sums[node][2] += share;
             }
         }
-        let all = &mut self.memory.traces;
+        let all = &mut self.history.traces;
         all.resize(self.nodes.len(), [0.0; 2]);
         for (t, [dissipated, rubbed, share]) in all.iter_mut().zip(sums) {
             if share > 0.0 {
@@ -93,10 +115,10 @@ impl Interface {
     /// Depth and volume of wear so far; `None` where it is not followed.
     pub fn wear(&self) -> Option<WearReport> {
         let wear = self.laws.wear?;
-        let secondary = self.memory.committed.iter().map(|h| h.rubbed);
-        let primary = self.memory.traces.iter().map(|t| t[1]);
+        let secondary = self.history.points.iter().map(|h| h.rubbed);
+        let primary = self.history.traces.iter().map(|t| t[1]);
         let k = [wear.coefficient, wear.primary_coefficient];
-        let total = self.memory.rubbed;
+        let total = self.history.rubbed;
         let mut report = WearReport {
             depth: [
                 k[0] * secondary.fold(0.0, f64::max),

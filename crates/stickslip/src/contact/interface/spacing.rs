@@ -1,7 +1,7 @@
 //! Which side of an interface has its points farther apart, where the two are nearest to each other.
 
 use super::between::Side;
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, cross, norm};

@@ -1,11 +1,8 @@
 //! Explicit dynamics: springs in place of multipliers, and how stiff they are.
 
-use super::Interface;
-use crate::contact::enforcement::{Multipliers, Stiffness};
+use super::definition::Interface;
+use crate::contact::enforcement::Multipliers;
 use crate::system::Links;
-
-/// Stiffness relative to that of the bodies up to which an augmented Lagrangian is tightened.
-const STIFFEST: f64 = 1e6;
 
 /// Penetration of a point about to touch, relative to the cell beneath.
 const TOUCHED: f64 = 1e-6;
@@ -17,16 +14,16 @@ impl Interface {
     /// What presses already goes on pressing: a spring starts where its force is that of the multiplier it replaces. The energy `[J]` that this
     /// puts into the springs is returned.
     pub fn use_springs(&mut self, springs: bool) -> f64 {
-        if self.memory.explicit == springs {
+        if self.history.springs == springs {
             return 0.0;
         }
         let before = self.stored_energy();
-        self.memory.explicit = springs;
-        self.memory.rest.clear();
+        self.history.springs = springs;
+        self.history.rest.clear();
         let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
         if springs && multipliers && self.laws.needs_normal_stiffness() {
-            let points = self.points.iter().zip(&self.memory.committed);
-            self.memory.rest = points
+            let points = self.points.iter().zip(&self.history.points);
+            self.history.rest = points
                 .map(|(p, h)| {
                     if h.pressure > 0.0 {
                         h.gap + h.pressure / p.stiffness
@@ -36,8 +33,8 @@ impl Interface {
                 })
                 .collect();
         }
-        self.memory.stored = self.stored_energy();
-        self.memory.stored - before
+        self.history.energy.stored = self.stored_energy();
+        self.history.energy.stored - before
     }
 
     /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the
@@ -49,7 +46,7 @@ impl Interface {
         let enforcement = self.laws.enforcement.as_dyn();
         let law = self.laws.normal_law();
         for (i, point) in self.points.iter().enumerate() {
-            let last = self.memory.last.points.get(i);
+            let last = self.cache.last.points.get(i);
             let own = if self.laws.needs_normal_stiffness() {
                 self.spring(enforcement.normal(), point.stiffness)
             } else {
@@ -84,20 +81,5 @@ impl Interface {
             }
         }
         rigid.into_iter().fold(highest, f64::max)
-    }
-
-    /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
-    pub(super) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
-        if self.memory.explicit && self.laws.enforcement.as_dyn().multipliers() != Multipliers::None
-        {
-            return own;
-        }
-        let start = stiffness.resolve(own);
-        if self.memory.tightened == 0 {
-            return start;
-        }
-        // Never softer than asked for, and never so stiff that the bodies drown in rounding.
-        let raised = start * 10_f64.powi(self.memory.tightened as i32);
-        raised.min(STIFFEST * own).max(start)
     }
 }

@@ -1,6 +1,6 @@
 //! What points of an interface did in an attempt that failed.
 
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::response::Status;
 use crate::math::{add, distance, norm};
@@ -33,7 +33,7 @@ impl Interface {
     /// What a point did in the present attempt.
     pub fn evidence(&self, i: usize) -> Evidence {
         let point = &self.points[i];
-        let memory = &self.memory;
+        let (attempt, cache) = (&self.attempt, &self.cache);
         let mut evidence = Evidence {
             interface: self.name.clone(),
             node: point.node().map(|one| self.node_ids[one]),
@@ -43,13 +43,13 @@ impl Interface {
             kink: 1.0,
             ..Evidence::default()
         };
-        if let Some(flips) = memory.flips.get(i) {
+        if let Some(flips) = attempt.flips.get(i) {
             evidence.flips = flips.count;
             evidence.left = flips.left;
             let course = flips.last.iter().rev().flatten();
             evidence.course = course.map(|s| s.word()).collect();
         }
-        let Some(e) = memory.last.points.get(i) else {
+        let Some(e) = cache.last.points.get(i) else {
             return evidence;
         };
         if e.normal != [0.0; 3] {
@@ -65,7 +65,7 @@ impl Interface {
             evidence.facet = distance(x(0), x(1));
             evidence.cell = Some(facets[f].cell);
         }
-        if let Some(before) = memory.trial.points.get(i) {
+        if let Some(before) = cache.trial.points.get(i) {
             evidence.kink = kink(self.laws.normal_law(), before.gap, e.gap);
         }
         evidence
@@ -73,7 +73,7 @@ impl Interface {
 
     /// The points that changed status most often in this attempt, then those that slid farthest or lie at a kink of the normal law.
     pub(super) fn culprits(&self) -> Vec<Culprit> {
-        let mut all: Vec<Evidence> = (0..self.memory.last.points.len())
+        let mut all: Vec<Evidence> = (0..self.cache.last.points.len())
             .map(|i| self.evidence(i))
             .filter(|e| {
                 let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
@@ -92,11 +92,11 @@ impl Interface {
 
     /// Statuses at the last evaluation, or at the last accepted state where there is none.
     pub fn statuses(&self) -> Vec<Status> {
-        let memory = &self.memory;
-        match memory.last.points.is_empty() {
-            true => memory.committed.iter().map(|h| h.status).collect(),
+        let (history, cache) = (&self.history, &self.cache);
+        match cache.last.points.is_empty() {
+            true => history.points.iter().map(|h| h.status).collect(),
             false => {
-                let points = memory.last.points.iter();
+                let points = cache.last.points.iter();
                 points.map(|e| e.response.status).collect()
             }
         }

@@ -1,12 +1,20 @@
 //! Whole interfaces: what is skipped makes no difference, and the tangent is that of the force.
 
-use super::*;
+use super::attempt::Flips;
+use super::definition::{Interface, Primary};
+use super::search::Search;
+use super::{Attempt, Cache, Directives, History, Initial};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
+use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::{Coulomb, FrictionModel};
-use crate::contact::surface::connect;
+use crate::contact::pairing::{FacetPoint, Previous};
+use crate::contact::response::{Laws, Status};
+use crate::contact::search::Box3;
+use crate::contact::surface::{ContactPoint, Facet, connect};
+use crate::math::{Vec3, add_scaled};
 use crate::registry::Family;
 use crate::shape::ElementKind;
-use crate::system::State;
+use crate::system::{Assembler, Dofs, Force, Schedule, Stage, State};
 
 const CELLS: usize = 4;
 
@@ -91,7 +99,10 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
-        memory: Memory::default(),
+        history: History::default(),
+        attempt: Attempt::default(),
+        directives: Directives::default(),
+        cache: Cache::default(),
     }
 }
 
@@ -109,8 +120,6 @@ fn moved(interface: &Interface, t: f64, size: f64) -> State {
 /// A course of statuses shows what a point did, not how long it rested.
 #[test]
 fn a_course_shows_changes_only() {
-    use super::Flips;
-    use crate::contact::response::Status;
     let mut flips = Flips::default();
     let course = [
         Status::Open,
@@ -130,12 +139,13 @@ fn a_course_shows_changes_only() {
 #[test]
 fn facets_that_are_skipped_would_not_have_been_chosen() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
-        let mut interface = sample(kind, KinematicsModel::default());
+        let interface = sample(kind, KinematicsModel::default());
         let mut found = 0;
         for round in 0..4 {
             let state = moved(&interface, f64::from(round), 0.01);
             let x = interface.coordinates(&state.u);
-            interface.search(&x);
+            let mut search = Search::default();
+            interface.search(&mut search, &x);
             let mut boxes = Vec::new();
             interface.enclose(&x, &mut boxes);
             // a box around everything
@@ -143,7 +153,7 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
             let all = Box3::around(ElementKind::Line2, corners.into_iter());
             let without = vec![all; boxes.len()];
             for i in 0..interface.points.len() {
-                let candidates = &interface.memory.candidates[i];
+                let candidates = &search.candidates[i];
                 let previous = [
                     None,
                     candidates.first().copied(),
@@ -153,8 +163,12 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                     let place = |found: Result<(usize, FacetPoint), f64>| {
                         found.map(|(f, p)| (f, p.xi.map(f64::to_bits)))
                     };
-                    let quick = interface.closest(i, &x, &boxes, previous, None);
-                    let full = interface.closest(i, &x, &without, previous, None);
+                    let previous = Previous {
+                        facet: previous,
+                        near: None,
+                    };
+                    let quick = interface.closest(i, (&x, &boxes), &search, previous);
+                    let full = interface.closest(i, (&x, &without), &search, previous);
                     found += usize::from(full.is_ok());
                     assert_eq!(place(quick), place(full), "{kind}, point {i}");
                 }
@@ -336,7 +350,7 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
             (
                 evaluate(interface, &first, true, false),
                 tally,
-                interface.memory.flips.clone(),
+                interface.attempt.flips.clone(),
             )
         };
         for given_up in [false, true] {

@@ -1,6 +1,6 @@
 //! By how much the surfaces have turned since the start: what small sliding leaves out.
 
-use super::{Interface, Primary};
+use super::definition::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::contact::surface::{Facet, turns};
 use crate::math::{Vec3, add, angle, norm};
@@ -14,7 +14,7 @@ impl Interface {
     ///
     /// It has two parts: by how much the secondary has turned there, and by how much the primary turns over the path that the point has slid.
     pub fn normals_turned(&self, u: &[f64]) -> f64 {
-        let committed = &self.memory.committed;
+        let committed = &self.history.points;
         if !self.kinematics.as_dyn().frozen()
             || self.rigid()
             || committed.len() != self.points.len()

@@ -10,7 +10,9 @@ use super::sets::Sets;
 use crate::body::{Space, tributary_areas};
 use crate::contact::crossing::crossing;
 use crate::contact::enforcement::Multipliers;
-use crate::contact::interface::{Initial, Interface, Memory, Primary, Start, neighbours};
+use crate::contact::interface::{
+    Attempt, Cache, Directives, History, Initial, Interface, Primary, Start, neighbours,
+};
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Laws;
@@ -282,7 +284,10 @@ impl Make<'_> {
             schedule: self.schedule.clone(),
             edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.1)?,
-            memory: Memory::default(),
+            history: History::default(),
+            attempt: Attempt::default(),
+            directives: Directives::default(),
+            cache: Cache::default(),
         })
     }
 }

@@ -1,7 +1,9 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
-use super::evaluate::Evaluation;
-use super::{History, Interface, Primary};
+use super::definition::{Interface, Primary};
+use super::evaluation::Evaluation;
+use super::history::PointHistory;
+use super::pass::Wants;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -9,7 +11,7 @@ use crate::system::Stage;
 
 /// What the committed history of a point becomes, and what happened on the way, per area.
 struct Passed {
-    history: History,
+    history: PointHistory,
     /// Dissipated by friction `[J/m²]`, and by how much that may be off.
     dissipated: f64,
     uncertain: f64,
@@ -21,83 +23,112 @@ struct Passed {
     work: f64,
 }
 
+/// An increment as all points see it.
+struct Increment {
+    /// Contact is followed along its path: nothing moves fast, and multipliers hold it.
+    resolved: bool,
+    /// Way of the belt.
+    belt: Vec3,
+    /// Start and end `[s]`.
+    times: [f64; 2],
+    dt: f64,
+    /// Points that stick creep.
+    creeps: bool,
+}
+
 impl Interface {
     /// Committed history := trial, and what that adds to the energies.
     pub(super) fn accept(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
-        self.memory.cone = self.judge_friction(stage);
-        self.memory.nodal = self.nodal_forces(active);
+        self.history.cone = self.judge_friction(stage);
+        self.history.nodal = self.nodal_forces(active);
         self.push(stage);
-        if !active || self.memory.last.points.is_empty() {
-            for h in &mut self.memory.committed {
-                *h = History {
-                    slip: h.slip,
-                    dissipated: h.dissipated,
-                    rubbed: h.rubbed,
-                    ..History::default()
-                };
-            }
-            self.memory.stored = 0.0;
+        self.note_opposite();
+        self.history.acting = active && !self.cache.last.points.is_empty();
+        if !self.history.acting {
+            self.rest_history();
             return;
         }
-        let resolved = stage.rate.is_none() && !self.memory.explicit;
-        let gaps = match resolved {
+        let increment = Increment {
+            resolved: stage.rate.is_none() && !self.history.springs,
+            belt: self.belt_path(stage),
+            times: [stage.from.t, stage.at.t],
+            dt: stage.dt,
+            creeps: self.laws.friction_law().frictional() && !self.laws.slip.as_dyn().sticks(),
+        };
+        let gaps = match increment.resolved {
             true => self.gaps_before(stage),
             false => Vec::new(),
         };
-        let belt = self.belt_path(stage);
-        let times = [stage.from.t, stage.at.t];
-        let creeps = self.laws.friction_law().frictional() && !self.laws.slip.as_dyn().sticks();
-        let mut traces = vec![[0.0; 2]; self.memory.committed.len()];
-        self.memory.creep = 0.0;
+        let mut traces = vec![[0.0; 2]; self.history.points.len()];
+        self.history.creep = 0.0;
         let (mut dissipated, mut work) = (0.0, 0.0);
         for (i, trace) in traces.iter_mut().enumerate() {
-            let (e, h) = (&self.memory.last.points[i], &self.memory.committed[i]);
-            let gap = gaps.get(i).copied().unwrap_or(h.gap);
-            let passed = self.pass(h, e, gap, resolved);
-            let (area, r) = (e.area, &e.response);
-            let shear = passed.history.shear;
-            let mut belt_work = 0.5 * dot(add(h.shear, shear), belt) * area;
-            // Overlap that is resolved drives the surfaces apart.
-            let [before, now] = times.map(|t| self.initial.offset(i, t));
-            belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
-            let mut damped = 0.0;
-            if r.damping != 0.0 || h.damping != 0.0 {
-                let closed = if h.normal == [0.0; 3] {
-                    0.0
-                } else {
-                    h.gap - e.gap
-                };
-                damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
-            }
-            let creep = match creeps && r.status == Status::Stick {
-                true => norm(e.moved) / stage.dt,
-                false => 0.0,
-            };
+            let passed = self.take_over(i, gaps.get(i).copied(), &increment);
+            let area = passed.history.area;
             *trace = [passed.dissipated, passed.rubbed];
             dissipated += passed.dissipated * area;
             work += passed.work * area;
-            let memory = &mut self.memory;
-            memory.uncertain += passed.uncertain * area;
-            memory.excess += passed.excess * area;
-            memory.rubbed += passed.rubbed * area;
-            memory.belt_work += belt_work;
-            memory.damped += damped;
-            memory.creep = memory.creep.max(creep);
-            memory.committed[i] = passed.history;
         }
-        self.memory.dissipated += dissipated;
+        self.history.energy.dissipated += dissipated;
         self.leave_traces(&traces);
         let stored = self.stored_energy();
-        let before = std::mem::replace(&mut self.memory.stored, stored);
-        if resolved {
+        let before = std::mem::replace(&mut self.history.energy.stored, stored);
+        if increment.resolved {
             // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
-            self.memory.path += work - (before - stored - dissipated);
+            self.history.energy.path += work - (before - stored - dissipated);
         }
     }
 
+    /// Nothing acts: only what adds up is kept.
+    fn rest_history(&mut self) {
+        for h in &mut self.history.points {
+            *h = PointHistory {
+                slip: h.slip,
+                dissipated: h.dissipated,
+                rubbed: h.rubbed,
+                ..PointHistory::default()
+            };
+        }
+        self.history.energy.stored = 0.0;
+    }
+
+    /// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
+    fn take_over(&mut self, i: usize, gap: Option<f64>, increment: &Increment) -> Passed {
+        let (e, h) = (&self.cache.last.points[i], &self.history.points[i]);
+        let passed = self.pass(h, e, gap.unwrap_or(h.gap), increment.resolved);
+        let (area, r) = (e.area, &e.response);
+        let shear = passed.history.shear;
+        let mut belt_work = 0.5 * dot(add(h.shear, shear), increment.belt) * area;
+        // Overlap that is resolved drives the surfaces apart.
+        let [before, now] = increment.times.map(|t| self.offset(i, t));
+        belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
+        let mut damped = 0.0;
+        if r.damping != 0.0 || h.damping != 0.0 {
+            let closed = if h.normal == [0.0; 3] {
+                0.0
+            } else {
+                h.gap - e.gap
+            };
+            damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
+        }
+        let creep = match increment.creeps && r.status == Status::Stick {
+            true => norm(e.moved) / increment.dt,
+            false => 0.0,
+        };
+        let history = &mut self.history;
+        history.energy.uncertain += passed.uncertain * area;
+        history.energy.excess += passed.excess * area;
+        history.rubbed += passed.rubbed * area;
+        history.energy.work += belt_work;
+        history.energy.damped += damped;
+        history.creep = history.creep.max(creep);
+        history.points[i] = passed.history;
+        passed
+    }
+
     /// A point over an increment. `gap`: at its start.
-    fn pass(&self, h: &History, e: &Evaluation, gap: f64, resolved: bool) -> Passed {
+    fn pass(&self, h: &PointHistory, e: &Evaluation, gap: f64, resolved: bool) -> Passed {
         let r = &e.response;
         let frictional = self.laws.friction_law().frictional();
         let shear = e.along(&e.frame);
@@ -135,10 +166,11 @@ impl Interface {
             excess,
             rubbed: rubbed.max(0.0),
             work: 0.5 * (pressures * opened + dot(both, e.moved)),
-            history: History {
+            history: PointHistory {
                 pressure: r.traction[0],
                 shear,
                 slip: add(so_far, slid),
+                moved: norm(e.moved),
                 gap: e.gap,
                 normal: e.normal,
                 status: r.status,
@@ -149,6 +181,7 @@ impl Interface {
                 rubbed: h.rubbed + rubbed.max(0.0),
                 limit,
                 sheared: self.sheared(e, shear),
+                stiffness: [e.normal_stiffness, e.tangential_stiffness],
             },
         }
     }
@@ -159,7 +192,7 @@ impl Interface {
             self.laws.enforcement.as_dyn().multipliers(),
             Multipliers::Augmented { .. }
         );
-        let springs = self.laws.needs_tangential_stiffness() && (!updated || self.memory.explicit);
+        let springs = self.laws.needs_tangential_stiffness() && (!updated || self.history.springs);
         let stiffness = e.tangential_stiffness;
         match springs && stiffness.is_finite() && stiffness > 0.0 {
             true => 0.5 * dot(shear, shear) / stiffness,
@@ -174,7 +207,7 @@ impl Interface {
     /// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
     /// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
     /// point slid already, and from half-way where it stuck, as nobody knows when it began to slide.
-    fn dissipated(&self, h: &History, e: &Evaluation, part: f64, resolved: bool) -> [f64; 3] {
+    fn dissipated(&self, h: &PointHistory, e: &Evaluation, part: f64, resolved: bool) -> [f64; 3] {
         let r = &e.response;
         // What a spring held is lost where the surfaces part.
         let released = match r.status {
@@ -208,9 +241,9 @@ impl Interface {
     /// Gaps of all points at the start of an increment. Where that is not known, as nothing was opposite or nothing had been accepted yet, they are
     /// looked up.
     fn gaps_before(&mut self, stage: &Stage) -> Vec<f64> {
-        let committed = &self.memory.committed;
-        let points = self.memory.last.points.iter().zip(committed);
-        let unknown = |(e, h): (&Evaluation, &History)| {
+        let committed = &self.history.points;
+        let points = self.cache.last.points.iter().zip(committed);
+        let unknown = |(e, h): (&Evaluation, &PointHistory)| {
             h.normal == [0.0; 3] && e.response.traction != [0.0; 3]
         };
         if !points.into_iter().any(unknown) {
@@ -221,15 +254,15 @@ impl Interface {
             at: stage.from,
             ..*stage
         };
-        let evaluations = self.evaluate_all(&start, super::Wants::default());
+        let evaluations = self.evaluate_all(&start, Wants::default());
         let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
-        let known = self.memory.committed.iter().zip(&evaluations.points);
+        let known = self.history.points.iter().zip(&evaluations.points);
         let gaps = known.map(|(h, e)| match h.normal == [0.0; 3] {
             true => gap(e),
             false => h.gap,
         });
         let gaps = gaps.collect();
-        self.memory.trial = evaluations;
+        self.cache.trial = evaluations;
         gaps
     }
 
@@ -242,13 +275,13 @@ impl Interface {
         let centre = motion.pose(stage.at.t).centre();
         let x = self.coordinates(&stage.at.u);
         let mut now = [[0.0; 3]; 2];
-        for (&force, &x) in self.memory.nodal.iter().zip(&x) {
+        for (&force, &x) in self.history.nodal.iter().zip(&x) {
             now[0] = add(now[0], force);
             now[1] = add(now[1], cross(sub(x, centre), force));
         }
-        let before = std::mem::replace(&mut self.memory.pushed, now);
+        let before = std::mem::replace(&mut self.history.pushed, now);
         let mean = [0, 1].map(|k| scale(0.5, add(before[k], now[k])));
-        self.memory.belt_work += dot(mean[0], shift) + dot(mean[1], turn);
+        self.history.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
     }
 }
 

@@ -1,0 +1,141 @@
+//! What an interface keeps during an attempt at an increment, and forgets with it.
+
+use super::freezing::Freezing;
+use super::history::PointHistory;
+use crate::contact::response::Status;
+use crate::math::Vec3;
+
+/// The course of an attempt. An attempt that is given up leaves no trace: the next one begins from the history.
+#[derive(Debug, Clone, Default)]
+pub struct Attempt {
+    pub(super) multipliers: Vec<Multiplier>,
+    /// Status changes, by point.
+    pub(super) flips: Vec<Flips>,
+    /// Points that chatter, and what they are frozen in.
+    pub(super) freezing: Freezing,
+    /// Points whose status changed with the last iterate.
+    pub(super) changed: usize,
+    /// The last evaluation, a tentative one, may become the next iterate.
+    pub(super) pending: bool,
+    /// Nothing has been in contact yet, and this is the first tangent of the attempt.
+    pub(super) untouched: bool,
+    /// Gap that multipliers leave as it is where a point stays in contact `[m]`.
+    pub(super) accepted: f64,
+    /// How often the stiffness of the enforcement has been raised tenfold, and the violation after the round before.
+    pub(super) tightened: u32,
+    pub(super) violation: Option<f64>,
+}
+
+impl Attempt {
+    /// The next one, from these histories. Points that are frozen while that goes on stay so; vectors keep their memory.
+    pub(super) fn next(self, histories: &[PointHistory], accepted: f64) -> Self {
+        let Attempt {
+            mut multipliers,
+            mut flips,
+            mut freezing,
+            ..
+        } = self;
+        multipliers.clear();
+        multipliers.extend(histories.iter().map(Multiplier::from));
+        flips.clear();
+        flips.resize(histories.len(), Flips::default());
+        freezing.begin();
+        Attempt {
+            multipliers,
+            flips,
+            freezing,
+            accepted,
+            untouched: histories.iter().all(|h| h.status == Status::Open),
+            ..Attempt::default()
+        }
+    }
+}
+
+/// Multipliers of a contact point in the current attempt.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Multiplier {
+    pub pressure: f64,
+    pub shear: Vec3,
+    /// The normal it is perpendicular to; zero where that is not known.
+    pub normal: Vec3,
+    /// What an augmented Lagrangian pulls them to: the estimate of the last round.
+    pub centre_pressure: f64,
+    pub centre_shear: Vec3,
+    pub centre_normal: Vec3,
+    /// The same as components, at the last tangent: Newton steps from here.
+    pub base: [f64; 3],
+    pub frame: [Vec3; 2],
+    pub frame_normal: Vec3,
+}
+
+impl From<&PointHistory> for Multiplier {
+    fn from(h: &PointHistory) -> Self {
+        Multiplier {
+            pressure: h.pressure,
+            shear: h.shear,
+            normal: h.normal,
+            centre_pressure: h.pressure,
+            centre_shear: h.shear,
+            centre_normal: h.normal,
+            ..Multiplier::default()
+        }
+    }
+}
+
+/// Status changes of a point over the iterations of an attempt.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Flips {
+    pub count: usize,
+    /// The last statuses that differ from the one before, latest first.
+    pub last: [Option<Status>; 4],
+    /// Whether it lay over the primary, and how often it has slid off its outer edge.
+    pub over: bool,
+    pub left: usize,
+    /// It has been put back onto the primary.
+    pub returned: bool,
+}
+
+impl Flips {
+    /// Takes note of the status after an iteration; whether it has changed.
+    pub fn note(&mut self, now: Status) -> bool {
+        if self.last[0] == Some(now) {
+            return false;
+        }
+        let changed = self.last[0].is_some();
+        self.count += usize::from(changed);
+        self.last.rotate_right(1);
+        self.last[0] = Some(now);
+        changed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_attempt_begins_as_if_there_had_been_none() {
+        let history = PointHistory {
+            pressure: 2.0,
+            shear: [0.5, 0.0, 0.0],
+            status: Status::Stick,
+            ..PointHistory::default()
+        };
+        let histories = [history; 3];
+        let first = Attempt::default().next(&histories, 0.25);
+        let mut spoiled = first.clone();
+        spoiled.multipliers[1].pressure = 7.0;
+        spoiled.flips[2].note(Status::Slip);
+        spoiled.flips[2].left = 2;
+        spoiled.changed = 3;
+        spoiled.pending = true;
+        spoiled.tightened = 2;
+        spoiled.violation = Some(1.0);
+        let again = spoiled.next(&histories, 0.25);
+        assert_eq!(again.multipliers, first.multipliers);
+        assert_eq!(again.flips, first.flips);
+        let rest = |a: &Attempt| (a.changed, a.pending, a.untouched, a.tightened, a.violation);
+        assert_eq!(rest(&again), rest(&first));
+        assert!(!first.untouched);
+    }
+}

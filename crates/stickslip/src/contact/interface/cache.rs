@@ -1,0 +1,36 @@
+//! What an interface can make again from its definition and displacements: kept because that takes time.
+
+use super::evaluation::Evaluations;
+use super::search::{FaceSearch, Search};
+use crate::contact::mortar::FaceIntegral;
+use crate::contact::pairing::{Anchor, FacetPoint};
+use crate::contact::search::Box3;
+use crate::math::Vec3;
+
+/// What was found for the last evaluations.
+#[derive(Debug, Default)]
+pub struct Cache {
+    /// The last iterate; without points before there is one.
+    pub(super) last: Evaluations,
+    /// Memory for the next evaluation: what was evaluated before, or tentatively.
+    pub(super) trial: Evaluations,
+    /// Coordinates at the last evaluation, and at the accepted state that it started from.
+    pub(super) x: Vec<Vec3>,
+    pub(super) before: Vec<Vec3>,
+    /// Boxes around the facets.
+    pub(super) boxes: Vec<Box3>,
+    pub(super) anchors: Vec<Option<Anchor>>,
+    /// Pairs of the reference configuration, for small sliding.
+    pub(super) frozen: Vec<Option<(usize, FacetPoint)>>,
+    pub(super) search: Search,
+    pub(super) faces: FaceSearch,
+    /// Integrals over the faces of a mortar.
+    pub(super) integrals: Vec<FaceIntegral>,
+}
+
+impl Clone for Cache {
+    /// A copy of an interface starts with an empty one.
+    fn clone(&self) -> Self {
+        Cache::default()
+    }
+}

@@ -1,0 +1,16 @@
+//! What the solver has told an interface: it holds until it is told something else, and is no part of what the interface has been through.
+
+/// How an interface is to act at present.
+#[derive(Debug, Clone, Default)]
+pub struct Directives {
+    /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
+    pub(super) inertia: Vec<f64>,
+    /// Points that do not take part; empty where all do.
+    pub(super) asleep: Vec<bool>,
+    /// Points within the part of the reach in which contact is expected to stay.
+    pub(super) inner: Vec<bool>,
+    /// Stiffness of stick relative to that of the bodies; `None`: that of the enforcement.
+    pub(super) softening: Option<f64>,
+    /// Part of the limit of friction that acts; `None`: all of it.
+    pub(super) mobilised: Option<f64>,
+}

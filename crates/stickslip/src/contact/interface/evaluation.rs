@@ -1,0 +1,182 @@
+//! What an evaluation leaves: the outcome at each point, and the numbers of all of them in batches.
+
+use crate::contact::kinematics::{Stencil, carried_over};
+use crate::contact::law::friction::FrictionPoint;
+use crate::contact::response::Response;
+use crate::math::{Vec3, add_scaled, dot, scale};
+use crate::system::Tangent;
+
+/// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
+pub(super) const CHUNK: usize = 16;
+
+/// An evaluation of all points.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Evaluations {
+    pub points: Vec<Evaluation>,
+    pub batches: Vec<Batch>,
+}
+
+impl Evaluations {
+    /// The numbers of a point.
+    pub fn batch(&self, i: usize) -> &Batch {
+        &self.batches[i / CHUNK]
+    }
+}
+
+/// What a law is asked at a point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Question {
+    pub point: usize,
+    pub gap: f64,
+    pub friction: FrictionPoint,
+}
+
+/// The outcome at one point. What has a size of its own lies in a [`Batch`].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Evaluation {
+    /// Number of dofs, zero where there is no force, and where they start.
+    pub n: usize,
+    pub dofs: usize,
+    /// Where force, `3 × n` gradients and changes, and matrices start, where there are such.
+    pub force: Option<usize>,
+    pub rows: Option<usize>,
+    pub hessian: Option<usize>,
+    pub surrogate: Option<usize>,
+    /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
+    pub saddle: Option<([f64; 3], [f64; 3])>,
+    /// Force that rounding may leave.
+    pub rounding: f64,
+    pub response: Response,
+    pub gap: f64,
+    pub normal: Vec3,
+    /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
+    pub frame: [Vec3; 2],
+    pub frame_before: [Vec3; 2],
+    /// Unit normal to the directions at the last accepted state.
+    pub normal_before: Vec3,
+    /// Relative slip since the last accepted state, belt included, along the frame of that state.
+    pub moved: Vec3,
+    pub facet: Option<usize>,
+    /// It stays off the outer edge of the primary, but lies beneath its surface.
+    pub stranded: bool,
+    /// Whether something lies opposite.
+    pub over: bool,
+    /// Area that the point stands for.
+    pub area: f64,
+    /// Number of nodes that take part, and where their weights start.
+    pub nodes: usize,
+    pub sides: usize,
+    pub normal_stiffness: f64,
+    pub tangential_stiffness: f64,
+    /// Shear traction at the last accepted state, in the frame.
+    pub carried: [f64; 2],
+    /// Multipliers as components in the frame, where they are unknowns.
+    pub multiplier: [f64; 3],
+}
+
+impl Evaluation {
+    /// A point that carries nothing.
+    pub fn open(gap: f64) -> Self {
+        Evaluation {
+            gap,
+            ..Evaluation::default()
+        }
+    }
+}
+
+/// Numbers of the points of one chunk, one point after the other, and room to work in. The memory is used again by the next evaluation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Batch {
+    pub dofs: Vec<usize>,
+    /// Nodes and their weights in gap and slip: positive on the secondary, negative on the primary.
+    pub sides: Vec<(usize, f64)>,
+    pub force: Vec<f64>,
+    /// Gradients of gap and slip and how the tractions along them change, multipliers eliminated; `(3, n)` a point.
+    pub rows: Vec<f64>,
+    pub change: Vec<f64>,
+    pub hessian: Vec<f64>,
+    pub surrogate: Vec<f64>,
+    pub stencil: Stencil,
+    /// Gradients of the slip as friction sees it; empty where they are those of the slip.
+    pub rated: [Vec<f64>; 2],
+    /// The gradient of the gap of a mortar's point by node.
+    pub gradients: Vec<Vec3>,
+    /// What laws are to be asked for all points at once.
+    pub questions: Vec<Question>,
+}
+
+impl Batch {
+    pub fn clear(&mut self) {
+        self.questions.clear();
+        self.dofs.clear();
+        self.sides.clear();
+        self.force.clear();
+        self.rows.clear();
+        self.change.clear();
+        self.hessian.clear();
+        self.surrogate.clear();
+    }
+
+    /// Dofs of a point; none where there is no force.
+    pub fn dofs(&self, e: &Evaluation) -> &[usize] {
+        &self.dofs[e.dofs..e.dofs + e.n]
+    }
+
+    /// Nodes that take part and their weights: positive on the secondary, negative on the primary.
+    pub fn sides(&self, e: &Evaluation) -> &[(usize, f64)] {
+        &self.sides[e.sides..e.sides + e.nodes]
+    }
+
+    /// Force on them; `None` where a point carries nothing.
+    pub fn force(&self, e: &Evaluation) -> Option<&[f64]> {
+        e.force.map(|start| &self.force[start..start + e.n])
+    }
+
+    /// What a tangent evaluation leaves for the assembler.
+    pub fn tangent(&self, e: &Evaluation) -> Option<Tangent<'_>> {
+        let start = e.rows?;
+        let matrix = |all: &'_ [f64], start: Option<usize>| -> std::ops::Range<usize> {
+            start.map_or(all.len()..all.len(), |s| s..s + e.n * e.n)
+        };
+        Some(Tangent {
+            rows: &self.rows[start..start + 3 * e.n],
+            change: &self.change[start..start + 3 * e.n],
+            area: e.area,
+            hessian: &self.hessian[matrix(&self.hessian, e.hessian)],
+            surrogate: &self.surrogate[matrix(&self.surrogate, e.surrogate)],
+        })
+    }
+}
+
+/// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
+pub(super) fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
+    let g11 = dot(e[0], e[0]);
+    let b1 = dot(v, e[0]);
+    if dim == 2 {
+        return [b1 / g11, 0.0];
+    }
+    let (g12, g22, b2) = (dot(e[0], e[1]), dot(e[1], e[1]), dot(v, e[1]));
+    let det = g11 * g22 - g12 * g12;
+    if det == 0.0 {
+        return [0.0; 2];
+    }
+    [(g22 * b1 - g12 * b2) / det, (g11 * b2 - g12 * b1) / det]
+}
+
+impl Evaluation {
+    /// Shear traction on the secondary along the given directions.
+    pub fn along(&self, frame: &[Vec3; 2]) -> Vec3 {
+        let t = self.response.traction;
+        add_scaled(scale(t[1], frame[0]), t[2], frame[1])
+    }
+
+    /// A tangent vector of the last accepted state, where the normal was `normal`, as it is carried into the tangent plane of now.
+    pub fn forward(&self, v: Vec3, normal: Vec3, dim: usize) -> Vec3 {
+        if normal == [0.0; 3] || self.normal_before == [0.0; 3] {
+            return v;
+        }
+        let there = carried_over(v, normal, self.normal_before);
+        let [a, b] = components(there, &self.frame_before, dim);
+        add_scaled(scale(a, self.frame[0]), b, self.frame[1])
+    }
+}

@@ -1,0 +1,223 @@
+//! The interface as Newton's method sees it: the only place that scatters contact into residual and tangent.
+
+use super::definition::Interface;
+use super::evaluation::Evaluations;
+use super::pass::Wants;
+use crate::contact::response::Status;
+use crate::math::{add_scaled, scale};
+use crate::system::{
+    ActiveSet, Assembler, Augmentation, ContactPair, Continuation, Culprit, Force, Stage,
+    StepFailure, Tally,
+};
+
+impl Force for Interface {
+    fn prepare(&mut self, stage: &Stage) {
+        self.ready();
+        self.glue(stage);
+        self.lend(|interface, cache| {
+            interface.pair_reference(cache);
+            if interface.mortar.is_none() && !interface.kinematics.as_dyn().frozen() {
+                interface.coordinates_into(&stage.at.u, &mut cache.x);
+                interface.search(&mut cache.search, &cache.x);
+            }
+        });
+    }
+
+    fn begin(&mut self) {
+        self.history.fit(self.points.len());
+        self.begin_attempt();
+    }
+
+    fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
+        if !self.schedule.active(stage.at.t) {
+            self.cache.last.points.clear();
+            self.attempt.pending = false;
+            self.add_pairs(&Evaluations::default(), out);
+            return Ok(());
+        }
+        let wants = Wants {
+            tangent: out.wants_tangent,
+            surrogate: out.wants_surrogate,
+            holds_turns: out.holds_turns,
+            initial: false,
+        };
+        let evaluations = self.evaluate_all(stage, wants);
+        self.add_pairs(&evaluations, out);
+        scatter(&evaluations, out);
+        self.add_curvature(&evaluations, out);
+        let pending = out.wants_tangent && out.tentative;
+        self.attempt.pending = pending;
+        // The multiplier rows of the last iterate are needed until the step has been taken.
+        if self.unknown() && (pending || !out.wants_tangent) {
+            for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
+                kept.response = e.response;
+                kept.gap = e.gap;
+            }
+            self.cache.trial = evaluations;
+        } else {
+            self.cache.trial = std::mem::replace(&mut self.cache.last, evaluations);
+        }
+        if out.wants_tangent && !out.tentative {
+            self.record();
+        }
+        Ok(())
+    }
+
+    fn settle(&mut self) {
+        if std::mem::take(&mut self.attempt.pending) {
+            if self.unknown() {
+                std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
+            }
+            self.record();
+        }
+    }
+
+    fn update_internal(&mut self, du: &[f64], step: f64) {
+        if !self.unknown() {
+            return;
+        }
+        let last = &self.cache.last;
+        let multipliers = self.attempt.multipliers.iter_mut();
+        for (i, (m, e)) in multipliers.zip(&last.points).enumerate() {
+            let batch = last.batch(i);
+            let (Some((_, shift)), Some(tangent)) = (e.saddle, batch.tangent(e)) else {
+                continue;
+            };
+            let dofs = batch.dofs(e);
+            // dl = -K_ll⁻¹ (r_l + K_lu du)
+            let now: [f64; 3] = std::array::from_fn(|p| {
+                let row = &tangent.change[p * dofs.len()..(p + 1) * dofs.len()];
+                let along: f64 = row.iter().zip(dofs).map(|(k, &dof)| k * du[dof]).sum();
+                m.base[p] - step * (shift[p] + along)
+            });
+            m.pressure = now[0];
+            m.shear = add_scaled(scale(now[1], m.frame[0]), now[2], m.frame[1]);
+            m.normal = m.frame_normal;
+        }
+    }
+
+    fn augment(&mut self, stage: &Stage) -> Augmentation {
+        self.update_multipliers(stage)
+    }
+
+    fn commit(&mut self, stage: &Stage) {
+        self.accept(stage);
+    }
+
+    fn tally(&self) -> Option<Tally> {
+        let mut tally = Tally {
+            changed: self.attempt.changed,
+            ..Tally::default()
+        };
+        for e in &self.cache.last.points {
+            match e.response.status {
+                Status::Open => tally.open += 1,
+                Status::Stick => tally.stick += 1,
+                Status::Slip => tally.slip += 1,
+            }
+        }
+        Some(tally)
+    }
+
+    fn diagnose(&self) -> Vec<Culprit> {
+        self.culprits()
+    }
+
+    fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
+        Some(self)
+    }
+
+    fn continuation(&mut self) -> Option<&mut dyn Continuation> {
+        let frictional = self.laws.friction_law().frictional();
+        frictional.then_some(self as &mut dyn Continuation)
+    }
+}
+
+/// Adds residual and tangent of all points.
+fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
+    for (i, e) in evaluations.points.iter().enumerate() {
+        let (batch, area) = (evaluations.batch(i), e.area);
+        let dofs = batch.dofs(e);
+        if !dofs.is_empty() {
+            out.add_coupling(dofs);
+        }
+        let Some(force) = batch.force(e) else {
+            continue;
+        };
+        out.add_residual(dofs, force);
+        out.rounding += e.rounding * e.rounding;
+        if let Some((rest, _)) = &e.saddle {
+            let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            out.multiplier_residual = out.multiplier_residual.max(worst * area);
+            out.multiplier_merit += rest.iter().map(|r| (r * area).powi(2)).sum::<f64>();
+        }
+        if let Some(tangent) = batch.tangent(e) {
+            if let Some((_, shift)) = e.saddle {
+                out.add_condensed(dofs, tangent, shift);
+            }
+            out.add_tangent(dofs, tangent);
+        }
+    }
+}
+
+impl Interface {
+    /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
+    /// none.
+    fn add_pairs(&self, evaluations: &Evaluations, out: &mut Assembler) {
+        if !out.wants_tangent || !out.wants_pairs {
+            return;
+        }
+        for (i, point) in self.points.iter().enumerate() {
+            let Some(node) = point.node() else {
+                continue;
+            };
+            let e = evaluations.points.get(i);
+            let facet = e.filter(|e| e.over).map_or(Vec::new(), |e| {
+                let sides = evaluations.batch(i).sides(e).iter();
+                let met = sides.filter(|(n, _)| *n < self.primary_nodes);
+                met.map(|&(n, w)| (self.nodes[n], -w)).collect()
+            });
+            let normal = e.map_or([0.0; 3], |e| e.normal);
+            out.pairs.push(ContactPair {
+                point: self.nodes[node],
+                facet,
+                normal: if normal == [0.0; 3] {
+                    point.normal
+                } else {
+                    normal
+                },
+            });
+        }
+    }
+
+    /// Makes the last evaluation the iterate from which Newton's method steps.
+    fn record(&mut self) {
+        let unknown = self.unknown();
+        let attempt = &mut self.attempt;
+        let last = &self.cache.last.points;
+        attempt.untouched = false;
+        attempt.changed = 0;
+        for (flips, e) in attempt.flips.iter_mut().zip(last) {
+            attempt.changed += usize::from(flips.note(e.response.status));
+            let over = e.over;
+            flips.left += usize::from(flips.over && !over);
+            flips.over = over;
+        }
+        attempt.freezing.note(last);
+        if unknown {
+            for (m, e) in attempt.multipliers.iter_mut().zip(last) {
+                m.base = e.multiplier;
+                m.frame = e.frame_before;
+                m.frame_normal = e.normal_before;
+            }
+        }
+    }
+
+    /// How many points have another status in the present attempt than at the last accepted state.
+    pub fn switched(&self) -> usize {
+        let points = self.history.points.iter().zip(&self.cache.last.points);
+        points
+            .filter(|(h, e)| h.status != e.response.status)
+            .count()
+    }
+}

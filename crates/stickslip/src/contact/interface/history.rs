@@ -1,0 +1,167 @@
+//! What an interface knows of accepted increments: plain data, which a checkpoint would hold and an increment that waits for its report keeps.
+
+use crate::contact::response::Status;
+use crate::math::Vec3;
+use crate::system::Energy;
+
+/// What commits have written. Everything that is reported follows from it, from the definition of the interface and from displacements.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct History {
+    /// By contact point; empty before there was anything.
+    pub(super) points: Vec<PointHistory>,
+    /// Whether the points are those of an evaluation: not before the first commit, nor while the interface does not act.
+    pub(super) acting: bool,
+    /// Where points lay over the primary.
+    pub(super) opposite: Opposite,
+    /// What was found when the interface began to act.
+    pub(super) start: Origin,
+    /// Springs act in place of multipliers, as explicit dynamics has it.
+    pub(super) springs: bool,
+    /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
+    pub(super) rest: Vec<f64>,
+    /// Energies, of which all but the stored one add up over increments.
+    pub(super) energy: Energy,
+    /// Sum of area times `rubbed` over all points and increments `[N m]`.
+    pub(super) rubbed: f64,
+    /// Forces on the nodes `[N]`; empty before there was an accepted state.
+    pub(super) nodal: Vec<Vec3>,
+    /// Dissipated energy and `rubbed` per area at the nodes of the primary, by node; empty before anything slid.
+    pub(super) traces: Vec<[f64; 2]>,
+    /// Force, and moment about the centre of rotation, with which a moving obstacle pushed.
+    pub(super) pushed: [Vec3; 2],
+    /// Largest velocity of slip below the limit over the last increment `[m/s]`.
+    pub(super) creep: f64,
+    /// Whether the shear is what friction says.
+    pub(super) cone: Cone,
+}
+
+/// Committed history of a contact point.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct PointHistory {
+    pub pressure: f64,
+    /// Shear traction on the secondary.
+    pub shear: Vec3,
+    /// Accumulated slip of the secondary over the primary.
+    pub slip: Vec3,
+    /// Length of the slip over the last increment, sticking points included `[m]`.
+    pub moved: f64,
+    pub gap: f64,
+    pub normal: Vec3,
+    pub status: Status,
+    pub facet: Option<usize>,
+    /// Area that the point stands for.
+    pub area: f64,
+    /// The part of the pressure that damping added.
+    pub damping: f64,
+    /// Energy that friction has dissipated here `[J/m²]`.
+    pub dissipated: f64,
+    /// Pressure times path of sliding, accumulated: `∫ p |ds|` `[Pa m]`.
+    pub rubbed: f64,
+    /// The largest shear traction that could be carried `[Pa]`.
+    pub limit: f64,
+    /// Elastic energy of the spring that sticks `[J/m²]`.
+    pub sheared: f64,
+    /// Stiffness with which the enforcement acted against penetration, and of sticking `[Pa/m]`; infinite where the law itself was followed.
+    pub stiffness: [f64; 2],
+}
+
+/// Nodes of the primary that points lay over, with their weights there.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Opposite {
+    /// Where the nodes of each point end.
+    ends: Vec<usize>,
+    nodes: Vec<(usize, f64)>,
+}
+
+impl Opposite {
+    pub fn clear(&mut self) {
+        self.ends.clear();
+        self.nodes.clear();
+    }
+
+    /// Adds those of the next point.
+    pub fn push(&mut self, nodes: impl Iterator<Item = (usize, f64)>) {
+        self.nodes.extend(nodes);
+        self.ends.push(self.nodes.len());
+    }
+
+    /// Those of a point; none where nothing was opposite.
+    pub fn of(&self, i: usize) -> &[(usize, f64)] {
+        let Some(&end) = self.ends.get(i) else {
+            return &[];
+        };
+        let start = i.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.nodes[start..end]
+    }
+}
+
+/// The gaps from which an interface counts.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Origin {
+    /// It has begun to act.
+    pub begun: bool,
+    /// The time over which overlap is resolved `[s]`.
+    pub span: [f64; 2],
+    /// Gap at which a point counts as closed `[m]`, by point; empty until the interface acts, and where there is nothing to subtract.
+    pub offset: Vec<f64>,
+    /// Tied surfaces: distances that stay, by point, NaN where nothing near lies opposite; empty until they are found.
+    pub glued: Vec<f64>,
+}
+
+/// What is wrong with the shear of an interface after an increment, and what that is relative to.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Cone {
+    /// Largest amount by which the shear is not what friction says `[Pa]`.
+    pub worst: f64,
+    /// Largest limit `[Pa]`.
+    pub limit: f64,
+}
+
+impl History {
+    /// Room for as many points as there are.
+    pub(super) fn fit(&mut self, points: usize) {
+        if self.points.len() != points {
+            self.points = vec![PointHistory::default(); points];
+        }
+    }
+
+    /// Memory that it takes `[bytes]`.
+    #[cfg(test)]
+    pub(super) fn taken(&self) -> usize {
+        size_of_val(self.points.as_slice())
+            + size_of_val(self.opposite.ends.as_slice())
+            + size_of_val(self.opposite.nodes.as_slice())
+            + size_of_val(self.nodal.as_slice())
+            + size_of_val(self.traces.as_slice())
+            + size_of_val(self.rest.as_slice())
+            + size_of_val(self.start.offset.as_slice())
+            + size_of_val(self.start.glued.as_slice())
+    }
+
+    /// Memory that it will take `[bytes]`, of an interface with so many points that lie over so many nodes of the primary in all, and so many nodes.
+    pub(super) fn bytes(points: usize, opposite: usize, nodes: usize) -> usize {
+        let point = size_of::<PointHistory>() + size_of::<usize>() + 3 * size_of::<f64>();
+        let node = size_of::<Vec3>() + size_of::<[f64; 2]>();
+        points * point + opposite * size_of::<(usize, f64)>() + nodes * node
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_opposite_are_kept_point_by_point() {
+        let mut opposite = Opposite::default();
+        let all = [vec![(3, 0.25), (4, 0.75)], vec![], vec![(1, 1.0)]];
+        for nodes in &all {
+            opposite.push(nodes.iter().copied());
+        }
+        for (i, nodes) in all.iter().enumerate() {
+            assert_eq!(opposite.of(i), nodes.as_slice());
+        }
+        assert!(opposite.of(3).is_empty());
+        opposite.clear();
+        assert!(opposite.of(0).is_empty());
+    }
+}

@@ -1,0 +1,75 @@
+//! What is reported follows from the history alone, whatever has been tried since, and takes no more memory than is counted.
+
+use super::definition::Interface;
+use super::history::History;
+use super::objective::{accept, all, start, tried};
+use crate::contact::law::Wear;
+use crate::math::{Vec3, mat_vec, rotation};
+use crate::system::{Fields, State};
+
+/// The shoe, pressed and slid along the drum by an angle and lifted by a part.
+fn slid(drum: usize, angle: f64, lift: f64) -> impl Fn(usize, Vec3) -> Vec3 {
+    let turn = rotation([0.0, 0.0, 1.0], angle);
+    move |k, x| match k < drum {
+        true => x,
+        false => mat_vec(&turn, x).map(|x| (1.0 + lift) * x),
+    }
+}
+
+/// All that an interface says of itself, in words that differ when a bit does.
+fn said(interface: &Interface, state: &State) -> String {
+    let mut fields = Fields::default();
+    interface.fields(&mut fields);
+    format!(
+        "{:?}",
+        (
+            (interface.quality(), interface.balance(&state.u)),
+            (interface.table(&state.u), interface.resultant(&state.u)),
+            (interface.energy(), interface.law_energy(), interface.wear()),
+            (interface.numerical_factor(), interface.resolution()),
+            interface.between(&state.u, state.t),
+            fields,
+        )
+    )
+}
+
+#[test]
+fn what_is_reported_does_not_depend_on_what_was_tried_since() {
+    for dim in [2, 3] {
+        for (what, mut interface) in all(dim) {
+            interface.laws.wear = Some(Wear {
+                coefficient: 1e-9,
+                primary_coefficient: 1e-9,
+            });
+            let drum = interface.primary_nodes;
+            let origin = start(&interface);
+            let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));
+            let state = accept(&mut interface, &state, slid(drum, 0.05, 0.0));
+            let before = said(&interface, &state);
+            let history = interface.history.clone();
+            tried(&mut interface, &state, slid(drum, 0.3, 0.002));
+            assert_eq!(said(&interface, &state), before, "{what}");
+            assert_eq!(interface.history, history, "{what}");
+            // The history is all there is to it.
+            let mut other = interface.clone();
+            other.history = History::default();
+            other.history = history;
+            assert_eq!(said(&other, &state), before, "{what}");
+        }
+    }
+}
+
+#[test]
+fn a_history_takes_the_memory_that_is_counted() {
+    for dim in [2, 3] {
+        for (what, mut interface) in all(dim) {
+            let drum = interface.primary_nodes;
+            let origin = start(&interface);
+            let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));
+            accept(&mut interface, &state, slid(drum, 0.05, 0.0));
+            let (taken, counted) = (interface.history.taken(), interface.history_bytes());
+            assert!(taken <= counted, "{what}: {taken} of {counted}");
+            assert!(counted <= 3 * taken, "{what}: {taken} of {counted}");
+        }
+    }
+}

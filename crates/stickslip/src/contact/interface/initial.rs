@@ -1,0 +1,92 @@
+//! What becomes of the gaps that the meshes have when an interface begins to act.
+
+use serde::{Deserialize, Serialize};
+
+use super::history::Origin;
+
+/// What becomes of gaps and overlaps that the meshes have when an interface begins to act.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// They count as they are.
+    #[default]
+    AsMeshed,
+    /// Points of the secondary within the tolerance are moved onto the primary before anything is computed: another mesh, without strain.
+    Snap,
+    /// The gap counts from its initial value where that is within the tolerance, or where the surfaces overlap: contact that is closed
+    /// from the start, whatever the meshes say.
+    Offset,
+    /// Overlap is resolved in proportion to time over the first step in which the interface acts: a shrink fit.
+    Ramp,
+}
+
+/// How an interface starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial {
+    /// What becomes of the gaps.
+    pub start: Start,
+    /// Gap up to which points are moved, count as closed or are glued; what is usual if not given.
+    pub within: Option<Within>,
+    /// Points of the mesh that may be moved, ascending; all if not given.
+    pub only: Option<Vec<usize>>,
+}
+
+/// How near a point has to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Within {
+    /// Relative to the height of the cell beneath `[-]`.
+    Fraction(f64),
+    /// A length `[m]`.
+    Distance(f64),
+}
+
+impl Within {
+    /// The distance for a point above a cell of this height `[m]`.
+    pub fn of(self, height: f64) -> f64 {
+        match self {
+            Within::Fraction(fraction) => fraction * height,
+            Within::Distance(distance) => distance,
+        }
+    }
+}
+
+/// How near a point has to be to be moved or to count as closed, if nothing else is said.
+pub const CLOSE: Within = Within::Fraction(0.1);
+
+/// Gap relative to the cell beneath up to which a point counts as touching at the very start.
+pub(super) const TOUCHING: f64 = 1e-6;
+
+/// How near tied surfaces have to be to be glued, if nothing else is said.
+pub const GLUE: Within = Within::Fraction(0.5);
+
+impl Default for Initial {
+    fn default() -> Self {
+        Initial::new(Start::default(), None)
+    }
+}
+
+impl Initial {
+    /// Of all points.
+    pub fn new(start: Start, within: Option<Within>) -> Self {
+        Initial {
+            start,
+            within,
+            only: None,
+        }
+    }
+
+    /// What is subtracted from the gap of a point at time `t` `[m]`.
+    pub(super) fn offset(&self, origin: &Origin, i: usize, t: f64) -> f64 {
+        let Some(&offset) = origin.offset.get(i) else {
+            return 0.0;
+        };
+        match self.start {
+            Start::Ramp => {
+                let [from, to] = origin.span;
+                offset * (1.0 - ((t - from) / (to - from)).clamp(0.0, 1.0))
+            }
+            _ => offset,
+        }
+    }
+}

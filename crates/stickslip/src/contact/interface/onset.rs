@@ -1,0 +1,67 @@
+//! What acts in the first instant of a motion.
+
+use super::definition::Interface;
+use super::initial::TOUCHING;
+use super::pass::Wants;
+use crate::contact::response::Status;
+use crate::math::Vec3;
+use crate::system::{Force, Stage, StepFailure};
+
+/// Tractions at the end of an attempt, by point.
+#[derive(Debug, Clone, Default)]
+pub struct Tried(Vec<(Status, f64, Vec3)>);
+
+impl Interface {
+    /// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
+    /// history: for the acceleration at the start.
+    pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<(), StepFailure> {
+        if !self.schedule.active(stage.at.t) {
+            return Ok(());
+        }
+        self.prepare(stage);
+        self.begin();
+        let wants = Wants {
+            initial: true,
+            ..Wants::default()
+        };
+        let evaluations = self.evaluate_all(stage, wants);
+        for (i, e) in evaluations.points.iter().enumerate() {
+            let batch = evaluations.batch(i);
+            let force = batch.force(e).unwrap_or_default();
+            for (&dof, r) in batch.dofs(e).iter().zip(force) {
+                residual[dof] += r;
+            }
+        }
+        self.cache.trial = evaluations;
+        Ok(())
+    }
+
+    /// The tractions of the present attempt.
+    pub fn tried(&self) -> Tried {
+        let points = self.cache.last.points.iter();
+        let traction = points.map(|e| {
+            let r = &e.response;
+            (r.status, r.traction[0], e.along(&e.frame))
+        });
+        Tried(traction.collect())
+    }
+
+    /// Takes the tractions of an attempt as those of the last accepted state: what acts from the first instant of a motion. Where a point sticks, what the
+    /// others carry is only being built up, and all is left as it is.
+    pub fn adopt(&mut self, tried: &Tried) {
+        if tried.0.iter().any(|(status, ..)| *status == Status::Stick) {
+            return;
+        }
+        let all = self.history.points.iter_mut().zip(&tried.0);
+        for (history, &(_, pressure, shear)) in all.filter(|(_, t)| t.0 == Status::Slip) {
+            history.pressure = pressure;
+            history.shear = shear;
+        }
+    }
+
+    /// Whether a point touched or was near at the last evaluation, by the height of the cell beneath it.
+    pub fn touches(&self) -> bool {
+        let mut points = self.cache.trial.points.iter().zip(&self.points);
+        points.any(|(e, point)| e.over && e.gap <= TOUCHING * point.size)
+    }
+}

@@ -1,0 +1,99 @@
+//! An evaluation of all points of an interface.
+
+use rayon::prelude::*;
+
+use super::cache::Cache;
+use super::definition::Interface;
+use super::evaluate::{Asking, Scene};
+use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use crate::contact::pairing::Anchor;
+use crate::math::scale;
+use crate::system::{Force, Stage};
+
+/// What is asked of an evaluation.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Wants {
+    pub tangent: bool,
+    pub surrogate: bool,
+    /// See [`Assembler`](crate::system::Assembler).
+    pub holds_turns: bool,
+    /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
+    pub initial: bool,
+}
+
+impl Interface {
+    /// Evaluates all points, in the memory of `trial`: whoever asks puts that back.
+    pub(super) fn evaluate_all(&mut self, stage: &Stage, wants: Wants) -> Evaluations {
+        self.lend(|interface, cache| interface.evaluate_with(cache, stage, wants))
+    }
+
+    fn evaluate_with(&self, cache: &mut Cache, stage: &Stage, wants: Wants) -> Evaluations {
+        self.coordinates_into(&stage.at.u, &mut cache.x);
+        self.coordinates_into(&stage.from.u, &mut cache.before);
+        if self.mortar.is_some() {
+            self.integrate(cache, wants.holds_turns);
+        } else if !self.kinematics.as_dyn().frozen() {
+            self.enclose(&cache.x, &mut cache.boxes);
+        }
+        let mut out = std::mem::take(&mut cache.trial);
+        let mut anchors = std::mem::take(&mut cache.anchors);
+        let count = self.points.len();
+        anchors.resize(count, None);
+        out.points.resize(count, Evaluation::default());
+        out.batches
+            .resize_with(count.div_ceil(CHUNK), Batch::default);
+        let poses = self.poses(stage);
+        let scene = Scene {
+            cache,
+            poses: poses.as_ref(),
+            belt: self.belt_path(stage),
+            belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
+            rate: stage.rate,
+            dt: stage.dt,
+            t: stage.at.t,
+            wants,
+            told: &[],
+            asking: Asking::Nothing,
+        };
+        let told = self.ask(&scene, &mut out, &mut anchors);
+        let scene = Scene {
+            told: &told,
+            ..scene
+        };
+        self.evaluate_points(&scene, &mut out, &mut anchors);
+        cache.anchors = anchors;
+        out
+    }
+
+    pub(super) fn evaluate_points(
+        &self,
+        scene: &Scene,
+        out: &mut Evaluations,
+        anchors: &mut [Option<Anchor>],
+    ) {
+        let last = &scene.cache.last.points;
+        out.points
+            .par_chunks_mut(CHUNK)
+            .zip(out.batches.par_iter_mut())
+            .zip(anchors.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each(|(chunk, ((points, batch), anchors))| {
+                batch.clear();
+                for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
+                    let i = chunk * CHUNK + k;
+                    *e = self.evaluate(i, scene, last.get(i), anchor, batch);
+                }
+            });
+    }
+
+    /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
+    pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
+        self.prepare(stage);
+        self.begin();
+        let evaluations = self.evaluate_all(stage, Wants::default());
+        let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
+        let gaps = evaluations.points.iter().map(gap).collect();
+        self.cache.trial = evaluations;
+        gaps
+    }
+}

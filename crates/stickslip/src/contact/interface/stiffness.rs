@@ -1,0 +1,53 @@
+//! How stiffly bodies and enforcement resist at a point.
+
+use super::definition::Interface;
+use crate::contact::enforcement::{Multipliers, Stiffness};
+use crate::contact::surface::ContactPoint;
+
+/// Stiffness relative to that of the bodies up to which an augmented Lagrangian is tightened.
+const STIFFEST: f64 = 1e6;
+
+/// Part of the mass over the square of the increment that counts as stiffness: a tenth of what the trapezoidal rule makes of it. More would turn the
+/// rounding of gaps into pressure where supports hold a body already.
+const INERTIA: f64 = 0.4;
+
+impl Interface {
+    /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
+    pub fn set_masses(&mut self, by_point: &[f64]) {
+        let mass = |p: &ContactPoint| -> f64 {
+            let nodes = p.nodes.iter().zip(&p.weights);
+            nodes
+                .map(|(&node, w)| w * by_point.get(self.nodes[node]).copied().unwrap_or(0.0))
+                .sum::<f64>()
+                .max(0.0)
+        };
+        self.directives.inertia = self.points.iter().map(|p| mass(p) / p.area).collect();
+    }
+
+    /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
+    pub(super) fn own_stiffness(&self, i: usize, moving: Option<f64>) -> f64 {
+        let inertia = self.directives.inertia.get(i).copied().unwrap_or(0.0);
+        let inertia = moving.map_or(0.0, |dt| INERTIA * inertia / (dt * dt));
+        self.points[i].stiffness + inertia
+    }
+
+    /// Whether multipliers are unknowns of the present attempt.
+    pub(super) fn unknown(&self) -> bool {
+        self.laws.unknown_multipliers() && !self.history.springs
+    }
+
+    /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
+    pub(super) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
+        let multipliers = self.laws.enforcement.as_dyn().multipliers();
+        if self.history.springs && multipliers != Multipliers::None {
+            return own;
+        }
+        let start = stiffness.resolve(own);
+        if self.attempt.tightened == 0 {
+            return start;
+        }
+        // Never softer than asked for, and never so stiff that the bodies drown in rounding.
+        let raised = start * 10_f64.powi(self.attempt.tightened as i32);
+        raised.min(STIFFEST * own).max(start)
+    }
+}

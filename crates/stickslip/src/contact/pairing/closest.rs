@@ -1,0 +1,210 @@
+//! Which facet a point belongs to.
+
+use super::project::{FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near};
+use crate::contact::search::Box3;
+use crate::contact::surface::Facet;
+use crate::math::{Vec3, add, cross, dot, norm, scale, sub};
+
+/// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
+const KEPT: f64 = 1e-3;
+
+/// Distances from facets, relative to their size, and cosines that are equal but for rounding.
+const TIE: f64 = 1e-9;
+
+/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
+/// some 1e-6 of the facet.
+const FLAT: f64 = 1e-5;
+
+/// Farther away than the nearest facet by this factor a box need not be looked into.
+const AWAY: f64 = 1.5;
+
+/// Part of the margin of the search that leaves room for facets that are equally near.
+const ROOM: f64 = 1e-8;
+
+/// A point and the facets among which its own is.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice<'a> {
+    /// All facets of the primary.
+    pub facets: &'a [Facet],
+    /// Boxes around them.
+    pub boxes: &'a [Box3],
+    /// Those that come into question, ascending.
+    pub candidates: &'a [usize],
+    /// Distance up to which facets were looked for `[m]`.
+    pub margin: f64,
+    /// Coordinates of all nodes now and in the reference configuration.
+    pub x: &'a [Vec3],
+    /// In the reference configuration.
+    pub reference: &'a [Vec3],
+    /// Place of the point, and the outward normal of its surface.
+    pub position: Vec3,
+    /// Outward normal of the surface of the point.
+    pub outward: Vec3,
+    /// How far a point may lie beyond an outer edge, relative to the facet.
+    pub edge_tolerance: f64,
+}
+
+/// The facet on which a point was, and where.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Previous {
+    /// The facet.
+    pub facet: Option<usize>,
+    /// The coordinates of the projection on it; `None` where they are no guide.
+    pub near: Option<[f64; 2]>,
+}
+
+/// A point over one of its candidates.
+struct Look {
+    p: FacetPoint,
+    /// A length of the facet, for tolerances.
+    size: f64,
+    away: f64,
+    beyond: f64,
+    carried: bool,
+}
+
+/// A length of a facet, for tolerances.
+fn facet_size(facet: &Facet, p: &FacetPoint) -> f64 {
+    match facet.kind.dim() {
+        1 => 2.0 * norm(p.a[0]),
+        _ => norm(cross(p.a[0], p.a[1])).sqrt(),
+    }
+}
+
+impl Choice<'_> {
+    /// The facet that the point belongs to and its projection there.
+    ///
+    /// The nearest facet wins; between equally near ones the previous one. Beyond an edge where the surface goes on the facet is extended, so that a point
+    /// in a re-entrant corner is not lost; beyond an outer edge the point is free.
+    ///
+    /// # Errors
+    /// The distance to the surface, where the point belongs to none.
+    pub fn closest(&self, previous: Previous) -> Result<(usize, FacetPoint), f64> {
+        let Some(first) = self.likely(previous.facet) else {
+            return Err(f64::INFINITY);
+        };
+        let near = previous.near.filter(|_| previous.facet == Some(first));
+        let mut seed = self.look(first, near);
+        let mut nearest = seed.as_ref().map_or(f64::INFINITY, |look| look.away);
+        let mut best: Option<(usize, Look)> = None;
+        let mut kept: Option<FacetPoint> = None;
+        for &f in self.candidates {
+            let look = if f == first {
+                seed.take()
+            } else {
+                // Beyond a facet `away` is the distance to a place of it, at least that to its box.
+                let limit = AWAY * (nearest + ROOM * self.margin);
+                if self.box_distance2(f) > limit * limit {
+                    continue;
+                }
+                self.look(f, None)
+            };
+            let Some(look) = look else {
+                continue;
+            };
+            nearest = nearest.min(look.away);
+            if previous.facet == Some(f) && look.carried && look.beyond <= KEPT * look.size {
+                kept = Some(look.p);
+            }
+            let better = match &best {
+                None => true,
+                Some((b, held)) => self.better((f, &look), (*b, held), previous.facet),
+            };
+            if better {
+                best = Some((f, look));
+            }
+        }
+        match (best, kept, previous.facet) {
+            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
+            (Some((_, look)), Some(k), Some(f))
+                if look.carried && dot(look.p.normal, k.normal) > 1.0 - FLAT =>
+            {
+                Ok((f, k))
+            }
+            (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
+            _ => Err(nearest),
+        }
+    }
+
+    fn box_distance2(&self, f: usize) -> f64 {
+        self.boxes[f].distance2(self.position)
+    }
+
+    /// The candidate to look at first: the previous one or that with the nearest box. Facets that cannot be as near need not be projected on.
+    fn likely(&self, previous: Option<usize>) -> Option<usize> {
+        let previous = previous.filter(|f| self.candidates.binary_search(f).is_ok());
+        previous.or_else(|| {
+            let nearest = self.candidates.iter().map(|&f| (self.box_distance2(f), f));
+            nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f)
+        })
+    }
+
+    /// The point over a facet; `None` if it has no projection there, or if the two do not face each other.
+    fn look(&self, f: usize, near: Option<[f64; 2]>) -> Option<Look> {
+        let facet = &self.facets[f];
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let nodes = facet.gather(self.x, &mut nodes);
+        let position = self.position;
+        let p = match near {
+            Some(xi) => project_near(facet.kind, nodes, position, xi)?,
+            None => project(facet.kind, nodes, position)?,
+        };
+        if dot(p.normal, self.outward) >= 0.0 {
+            return None;
+        }
+        let size = facet_size(facet, &p);
+        let over = beyond(facet.kind, nodes, &p);
+        // A facet is extended for points near its edge. Behind the plane of a distant one lie points that no facet nearby faces, such as
+        // those on the far side of a ball.
+        let behind = dot(sub(position, p.x), p.normal) < 0.0;
+        let extended = facet.continues[over.edge] && !(behind && over.distance > size);
+        Some(Look {
+            p,
+            size,
+            away: facet_distance(position, &p, over),
+            beyond: over.distance,
+            carried: over.distance <= self.edge_tolerance * size || extended,
+        })
+    }
+
+    /// Whether facet `f` is the point's own rather than `b`.
+    fn better(
+        &self,
+        (f, look): (usize, &Look),
+        (b, held): (usize, &Look),
+        previous: Option<usize>,
+    ) -> bool {
+        // Distances equal but for rounding: an edge both facets share.
+        let tie = (look.away - held.away).abs() <= TIE * look.size;
+        match (look.carried, held.carried, tie) {
+            (true, false, true) => true,
+            (false, true, true) => false,
+            (_, _, true) if previous == Some(f) || previous == Some(b) => previous == Some(f),
+            (_, _, true) => self.precedes((f, look), (b, held)),
+            _ => look.away < held.away,
+        }
+    }
+
+    /// Which of two facets that are equally near the point is its own, whatever their numbers: the one that looks at it more, or, where they look alike, the
+    /// one whose middle comes first in the reference configuration.
+    fn precedes(&self, a: (usize, &Look), b: (usize, &Look)) -> bool {
+        let facing = |look: &Look| dot(look.p.normal, self.outward);
+        let apart = facing(a.1) - facing(b.1);
+        if apart.abs() > TIE {
+            return apart < 0.0;
+        }
+        let middle = |f: usize| {
+            let nodes = &self.facets[f].nodes;
+            let sum = nodes
+                .iter()
+                .fold([0.0; 3], |s, &n| add(s, self.reference[n]));
+            scale(1.0 / nodes.len() as f64, sum)
+        };
+        let first = sub(middle(a.0), middle(b.0));
+        let tie = TIE.sqrt() * a.1.size;
+        first
+            .iter()
+            .find(|d| d.abs() > tie)
+            .is_some_and(|d| *d < 0.0)
+    }
+}
