@@ -1,5 +1,6 @@
 use super::check::{self, MaterialError};
-use super::{Elasticity, Stiffness, VOIGT};
+use super::elasticity::Elasticity;
+use super::stiffness::{Stiffness, VOIGT};
 use crate::registry::Samples;
 
 /// The full tensor `a_ijkl` of [`pop_1995`](crate::references::pop_1995), eq. (2).

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Stiffness;
+use super::stiffness::Stiffness;
 use crate::math::symmetric_eigen;
 
 /// The smallest eigenvalue must exceed this fraction of the largest: below it, rounding decides the sign.

@@ -1,5 +1,6 @@
 use super::check::{MaterialError, modulus};
-use super::{Elasticity, Stiffness};
+use super::elasticity::Elasticity;
+use super::stiffness::Stiffness;
 use crate::registry::Samples;
 
 /// The same in all directions.

@@ -8,51 +8,19 @@
 
 mod anisotropic;
 mod check;
+mod elasticity;
 mod isotropic;
 mod orthotropic;
 mod reduce;
+mod stiffness;
 
 pub use anisotropic::{Anisotropic, Entries};
 pub use check::{MaterialError, smallest_eigenvalue};
+pub use elasticity::Elasticity;
 pub use isotropic::Isotropic;
 pub use orthotropic::Orthotropic;
 pub use reduce::{constrained_modulus, plane_stress};
-
-/// A 6×6 stiffness `[Pa]`, row by row, in the order of this module.
-pub type Stiffness = [[f64; 6]; 6];
-
-/// The Voigt index of the tensor component `(i, j)`.
-pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-
-/// A linear elastic material.
-pub trait Elasticity {
-    /// The stiffness `[Pa]`, checked: symmetric and positive definite.
-    ///
-    /// # Errors
-    /// Names the parameter at fault and, where the tensor is not elliptic, its smallest eigenvalue.
-    fn stiffness(&self) -> Result<Stiffness, MaterialError>;
-
-    /// Mass per volume `[kg/m³]`.
-    fn density(&self) -> f64;
-
-    /// A modulus `[Pa]` by which other quantities are made dimensionless: the largest constrained modulus
-    /// (uniaxial strain), see [`constrained_modulus`].
-    ///
-    /// # Errors
-    /// As [`stiffness`](Elasticity::stiffness).
-    fn characteristic_modulus(&self) -> Result<f64, MaterialError> {
-        Ok(constrained_modulus(&self.stiffness()?))
-    }
-
-    /// Checks all parameters.
-    ///
-    /// # Errors
-    /// As [`stiffness`](Elasticity::stiffness); also for a density that is negative or not finite.
-    fn check(&self) -> Result<(), MaterialError> {
-        self.stiffness()?;
-        check::density(self.density())
-    }
-}
+pub use stiffness::{Stiffness, VOIGT};
 
 crate::family! {
     /// The materials.

@@ -1,6 +1,7 @@
 use super::check::{self, MaterialError, modulus};
+use super::elasticity::Elasticity;
 use super::reduce::rotate;
-use super::{Elasticity, Stiffness};
+use super::stiffness::Stiffness;
 use crate::math::{Vec3, add_scaled, cross, dot, inverse, norm, normalize};
 use crate::registry::Samples;
 

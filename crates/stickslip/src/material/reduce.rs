@@ -1,6 +1,6 @@
 //! From the stiffness in space to that of a plane or of another frame.
 
-use super::{Stiffness, VOIGT};
+use super::stiffness::{Stiffness, VOIGT};
 use crate::math::Vec3;
 
 /// The largest stiffness against strain in one direction alone `[Pa]`: the largest of `C_xx`, `C_yy`, `C_zz`.

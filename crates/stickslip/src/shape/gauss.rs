@@ -1,6 +1,6 @@
 //! Gauss rules on `[-1, 1]^d` as tensor products of the line rules, and on wedges as products of a triangle's and a line's.
 
-use super::QuadraturePoint;
+use super::reference::QuadraturePoint;
 
 /// Point and weight of the 1-point rule, exact for linear functions.
 const ONE: [(f64, f64); 1] = [(0.0, 2.0)];

@@ -1,5 +1,5 @@
 use super::gauss::HEX_3X3X3;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 use crate::math::{Slope, dot};
 
 /// The 20-node serendipity hexahedron, nodes as in VTK.

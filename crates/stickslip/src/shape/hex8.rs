@@ -1,5 +1,5 @@
 use super::gauss::HEX_2X2X2;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 8-node hexahedron, trilinear.
 pub(super) struct Hex8;

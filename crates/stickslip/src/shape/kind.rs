@@ -1,4 +1,4 @@
-use super::{ElementKind, ReferenceElement};
+use super::reference::{ElementKind, ReferenceElement};
 use super::{
     hex8::Hex8, hex20::Hex20, line2::Line2, line3::Line3, quad4::Quad4, quad8::Quad8, tet4::Tet4,
     tet10::Tet10, tri3::Tri3, tri6::Tri6, wedge6::Wedge6, wedge15::Wedge15,

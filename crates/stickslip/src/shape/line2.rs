@@ -1,5 +1,5 @@
 use super::gauss::LINE_2;
-use super::{Face, QuadraturePoint, ReferenceElement};
+use super::reference::{Face, QuadraturePoint, ReferenceElement};
 
 /// The 2-node line.
 pub(super) struct Line2;

@@ -1,5 +1,5 @@
 use super::gauss::LINE_3;
-use super::{Face, QuadraturePoint, ReferenceElement};
+use super::reference::{Face, QuadraturePoint, ReferenceElement};
 
 /// The 3-node line, its middle node last.
 pub(super) struct Line3;

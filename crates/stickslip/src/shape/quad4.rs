@@ -1,5 +1,5 @@
 use super::gauss::QUAD_2X2;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 4-node quadrilateral, bilinear.
 pub(super) struct Quad4;

@@ -1,5 +1,5 @@
 use super::gauss::QUAD_3X3;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 8-node serendipity quadrilateral.
 pub(super) struct Quad8;

@@ -1,6 +1,6 @@
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 use super::simplex::{self, barycentric};
 use super::tet4::BARYCENTRIC;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 10-node tetrahedron, edges in the order 01 12 20 03 13 23.
 pub(super) struct Tet10;

@@ -1,5 +1,5 @@
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 use super::simplex::barycentric;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 3-node triangle.
 pub(super) struct Tri3;

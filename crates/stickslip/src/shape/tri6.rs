@@ -1,6 +1,6 @@
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 use super::simplex::{self, barycentric};
 use super::tri3::BARYCENTRIC;
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 6-node triangle.
 pub(super) struct Tri6;

@@ -1,5 +1,5 @@
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 use super::wedge6::{SLOPES, barycentric};
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 15-node serendipity wedge, nodes as in VTK: corners, edges 01 12 20, 34 45 53, 03 14 25.
 pub(super) struct Wedge15;

@@ -1,4 +1,4 @@
-use super::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 
 /// The 6-node wedge: a triangle times a line.
 pub(super) struct Wedge6;

@@ -1,6 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use super::{CouplingModel, Row, Tie, pair};
+use super::{Row, Tie};
+
+use super::model::{CouplingModel, pair};
 use crate::error::Diagnostic;
 use crate::math::{distance, scale, sub};
 use crate::mesh::Mesh;

@@ -1,6 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use super::{CouplingModel, Row, Term, Tie, equation};
+use super::{Row, Term, Tie, equation};
+
+use super::model::CouplingModel;
 use crate::error::Diagnostic;
 use crate::mesh::Mesh;
 use crate::registry::Samples;

@@ -1,5 +1,6 @@
+use super::super::facets::combine;
 use super::super::geometry::{Table, by_nodes, coordinates, point};
-use super::{Action, Domain, LoadModel, Region, Target, combine, mismatch};
+use super::domain::{Action, Domain, LoadModel, Region, Target, mismatch};
 use crate::body::Space;
 use crate::error::Diagnostic;
 use crate::math::{Vec3, add_scaled, dot, normalize, scale, sub};

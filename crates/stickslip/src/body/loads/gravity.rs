@@ -1,4 +1,5 @@
-use super::{Action, Domain, LoadModel, Region, Target, combine, mismatch};
+use super::super::facets::combine;
+use super::domain::{Action, Domain, LoadModel, Region, Target, mismatch};
 use crate::error::Diagnostic;
 use crate::math::scale;
 use crate::registry::Samples;

@@ -1,4 +1,4 @@
-use super::{Action, Domain, LoadModel, Region, Target};
+use super::domain::{Action, Domain, LoadModel, Region, Target};
 use crate::error::Diagnostic;
 use crate::registry::Samples;
 

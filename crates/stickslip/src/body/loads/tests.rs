@@ -1,6 +1,7 @@
 use super::super::testing::*;
-use super::super::{positive_areas, tributary_areas};
+use super::super::{Space, positive_areas, tributary_areas};
 use super::*;
+use crate::mesh::{CellRef, FacetRef, Mesh};
 use crate::registry::Family;
 use crate::shape::ElementKind;
 use crate::system::{Course, Piece, Schedule};

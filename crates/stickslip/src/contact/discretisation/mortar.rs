@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::Discretisation;
+use super::rule::Discretisation;
 use crate::registry::Samples;
 
 /// Surface to surface, the default: the gap of a node is a mean over the faces around it, weighted by a dual function, over what the two

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::Discretisation;
+use super::rule::Discretisation;
 use crate::registry::Samples;
 
 /// The paper's contact elements ([Pop 1995](crate::references::pop_1995), eq. 27-40): each point of the secondary meets the facet it lies over.

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::penalty::stiffness_faults;
-use super::{Enforcement, Multipliers, Stiffness};
+use super::rule::{Enforcement, Multipliers, Stiffness};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 

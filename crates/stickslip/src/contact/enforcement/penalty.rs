@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Enforcement, Multipliers, Stiffness};
+use super::rule::{Enforcement, Multipliers, Stiffness};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::penalty::stiffness_faults;
-use super::{Enforcement, Multipliers, Stiffness};
+use super::rule::{Enforcement, Multipliers, Stiffness};
 use crate::registry::Samples;
 
 /// Perturbed Lagrangian: the tractions are unknowns of Newton's iteration, coupled to the gaps by the blocks `-1/ω` of

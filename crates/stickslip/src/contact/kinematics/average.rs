@@ -3,7 +3,7 @@
 //! A point of a quadratic face stands for `x = Σ wᵢ xᵢ`. Where obstacle or face are curved the gap at that place is not the mean of the gaps: what lies
 //! on the obstacle with all of its nodes would have a gap of the square of the face times the curvature. The mean `Σ wᵢ g(xᵢ)` has none.
 
-use super::Stencil;
+use super::stencil::Stencil;
 use crate::contact::obstacle::{Foot, Pose, Shape};
 use crate::contact::surface::ContactPoint;
 use crate::math::Vec3;

@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::facet::{MOST_DOFS, Projection, add_relative, add_scaled_row};
 use super::frame::{MovingFrame, TangentFrame};
-use super::{Kinematics, Pair, Stencil};
+use super::stencil::{Kinematics, Pair, Stencil};
 use crate::registry::Samples;
 
 /// Large sliding in convective coordinates, the default: slip is the change of the projection's coordinates on the facet, measured in

@@ -3,7 +3,7 @@
 //! Notation: `x_s` the secondary point, `x̄(ξ) = Σ N_j x_j` the facet, `a_α = x̄,α`, `r = x_s - x̄ = g n`. Differentiating
 //! `r·a_β = 0` gives `A_βα δξ^α = (δx_s - δx̄)·a_β + g n·δx̄,β` with `A_βα = a_β·a_α - g n·x̄,αβ`.
 
-use super::Pair;
+use super::stencil::Pair;
 use crate::contact::pairing::{FACET_NODES, invert2, pair_index, projection_matrix};
 use crate::math::{Vec3, add_scaled, dot, scale, sub};
 

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::facet::{Projection, add_facet, add_relative};
-use super::{Kinematics, Pair, Stencil};
+use super::stencil::{Kinematics, Pair, Stencil};
 use crate::math::{Mat3, Vec3, add, add_scaled, dot, identity, mat_vec, norm, scale, sub};
 use crate::registry::Samples;
 

@@ -1,7 +1,7 @@
 //! Gap and slip over a rigid obstacle.
 
-use super::Stencil;
 use super::dual::{self, Dual, DualVec, follows, vector};
+use super::stencil::Stencil;
 use crate::contact::obstacle::{Foot, Pose, Shape};
 use crate::contact::surface::ContactPoint;
 use crate::math::{

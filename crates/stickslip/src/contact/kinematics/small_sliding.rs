@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::facet::add_relative;
 use super::frame::TangentFrame;
-use super::{Kinematics, Pair, Stencil};
+use super::stencil::{Kinematics, Pair, Stencil};
 use crate::math::{dot, sub};
 use crate::registry::Samples;
 

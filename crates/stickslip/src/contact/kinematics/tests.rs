@@ -4,8 +4,9 @@ use super::*;
 use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::pairing::project;
 use crate::contact::surface::ContactPoint;
-use crate::math::{add, add_scaled, cross, dot, mat_vec, norm, rotation, scale, sub};
+use crate::math::{Vec3, add, add_scaled, cross, dot, mat_vec, norm, rotation, scale, sub};
 use crate::registry::Family;
+use crate::shape::ElementKind;
 
 /// A small deterministic generator of numbers in [-1, 1], so that tests repeat.
 struct Numbers(u64);

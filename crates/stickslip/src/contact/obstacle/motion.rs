@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{to_vec3, vector_fault};
+use super::foot::{to_vec3, vector_fault};
 use crate::math::{
     Mat3, Vec3, add, identity, mat_vec, normalize, rotation, scale, sub, transpose_vec,
 };

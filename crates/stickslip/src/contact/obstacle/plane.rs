@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Foot, Shape, to_vec3, vector_fault};
+use super::foot::{Foot, Shape, to_vec3, vector_fault};
 use crate::math::{Mat3, Vec3, add_scaled, dot, identity, normalize, sub};
 use crate::registry::Samples;
 

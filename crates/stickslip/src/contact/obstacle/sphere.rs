@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Foot, Shape, radial_foot, radial_slope_derivative, to_vec3, vector_fault};
+use super::foot::{Foot, Shape, radial_foot, radial_slope_derivative, to_vec3, vector_fault};
 use crate::contact::law::normal::positive;
 use crate::math::{Mat3, Vec3, identity};
 use crate::registry::Samples;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Method, Scheme};
+use super::method::{Method, Scheme};
 use crate::registry::Samples;
 
 /// Central differences: explicit, second order, with lumped masses and without a matrix. Contact and stick are enforced by

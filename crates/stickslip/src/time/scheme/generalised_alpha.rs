@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Alphas, Method, Scheme};
+use super::method::{Alphas, Method, Scheme};
 use crate::registry::Samples;
 
 /// The generalised-α method of Chung and Hulbert ([`chung_hulbert_1993`](crate::references::chung_hulbert_1993)): second

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Alphas, Method, Scheme};
+use super::method::{Alphas, Method, Scheme};
 use crate::registry::Samples;
 
 /// The method of Hilber, Hughes and Taylor ([`hht_1977`](crate::references::hht_1977)): second order, damps high frequencies.

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Alphas, Method, Scheme};
+use super::method::{Alphas, Method, Scheme};
 use crate::registry::Samples;
 
 /// Newmark's method ([`newmark_1959`](crate::references::newmark_1959)). With the defaults it is the trapezoidal rule:

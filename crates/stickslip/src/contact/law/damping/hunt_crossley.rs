@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Extra, NormalDamping};
+use super::law::{Extra, NormalDamping};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Extra, NormalDamping};
+use super::law::{Extra, NormalDamping};
 use crate::registry::Samples;
 
 /// No damping: pressure follows from the gap alone. No parameters.

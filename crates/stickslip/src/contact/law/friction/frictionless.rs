@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{FrictionLaw, FrictionPoint, Limit};
+use super::law::{FrictionLaw, FrictionPoint, Limit};
 use crate::registry::Samples;
 
 /// No friction: the interface carries pressure only. No parameters.

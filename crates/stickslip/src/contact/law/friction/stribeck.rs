@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{FrictionLaw, FrictionPoint, Limit};
+use super::law::{FrictionLaw, FrictionPoint, Limit};
 use crate::contact::law::normal::{not_negative, positive};
 use crate::registry::Samples;
 

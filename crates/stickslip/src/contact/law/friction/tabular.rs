@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{FrictionLaw, FrictionPoint, Limit};
+use super::law::{FrictionLaw, FrictionPoint, Limit};
 use crate::registry::Samples;
 
 /// Measured coefficients over pressure and speed: limit `μ(p, v) p`, with μ bilinear between the entries of the table and

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{NormalLaw, positive};
+use super::law::{NormalLaw, positive};
 use crate::math::Slope;
 use crate::registry::Samples;
 

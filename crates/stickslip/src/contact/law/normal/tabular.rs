@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::NormalLaw;
+use super::law::NormalLaw;
 use crate::math::Slope;
 use crate::registry::Samples;
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{SlipRule, SlipState, Tangential};
+use super::rule::{SlipRule, SlipState, Tangential};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{SlipRule, SlipState, Tangential};
+use super::rule::{SlipRule, SlipState, Tangential};
 use crate::registry::Samples;
 
 /// Stick until the limit, then slide: the trial traction `base - ω_T slip` is returned radially to the limit

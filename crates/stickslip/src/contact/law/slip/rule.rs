@@ -1,0 +1,75 @@
+//! What a slip rule is asked and says.
+
+/// The tangential motion of a contact point over an increment, in the two directions of its frame.
+///
+/// The frame of the paper's kinematics is not orthogonal: `skew` is the cosine of the angle between its directions and
+/// lengths are measured by `|v|² = v₁² + v₂² + 2 skew v₁ v₂`. It is zero for all other kinematics.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tangential {
+    /// Displacement of the secondary relative to the primary surface since the last accepted state `[m]`.
+    pub slip: [f64; 2],
+    /// Time since then `[s]`.
+    pub dt: f64,
+    /// Stiffness of sticking `[Pa/m]`.
+    pub stiffness: f64,
+    /// Traction carried over: the committed one, or the multiplier `[Pa]`.
+    pub base: [f64; 2],
+    /// Cosine of the angle between the two directions.
+    pub skew: f64,
+    /// Velocity `[m/s]` over which a regularised rule is smoothed at least; zero but in a continuation.
+    pub smoothing: f64,
+    /// Fraction by which a trial traction may exceed the limit and still count as stick; zero but in the first iteration of an
+    /// increment, where a point that slid before would otherwise slide or stick by rounding alone.
+    pub slack: f64,
+}
+
+impl Tangential {
+    /// `v₁² + v₂² + 2 skew v₁ v₂`, and its root.
+    pub fn length(&self, v: [f64; 2]) -> f64 {
+        (v[0] * v[0] + v[1] * v[1] + 2.0 * self.skew * v[0] * v[1])
+            .max(0.0)
+            .sqrt()
+    }
+
+    /// The derivative of `length(v)` with respect to `v`, for a length that is not zero.
+    pub fn length_slope(&self, v: [f64; 2], length: f64) -> [f64; 2] {
+        [
+            (v[0] + self.skew * v[1]) / length,
+            (v[1] + self.skew * v[0]) / length,
+        ]
+    }
+}
+
+/// Shear traction on the secondary and its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SlipState {
+    /// Traction on the secondary `[Pa]`.
+    pub traction: [f64; 2],
+    /// Derivative with respect to the slip `[Pa/m]`, row: traction.
+    pub d_slip: [[f64; 2]; 2],
+    /// Derivative with respect to the limit `[-]`.
+    pub d_limit: [f64; 2],
+    /// Derivative with respect to the skew `[Pa]`.
+    pub d_skew: [f64; 2],
+    /// Derivative with respect to the smoothing `[Pa s/m]`.
+    pub d_smoothing: [f64; 2],
+    /// The limit is reached.
+    pub sliding: bool,
+    /// The irreversible part of the slip `[m]`.
+    pub sliding_path: [f64; 2],
+}
+
+/// Turns a limit and a motion into a traction.
+pub trait SlipRule: Send + Sync {
+    /// Traction for a limit `[Pa]` and a motion.
+    fn traction(&self, limit: f64, motion: &Tangential) -> SlipState;
+
+    /// The traction of a point that sticks whatever the limit is, with which stick and slip of a point that cannot decide are told apart.
+    fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState;
+
+    /// Whether the rule sticks through a stiffness (and so can be made exact by multipliers).
+    fn sticks(&self) -> bool;
+
+    /// What is wrong with the parameters, as `(key, message)`; empty if nothing.
+    fn faults(&self) -> Vec<(&'static str, String)>;
+}
