@@ -62,4 +62,12 @@ references! {
     anderson_1965: "D. G. Anderson, Iterative procedures for nonlinear integral equations, Journal of the ACM 12 (1965) 547-560.",
     sutherland_hodgman_1974: "I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Communications of the ACM 17 (1974) 32-42.",
     guyan_1965: "R. J. Guyan, Reduction of stiffness and mass matrices, AIAA Journal 3 (1965) 380.",
+    irons_1965: "B. M. Irons, Structural eigenvalue problems: elimination of unwanted variables, AIAA Journal 3 (1965) 961-962.",
+    przemieniecki_1963: "J. S. Przemieniecki, Matrix structural analysis of substructures, AIAA Journal 1 (1963) 138-147.",
+    craig_bampton_1968: "R. R. Craig, M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA Journal 6 (1968) 1313-1319.",
+    hager_1989: "W. W. Hager, Updating the inverse of a matrix, SIAM Review 31 (1989) 221-239.",
+    dembo_1982: "R. S. Dembo, S. C. Eisenstat, T. Steihaug, Inexact Newton methods, SIAM Journal on Numerical Analysis 19 (1982) 400-408.",
+    qi_sun_1993: "L. Qi, J. Sun, A nonsmooth version of Newton's method, Mathematical Programming 58 (1993) 353-367.",
+    alart_curnier_1991: "P. Alart, A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods, Computer Methods in Applied Mechanics and Engineering 92 (1991) 353-375.",
+    armijo_1966: "L. Armijo, Minimization of functions having Lipschitz continuous first partial derivatives, Pacific Journal of Mathematics 16 (1966) 1-3.",
 }

@@ -1,5 +1,5 @@
 use std::io::{self, Read, Write};
-use std::ops::Range;
+use std::ops::{Add, Mul, Range};
 use std::sync::OnceLock;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -31,12 +31,10 @@ const SMALL: usize = 512;
 const TASKS: usize = 8;
 
 /// Numbers that a product can be made with.
-trait Number: Copy + Send + Sync + 'static {
+trait Number: Copy + Send + Sync + Add<Output = Self> + Mul<Output = Self> + 'static {
     const ZERO: Self;
     fn of(x: f64) -> Self;
     fn to(self) -> f64;
-    fn times(self, other: Self) -> Self;
-    fn plus(self, other: Self) -> Self;
 }
 
 impl Number for f64 {
@@ -47,14 +45,6 @@ impl Number for f64 {
     fn to(self) -> f64 {
         self
     }
-    #[inline(always)]
-    fn times(self, other: f64) -> f64 {
-        self * other
-    }
-    #[inline(always)]
-    fn plus(self, other: f64) -> f64 {
-        self + other
-    }
 }
 
 impl Number for f32 {
@@ -64,14 +54,6 @@ impl Number for f32 {
     }
     fn to(self) -> f64 {
         f64::from(self)
-    }
-    #[inline(always)]
-    fn times(self, other: f32) -> f32 {
-        self * other
-    }
-    #[inline(always)]
-    fn plus(self, other: f32) -> f32 {
-        self + other
     }
 }
 
@@ -314,9 +296,9 @@ impl<T: Number> pulp::NullaryFnOnce for LowerColumns<'_, T> {
             for a in j..j + width {
                 for b in j..=a {
                     let v = values[b * n + a];
-                    y[a - first] = y[a - first].plus(v.times(x[b]));
+                    y[a - first] = y[a - first] + v * x[b];
                     if a != b {
-                        y[b - first] = y[b - first].plus(v.times(x[a]));
+                        y[b - first] = y[b - first] + v * x[a];
                     }
                 }
             }
@@ -335,14 +317,14 @@ impl<T: Number> pulp::NullaryFnOnce for LowerColumns<'_, T> {
                         .zip(&mut y[below - first..])
                         .zip(&x[width..])
                     {
-                        *y = y.plus(v.times(x[k]));
-                        *sum = sum.plus(v.times(*xi));
+                        *y = *y + *v * x[k];
+                        *sum = *sum + *v * *xi;
                     }
                 }
                 sums
             };
             for (k, sum) in sums.into_iter().enumerate().take(width) {
-                y[j + k - first] = y[j + k - first].plus(sum);
+                y[j + k - first] = y[j + k - first] + sum;
             }
             j += width;
         }
@@ -361,22 +343,22 @@ fn four_columns<T: Number>(c: [&[T]; 4], s: [T; 4], x: &[T], y: &mut [T]) -> [T;
     let (ys, yr) = y.as_chunks_mut::<LANES>();
     for (((((y, x), c0), c1), c2), c3) in ys.iter_mut().zip(xs).zip(c0).zip(c1).zip(c2).zip(c3) {
         for l in 0..LANES {
-            let low = c0[l].times(s[0]).plus(c1[l].times(s[1]));
-            let high = c2[l].times(s[2]).plus(c3[l].times(s[3]));
-            y[l] = y[l].plus(low.plus(high));
+            let low = c0[l] * s[0] + c1[l] * s[1];
+            let high = c2[l] * s[2] + c3[l] * s[3];
+            y[l] = y[l] + (low + high);
         }
         for l in 0..LANES {
-            lanes[0][l] = lanes[0][l].plus(c0[l].times(x[l]));
-            lanes[1][l] = lanes[1][l].plus(c1[l].times(x[l]));
-            lanes[2][l] = lanes[2][l].plus(c2[l].times(x[l]));
-            lanes[3][l] = lanes[3][l].plus(c3[l].times(x[l]));
+            lanes[0][l] = lanes[0][l] + c0[l] * x[l];
+            lanes[1][l] = lanes[1][l] + c1[l] * x[l];
+            lanes[2][l] = lanes[2][l] + c2[l] * x[l];
+            lanes[3][l] = lanes[3][l] + c3[l] * x[l];
         }
     }
-    let mut sums = lanes.map(|lane| lane.iter().fold(T::ZERO, |a, &b| a.plus(b)));
+    let mut sums = lanes.map(|lane| lane.iter().fold(T::ZERO, |a, &b| a + b));
     for (((((y, x), c0), c1), c2), c3) in yr.iter_mut().zip(xr).zip(r0).zip(r1).zip(r2).zip(r3) {
         for (k, c) in [c0, c1, c2, c3].into_iter().enumerate() {
-            *y = y.plus(c.times(s[k]));
-            sums[k] = sums[k].plus(c.times(*x));
+            *y = *y + *c * s[k];
+            sums[k] = sums[k] + *c * *x;
         }
     }
     sums

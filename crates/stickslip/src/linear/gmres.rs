@@ -1,7 +1,6 @@
 use rayon::prelude::*;
 
-/// Entries summed by one task; fixed, so that results never depend on the number of threads.
-const CHUNK: usize = 8192;
+use crate::math::vector::{CHUNK, par_dot as dot, par_norm as norm};
 
 /// When [`gmres`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,32 +210,6 @@ fn add_scaled(a: &mut [f64], s: f64, b: &[f64]) {
                 *a += s * b;
             }
         });
-}
-
-/// The scalar product; its bits do not depend on the number of threads.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let parts: Vec<f64> = a
-        .par_chunks(CHUNK)
-        .zip(b.par_chunks(CHUNK))
-        .map(|(a, b)| {
-            // Four sums at once keep the processor busy and the rounding low.
-            let mut sums = [0.0; 4];
-            let (fours_a, rest_a) = a.as_chunks::<4>();
-            let (fours_b, rest_b) = b.as_chunks::<4>();
-            for (a, b) in fours_a.iter().zip(fours_b) {
-                for k in 0..4 {
-                    sums[k] += a[k] * b[k];
-                }
-            }
-            let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
-            sums[0] + sums[1] + (sums[2] + sums[3]) + rest
-        })
-        .collect();
-    parts.iter().sum()
-}
-
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 #[cfg(test)]

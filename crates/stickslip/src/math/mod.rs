@@ -3,6 +3,7 @@
 mod eigen;
 mod mat3;
 mod vec3;
+pub mod vector;
 
 pub use eigen::symmetric_eigen;
 pub use mat3::{Mat3, determinant, identity, inverse, mat_vec, outer, rotation, transpose_vec};

@@ -13,7 +13,8 @@ const STALL: usize = 8;
 /// Part of the residual before them that must be left behind.
 const STALLED: f64 = 0.1;
 
-/// Part of what Newton still needs to which a linear system is solved once the status of points has settled.
+/// Part of what Newton still needs to which a linear system is solved once the status of points has settled: an inexact Newton method
+/// ([Dembo, Eisenstat and Steihaug](crate::references::dembo_1982)).
 const FORCING: f64 = 0.1;
 
 /// The finest relative residual of a linear system: double precision gives no more.

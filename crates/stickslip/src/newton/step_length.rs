@@ -33,7 +33,8 @@ const MOST_HALVINGS: usize = 40;
 /// Most halvings of a step that has to reduce the merit function.
 const MERIT_HALVINGS: usize = 10;
 
-/// By how much it has to, relative to what Newton's direction promises: the usual constant of Armijo's rule.
+/// By how much it has to, relative to what Newton's direction promises: the usual constant of
+/// [Armijo's](crate::references::armijo_1966) rule.
 const ARMIJO: f64 = 1e-4;
 
 /// Iterates over which the merit function may stay as it is ([Grippo, Lampariello and Lucidi](crate::references::grippo_1986) suggest a few).

@@ -12,7 +12,10 @@ use crate::contact::interface::Reach;
 use crate::error::Error;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
-use crate::newton::condensed::{Amplitudes, Condensation, Gaps, Places, Plan, Reduced, Shapes};
+use crate::math::vector::dot;
+use crate::newton::condensed::{
+    Amplitudes, Condensation, CondensedBulk, LoadPatterns, Places, Plan, ReducedSystem,
+};
 use crate::newton::{Factors, Progress, System};
 use crate::system::{Cause, State, StepFailure};
 use crate::time::Trial;
@@ -31,8 +34,8 @@ pub(super) struct Condensed {
     condensation: Condensation,
     /// The candidates it was made for.
     kept: Vec<bool>,
-    gaps: Gaps,
-    shapes: Shapes,
+    gaps: ReducedSystem,
+    shapes: LoadPatterns,
     /// The last accepted state: displacements are known at candidates and where prescribed.
     pub(super) state: State,
     /// Forces with which the candidates yield to where they are.
@@ -97,8 +100,8 @@ impl Simulation {
         self.condensed = Some(Condensed {
             condensation,
             kept,
-            gaps: Gaps::default(),
-            shapes: Shapes::default(),
+            gaps: ReducedSystem::default(),
+            shapes: LoadPatterns::default(),
             state: self.state.clone(),
             carried,
             previous: None,
@@ -382,7 +385,7 @@ impl Simulation {
         }
         let mut seen: Vec<Progress> = Vec::new();
         let base = vec![0.0; condensation.size()];
-        let mut bulk = Reduced::new(
+        let mut bulk = CondensedBulk::new(
             (condensation, gaps),
             &self.diagonal,
             load,
@@ -547,7 +550,7 @@ impl Simulation {
         }
         let accepted = &mut pending.accepted;
         let u = &accepted.state.u;
-        accepted.strain = Some(0.5 * inertia::dot(u, &internal));
+        accepted.strain = Some(0.5 * dot(u, &internal));
         accepted.forces = forces;
         let work = self.work(
             &fixed,

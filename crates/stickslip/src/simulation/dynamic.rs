@@ -2,13 +2,14 @@
 
 use super::accepted::{Accepted, Flow};
 use super::condense::LEFT;
-use super::inertia::{self, Inertia, dot, times};
+use super::inertia::{self, Inertia, times};
 use super::model::{ContactAt, Dynamic};
 use super::run::{Observer, Simulation};
 
 use crate::linear::BlockCsr;
-use crate::newton::condensed::{Gaps, Reduced};
-use crate::newton::{Converged, Origin, Progress, System, Whole};
+use crate::math::vector::dot;
+use crate::newton::condensed::{CondensedBulk, ReducedSystem};
+use crate::newton::{Converged, Origin, Progress, SparseBulk, System};
 use crate::system::{Cause, Constraints, Rate, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -141,7 +142,7 @@ impl Simulation {
                 factors,
                 ..
             } = self;
-            let mut bulk = Whole::new(
+            let mut bulk = SparseBulk::new(
                 (matrix, diagonal),
                 vec![0.0; at.u.len()],
                 fixed.clone(),
@@ -217,7 +218,7 @@ impl Simulation {
                 let Some(made) = self.condensation(held, &kept, matrix) else {
                     return false;
                 };
-                (key, made, Gaps::default())
+                (key, made, ReducedSystem::default())
             }
         };
         if self.moving.len() == MOST_CONDENSED {
@@ -256,7 +257,7 @@ impl Simulation {
         newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
         let base = condensation.gather(&guess);
         let still = vec![0.0; base.len()];
-        let mut bulk = Reduced::new(
+        let mut bulk = CondensedBulk::new(
             (condensation, gaps),
             diagonal,
             load,

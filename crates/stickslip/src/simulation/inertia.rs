@@ -9,6 +9,7 @@ use crate::body::MassKind;
 use crate::body::couplings::Couplings;
 use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, Factor, GmresSettings, Isotropic, Symbolic, gmres};
+use crate::math::vector::dot;
 use crate::system::{Cause, Force, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
@@ -362,11 +363,6 @@ pub(super) fn times(matrix: &BlockCsr, x: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; x.len()];
     matrix.mul(x, &mut out);
     out
-}
-
-/// `a · b`.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The energy of springs and bodies at `u`.

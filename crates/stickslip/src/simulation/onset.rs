@@ -1,12 +1,13 @@
 //! The start of a dynamic step: masses, velocities, and the forces and accelerations from which the first increment goes on.
 
 use super::dynamic::{Motion, difference};
-use super::inertia::{Inertia, dot, times};
+use super::inertia::{Inertia, times};
 use super::model::{ContactAt, Dynamic};
 use super::run::Simulation;
 
 use crate::body::couplings::Couplings;
 use crate::error::Error;
+use crate::math::vector::dot;
 use crate::system::{Stage, State};
 use crate::time::Trial;
 use crate::time::scheme::Alphas;

@@ -16,7 +16,7 @@ use super::{diagnosis, doctor, history, quality};
 use crate::body::Around;
 use crate::error::{Error, RunError};
 use crate::linear::BlockCsr;
-use crate::newton::condensed::{Condensation, Gaps, Library};
+use crate::newton::condensed::{Condensation, Library, ReducedSystem};
 use crate::newton::{Factors, Newton, Progress};
 use crate::system::{Cause, State, StepFailure, Tally};
 use crate::time::Trial;
@@ -47,7 +47,7 @@ pub struct Simulation {
     pub(super) seen: Vec<Progress>,
     pub(super) condensed: Option<Condensed>,
     /// Condensed bodies of implicit increments, by the key of their matrix.
-    pub(super) moving: Vec<(u64, Condensation, Gaps)>,
+    pub(super) moving: Vec<(u64, Condensation, ReducedSystem)>,
     pub(super) pending: Vec<Pending>,
     pub(super) recovered: Option<Recovered>,
     pub(super) march: March,

@@ -3,7 +3,7 @@
 use super::accepted::{Accepted, Flow};
 use super::inertia;
 use super::run::{Observer, Simulation};
-use crate::newton::{Progress, System, Whole};
+use crate::newton::{Progress, SparseBulk, System};
 use crate::system::{State, StepFailure};
 use crate::time::Trial;
 
@@ -46,7 +46,7 @@ impl Simulation {
                 loose,
                 ..
             } = self;
-            let mut bulk = Whole::new(
+            let mut bulk = SparseBulk::new(
                 (matrix, diagonal),
                 external.clone(),
                 fixed.clone(),

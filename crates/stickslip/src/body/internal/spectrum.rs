@@ -2,6 +2,7 @@
 
 use super::InternalForce;
 use crate::math::symmetric_eigen;
+use crate::math::vector::dot;
 
 /// Most products with the stiffness.
 const STEPS: usize = 60;
@@ -93,10 +94,6 @@ fn start(root: &[f64]) -> Vec<f64> {
             if r > 0.0 { number } else { 0.0 }
         })
         .collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The largest eigenvalue of a tridiagonal matrix, and the last component of its vector.

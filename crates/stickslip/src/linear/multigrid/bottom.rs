@@ -1,4 +1,5 @@
 use super::blocks::{Block, Rows, convert};
+use crate::math::vector::dot_in_fours;
 
 /// Pivots below this part of their diagonal count as zero \[1\]: a body that nothing holds.
 const SINGULAR: f64 = 1e-11;
@@ -64,10 +65,10 @@ impl Bottom {
                 row[j] = if diagonal == 0.0 {
                     0.0
                 } else {
-                    (row[j] - dot(&row[..j], other)) / diagonal
+                    (row[j] - dot_in_fours(&row[..j], other)) / diagonal
                 };
             }
-            let pivot = before - dot(&row[..i], &row[..i]);
+            let pivot = before - dot_in_fours(&row[..i], &row[..i]);
             row[i] = if pivot > SINGULAR * before {
                 pivot.sqrt()
             } else {
@@ -90,7 +91,7 @@ impl Bottom {
             .collect();
         for i in 0..n {
             let row = &l[i * n..i * n + i + 1];
-            let left = x[i] - dot(&row[..i], &x);
+            let left = x[i] - dot_in_fours(&row[..i], &x);
             x[i] = if row[i] == 0.0 { 0.0 } else { left / row[i] };
         }
         for i in (0..n).rev() {
@@ -110,19 +111,4 @@ impl Bottom {
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.matrix) + size_of_val(&*self.factor)
     }
-}
-
-/// The scalar product over the shorter of both.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let length = a.len().min(b.len());
-    let (fours_a, rest_a) = a[..length].as_chunks::<4>();
-    let (fours_b, rest_b) = b[..length].as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for (a, b) in fours_a.iter().zip(fours_b) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
-    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
 }

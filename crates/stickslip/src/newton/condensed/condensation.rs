@@ -9,6 +9,7 @@ use super::library::{Library, Source};
 use super::substructure::{Seconds, Substructure};
 use crate::linear::{BlockCsr, Fronts, LinearError};
 use crate::math::Vec3;
+use crate::math::vector::dot;
 
 /// What is to be condensed: known before any arithmetic.
 #[derive(Debug)]
@@ -262,8 +263,8 @@ impl Condensation {
         }
     }
 
-    /// `W s`.
-    pub fn yielding(&self, s: &[f64]) -> Vec<f64> {
+    /// The compliance product `W s`.
+    pub fn apply_compliance(&self, s: &[f64]) -> Vec<f64> {
         let parts: Vec<Vec<f64>> = self
             .parts
             .par_iter()
@@ -285,7 +286,7 @@ impl Condensation {
             };
             let u = &u[range[0]..range[1]];
             for mode in &floating.modes {
-                let force = floating.sigma * super::substructure::dot(mode, u);
+                let force = floating.sigma * dot(mode, u);
                 for (s, m) in s[range[0]..range[1]].iter_mut().zip(mode) {
                     *s -= force * m;
                 }

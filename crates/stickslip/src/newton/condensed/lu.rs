@@ -1,3 +1,5 @@
+use std::ops::{Add, Mul};
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
@@ -24,15 +26,13 @@ pub struct Factor<T> {
 }
 
 /// Numbers a factor may have.
-pub trait Entry: faer::traits::ComplexField + Copy + Send + Sync {
+pub trait Entry:
+    faer::traits::ComplexField + Copy + Send + Sync + Add<Output = Self> + Mul<Output = Self>
+{
     /// From double precision.
     fn of(x: f64) -> Self;
     /// To double precision.
     fn to(self) -> f64;
-    /// Product.
-    fn times(self, other: Self) -> Self;
-    /// Sum.
-    fn plus(self, other: Self) -> Self;
     /// A column of a compliance.
     fn column(w: &Compliance, j: usize) -> &[Self];
     /// The factor in its precision.
@@ -43,14 +43,14 @@ pub trait Entry: faer::traits::ComplexField + Copy + Send + Sync {
     /// `y = a x`.
     fn set_scaled(y: &mut [Self], a: Self, x: &[Self]) {
         for (y, &x) in y.iter_mut().zip(x) {
-            *y = a.times(x);
+            *y = a * x;
         }
     }
 
     /// `y += a x`.
     fn add_scaled(y: &mut [Self], a: Self, x: &[Self]) {
         for (y, &x) in y.iter_mut().zip(x) {
-            *y = y.plus(a.times(x));
+            *y = *y + a * x;
         }
     }
 }
@@ -61,12 +61,6 @@ impl Entry for f64 {
     }
     fn to(self) -> f64 {
         self
-    }
-    fn times(self, other: f64) -> f64 {
-        self * other
-    }
-    fn plus(self, other: f64) -> f64 {
-        self + other
     }
     fn column(w: &Compliance, j: usize) -> &[f64] {
         &w.values()[j * w.size()..(j + 1) * w.size()]
@@ -83,12 +77,6 @@ impl Entry for f32 {
     }
     fn to(self) -> f64 {
         f64::from(self)
-    }
-    fn times(self, other: f32) -> f32 {
-        self * other
-    }
-    fn plus(self, other: f32) -> f32 {
-        self + other
     }
     fn column(w: &Compliance, j: usize) -> &[f32] {
         w.column(j)

@@ -6,6 +6,7 @@ use faer::Mat;
 use super::identity::Identity;
 use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor};
 use crate::math::Vec3;
+use crate::math::vector::{dot, norm};
 
 /// Times of a factorisation `[s]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Seconds {
     pub condense: f64,
 }
 
-/// A body without its interior: the dofs where it may touch others, and how they yield.
+/// A body without its interior: the dofs where it may touch others, and their compliance.
 ///
 /// Of the stiffness `K` of the body remains `S = K_CC - K_CI K_II⁻¹ K_IC` at the kept dofs `C`, and of that the inverse. Where the supports
 /// leave the body free to move, artificial springs `σ R Rᵀ` along its rigid motions `R` make the inverse exist; whoever uses it takes them away
@@ -42,20 +43,20 @@ pub struct Floating {
     pub modes: Vec<Vec<f64>>,
     /// Stiffness of the artificial springs `[N/m]`.
     pub sigma: f64,
-    /// `Z = (S + σ R Rᵀ)⁻¹ R`.
-    pub yielding: Vec<Vec<f64>>,
+    /// Compliance products `Z = (S + σ R Rᵀ)⁻¹ R`.
+    pub products: Vec<Vec<f64>>,
 }
 
 impl Floating {
     /// Motions held by artificial springs that are part of the compliance.
     pub(super) fn new(modes: Vec<Vec<f64>>, sigma: f64, compliance: &Compliance) -> Self {
-        let yielding = modes.iter().map(|mode| {
+        let products = modes.iter().map(|mode| {
             let mut z = vec![0.0; mode.len()];
             compliance.mul(mode, &mut z);
             z
         });
         Floating {
-            yielding: yielding.collect(),
+            products: products.collect(),
             modes,
             sigma,
         }
@@ -255,12 +256,4 @@ fn symmetric_product(s: &[f64], v: &[f64]) -> Vec<f64> {
         out[j] += sum;
     }
     out
-}
-
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(super) fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }

@@ -5,7 +5,7 @@ use super::diagnose::friction_coefficient;
 use super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::surfaces::Opposite;
 use crate::contact::interface::Primary;
-use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale};
+use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
 use crate::simulation::model::{Body, Model};
 use crate::simulation::run::Simulation;
 
@@ -32,7 +32,7 @@ pub(super) fn unbalanced(simulation: &Simulation, t: f64) -> Option<Finding> {
     let model = &simulation.model;
     let held = simulation.constraints(t).fixed;
     let loads = simulation.external(t);
-    let scale_of_loads = norm_of(&loads);
+    let scale_of_loads = vector::norm(&loads);
     for body in &model.bodies {
         let mut dofs: Vec<usize> =
             (model.dofs.of(body.points.start, 0)..model.dofs.of(body.points.end, 0)).collect();
@@ -90,10 +90,6 @@ pub(super) fn unbalanced(simulation: &Simulation, t: f64) -> Option<Finding> {
         }
     }
     None
-}
-
-fn norm_of(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Why a body cannot be in balance, given the mean direction in which contact pushes and the smallest cosine to it.

@@ -56,9 +56,9 @@ fn condensed(simulation: &Simulation, point: usize) -> Option<[[f64; 3]; 3]> {
     for (j, &column) in places.iter().enumerate() {
         let mut force = vec![0.0; size];
         force[column] = 1.0;
-        let yielding = condensation.yielding(&force);
+        let moved = condensation.apply_compliance(&force);
         for (i, &row) in places.iter().enumerate() {
-            block[i][j] = yielding[row];
+            block[i][j] = moved[row];
         }
     }
     if dofs.dim == 2 {

@@ -25,7 +25,7 @@ pub struct Origin {
 ///
 /// In statics `A` is the stiffness. In dynamics it is the stiffness and what inertia and damping add, and its forces are given by
 /// their [`Origin`].
-pub struct Whole<'a> {
+pub struct SparseBulk<'a> {
     /// The matrix, over all dofs.
     pub matrix: &'a BlockCsr,
     /// Its diagonal, by which the rounding of bulk forces is judged.
@@ -41,7 +41,7 @@ pub struct Whole<'a> {
     dofs: Vec<usize>,
 }
 
-impl<'a> Whole<'a> {
+impl<'a> SparseBulk<'a> {
     /// A bulk with this matrix and its factor.
     pub fn new(
         (matrix, diagonal): (&'a BlockCsr, &'a [f64]),
@@ -50,7 +50,7 @@ impl<'a> Whole<'a> {
         origin: Option<Origin>,
         linearised: &'a mut Linearised,
     ) -> Self {
-        Whole {
+        SparseBulk {
             matrix,
             diagonal,
             dofs: (0..external.len()).collect(),
@@ -62,7 +62,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-impl Bulk for Whole<'_> {
+impl Bulk for SparseBulk<'_> {
     fn dofs(&self) -> &[usize] {
         &self.dofs
     }

@@ -1,5 +1,5 @@
 use super::condensation::Condensation;
-use super::gaps::{Gaps, TINY};
+use super::reduced_system::ReducedSystem;
 use crate::newton::bulk::Bulk;
 use crate::newton::settings::Settings;
 use crate::newton::statistics::Statistics;
@@ -9,9 +9,9 @@ use crate::system::{Assembler, Cause, StepFailure};
 ///
 /// The displacements of the candidates are `base + W s`; nothing is known of the interior, and nothing has to be.
 #[derive(Debug)]
-pub struct Reduced<'a> {
+pub struct CondensedBulk<'a> {
     condensation: &'a Condensation,
-    gaps: &'a mut Gaps,
+    system: &'a mut ReducedSystem,
     diagonal: &'a [f64],
     /// At the candidates: external forces, with what comes through the interior.
     load: Vec<f64>,
@@ -26,20 +26,20 @@ pub struct Reduced<'a> {
     scale: f64,
 }
 
-impl<'a> Reduced<'a> {
+impl<'a> CondensedBulk<'a> {
     /// A bulk under a load at the candidates, at `base + W guess` to start with. `diagonal` is that of the matrix, by dof; `scale` the size of
     /// forces that balance each other elsewhere.
     pub fn new(
-        (condensation, gaps): (&'a Condensation, &'a mut Gaps),
+        (condensation, system): (&'a Condensation, &'a mut ReducedSystem),
         diagonal: &'a [f64],
         load: Vec<f64>,
         base: Vec<f64>,
         guess: Vec<f64>,
         scale: f64,
     ) -> Self {
-        Reduced {
+        CondensedBulk {
             condensation,
-            gaps,
+            system,
             diagonal,
             load,
             base,
@@ -57,7 +57,7 @@ impl<'a> Reduced<'a> {
     }
 }
 
-impl Bulk for Reduced<'_> {
+impl Bulk for CondensedBulk<'_> {
     fn dofs(&self) -> &[usize] {
         &self.condensation.dofs
     }
@@ -124,9 +124,12 @@ impl Bulk for Reduced<'_> {
         let (settings, statistics) = effort;
         let b = self.condensation.gather(b);
         // More digits than these cost more than another iteration, unless next to nothing is solved.
-        let tiny = 3 * contact.blocks.len() <= TINY;
-        let tolerance = tolerance.max(if tiny { 1e-13 } else { FINEST });
-        let (s, u, krylov) = self.gaps.solve(
+        let finest = match ReducedSystem::is_tiny(&contact.blocks, 0) {
+            true => FINEST_TINY,
+            false => FINEST,
+        };
+        let tolerance = tolerance.max(finest);
+        let solved = self.system.solve(
             self.condensation,
             &contact.blocks,
             &b,
@@ -134,10 +137,10 @@ impl Bulk for Reduced<'_> {
             (settings, &mut *statistics),
         )?;
         self.before.clone_from(&self.now);
-        self.step = s;
-        self.condensation.scatter(&u, du);
+        self.step = solved.forces;
+        self.condensation.scatter(&solved.displacements, du);
         statistics.seconds_solve += started.elapsed().as_secs_f64();
-        Ok(krylov)
+        Ok(solved.iterations)
     }
 
     fn advance(&mut self, step: f64) {
@@ -147,5 +150,6 @@ impl Bulk for Reduced<'_> {
     }
 }
 
-/// The finest relative residual of a linear solution.
+/// The finest relative residual of a linear solution, and where next to nothing is solved.
 const FINEST: f64 = 1e-5;
+const FINEST_TINY: f64 = 1e-13;

@@ -1,0 +1,248 @@
+//! The linear system of one iteration on the candidates that contact touches.
+
+use super::active::{Active, Placed};
+use super::condensation::Condensation;
+use super::preconditioner::{Preconditioner, SMALL};
+use super::tangent::{Precision, Spring, Tangent};
+use crate::linear::{GmresSettings, gmres};
+use crate::math::vector::norm;
+use crate::newton::failure::{not_finite, not_reached};
+use crate::newton::settings::Settings;
+use crate::newton::statistics::Statistics;
+use crate::system::{ContactBlock, StepFailure};
+
+/// Solves `(I + K W) y = …` for the forces at the dofs that interfaces touch.
+///
+/// GMRES with the exact tangent is preconditioned by an exact factor of the tangent of some iteration before, without the curvature of the
+/// gaps: of a matrix with a row for every gap and slip, which is small.
+#[derive(Debug, Default)]
+pub struct ReducedSystem {
+    active: Option<Active>,
+    /// `None` as well where the last solution took too many iterations.
+    preconditioner: Option<Preconditioner>,
+}
+
+/// What a solution consists of.
+#[derive(Debug)]
+pub struct ReducedSolution {
+    /// Forces at the candidates.
+    pub forces: Vec<f64>,
+    /// The displacements that they make.
+    pub displacements: Vec<f64>,
+    /// Krylov iterations.
+    pub iterations: usize,
+}
+
+/// Residual relative to the right-hand side that counts as solved if the factor is fresh.
+const ROUNDING: f64 = 1e-6;
+
+/// Tolerance above which products may be in single precision.
+const SINGLE_TOLERANCE: f64 = 3e-6;
+
+/// The finest tolerance of an iteration, and the coarsest.
+const TOLERANCES: (f64, f64) = (1e-14, 0.1);
+
+/// Gap rows up to which the factor is made anew every time.
+const TINY: usize = 240;
+
+/// Most iterations with a fresh factor, and with one that could be made anew: times what is usual.
+const MOST: usize = 200;
+const OVERTIME: usize = 2;
+
+/// Iterations after which GMRES starts again.
+const RESTART: usize = 60;
+
+/// Where the factor of an attempt comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Factor {
+    /// From an iteration before.
+    Kept,
+    /// From this one.
+    Fresh,
+}
+
+/// One attempt at the solution; those that cost less come first.
+#[derive(Debug, Clone, Copy)]
+struct Attempt {
+    precision: Precision,
+    factor: Factor,
+}
+
+impl Attempt {
+    /// What is tried after a failure: the same in double precision, then a fresh factor.
+    fn next(self) -> Option<Attempt> {
+        let precision = Precision::Double;
+        match (self.precision, self.factor) {
+            (Precision::Single, factor) => Some(Attempt { precision, factor }),
+            (Precision::Double, Factor::Kept) => Some(Attempt {
+                precision,
+                factor: Factor::Fresh,
+            }),
+            (Precision::Double, Factor::Fresh) => None,
+        }
+    }
+
+    fn gmres(self, tolerance: f64, patience: usize) -> GmresSettings {
+        let max_iterations = match self.factor {
+            Factor::Kept => OVERTIME * patience,
+            Factor::Fresh => MOST,
+        };
+        GmresSettings {
+            tolerance,
+            max_iterations,
+            restart: max_iterations.min(RESTART),
+        }
+    }
+}
+
+impl ReducedSystem {
+    /// Forgets everything: the bodies have changed.
+    pub fn clear(&mut self) {
+        *self = ReducedSystem::default();
+    }
+
+    /// Whether so little is solved for that no accuracy need be saved.
+    pub(super) fn is_tiny(blocks: &[ContactBlock], springs: usize) -> bool {
+        3 * blocks.len() + springs <= TINY
+    }
+
+    /// Finds the forces `ds` with `(I + K W) ds = b` on the candidates, `K` the tangent of the interfaces less that of the artificial springs, and
+    /// the displacements `W ds`.
+    pub fn solve(
+        &mut self,
+        condensation: &Condensation,
+        blocks: &[ContactBlock],
+        b: &[f64],
+        tolerance: f64,
+        (settings, statistics): (&Settings, &mut Statistics),
+    ) -> Result<ReducedSolution, StepFailure> {
+        let springs = springs(condensation);
+        if blocks.is_empty() && springs.is_empty() {
+            return Ok(ReducedSolution {
+                forces: b.to_vec(),
+                displacements: condensation.apply_compliance(b),
+                iterations: 0,
+            });
+        }
+        let touched = Active::touched(condensation, blocks);
+        let suits = self.active.as_ref().is_some_and(|a| a.suits(&touched));
+        if !suits {
+            self.active = None;
+        }
+        if !suits || ReducedSystem::is_tiny(blocks, springs.len()) {
+            self.preconditioner = None;
+        }
+        let active = &*self
+            .active
+            .get_or_insert_with(|| Active::new(condensation, &touched));
+        let placed: Vec<Placed> = blocks
+            .iter()
+            .map(|b| active.place(condensation, b))
+            .collect();
+        let tangent = Tangent {
+            condensation,
+            active,
+            blocks: &placed,
+            springs: &springs,
+        };
+        // K (W b) and what the springs make of b
+        let rhs = tangent.right_hand_side(&tangent.displacement_under(b), b);
+        // The residual of this system is that of the forces themselves, which are much smaller where interfaces are stiff.
+        let tolerance = (tolerance * norm(b) / norm(&rhs).max(f64::MIN_POSITIVE))
+            .clamp(TOLERANCES.0, TOLERANCES.1);
+        let (y, iterations) = solve_preconditioned(
+            &tangent,
+            &mut self.preconditioner,
+            &rhs,
+            tolerance,
+            (settings, statistics),
+        )?;
+        let mut forces = b.to_vec();
+        tangent.add_forces(&y, &mut forces);
+        Ok(ReducedSolution {
+            displacements: condensation.apply_compliance(&forces),
+            forces,
+            iterations,
+        })
+    }
+}
+
+/// The artificial springs of all parts that float.
+fn springs(condensation: &Condensation) -> Vec<Spring<'_>> {
+    let parts = condensation.parts.iter().zip(&condensation.starts);
+    let floating = parts.filter_map(|(part, &start)| Some((start, part.floating.as_ref()?)));
+    floating
+        .flat_map(|(start, floating)| {
+            let modes = floating.modes.iter().zip(&floating.products);
+            modes.map(move |(mode, product)| Spring {
+                start,
+                sigma: floating.sigma,
+                mode,
+                product,
+            })
+        })
+        .collect()
+}
+
+/// Solves with the factor that was kept, or with a fresh one where that does not do; which is kept if it is good. Returns the solution and all
+/// iterations.
+fn solve_preconditioned(
+    tangent: &Tangent,
+    kept: &mut Option<Preconditioner>,
+    rhs: &[f64],
+    tolerance: f64,
+    (settings, statistics): (&Settings, &mut Statistics),
+) -> Result<(Vec<f64>, usize), StepFailure> {
+    let patience = settings.krylov_patience;
+    // Where next to nothing holds a body, single precision would not see what does.
+    let single =
+        tolerance >= SINGLE_TOLERANCE && tangent.springs.is_empty() && tangent.active.len() > SMALL;
+    let mut attempt = Attempt {
+        precision: match single {
+            true => Precision::Single,
+            false => Precision::Double,
+        },
+        factor: match kept {
+            Some(_) => Factor::Kept,
+            None => Factor::Fresh,
+        },
+    };
+    let mut spent = 0;
+    loop {
+        let preconditioner = match kept {
+            Some(preconditioner) => &*preconditioner,
+            None => {
+                statistics.reduced += 1;
+                kept.insert(Preconditioner::of(tangent)?)
+            }
+        };
+        let mut y = vec![0.0; rhs.len()];
+        let report = gmres(
+            &mut |v, out| tangent.apply(v, out, attempt.precision),
+            &mut |v| preconditioner.apply(tangent, v, attempt.precision),
+            rhs,
+            &mut y,
+            attempt.gmres(tolerance, patience),
+        );
+        statistics.krylov += report.iterations;
+        spent += report.iterations;
+        if !report.relative_residual.is_finite() {
+            return Err(not_finite());
+        }
+        // With a fresh factor what is left is rounding: whether it is too much shows in the forces.
+        let rounding = attempt.factor == Factor::Fresh && report.relative_residual <= ROUNDING;
+        if report.converged || rounding {
+            if report.iterations > patience {
+                *kept = None;
+            }
+            return Ok((y, spent));
+        }
+        let Some(next) = attempt.next() else {
+            return Err(not_reached(spent));
+        };
+        if next.factor != attempt.factor {
+            *kept = None;
+        }
+        attempt = next;
+    }
+}

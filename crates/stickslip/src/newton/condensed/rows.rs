@@ -1,0 +1,90 @@
+use super::active::{NONE, Placed};
+
+/// The rows of one contact point: gradients of its gap and slips over the active dofs, and how the forces along them change.
+#[derive(Debug)]
+pub(super) struct Rows {
+    /// Positions in the active list.
+    pub at: Vec<u32>,
+    /// First of its gap rows.
+    first: usize,
+    /// Gradients `B`, row by row.
+    gradients: Vec<f64>,
+    /// Changes `C`, row by row.
+    changes: Vec<f64>,
+}
+
+impl Rows {
+    /// The rows of all points that have any, and how many there are.
+    pub fn of(blocks: &[Placed]) -> (Vec<Rows>, usize) {
+        let mut all = Vec::with_capacity(blocks.len());
+        let mut count = 0;
+        for Placed { at, block } in blocks {
+            let n = at.len();
+            let mut point = Rows {
+                at: at.clone(),
+                first: count,
+                gradients: Vec::new(),
+                changes: Vec::new(),
+            };
+            for (row, change) in block.rows.chunks(n).zip(block.change.chunks(n)) {
+                // In the plane there is one direction of slip.
+                if change.iter().any(|c| *c != 0.0) && row.iter().any(|r| *r != 0.0) {
+                    point.gradients.extend_from_slice(row);
+                    point.changes.extend_from_slice(change);
+                    count += 1;
+                }
+            }
+            if count > point.first {
+                all.push(point);
+            }
+        }
+        (all, count)
+    }
+
+    /// Number of rows.
+    pub fn count(&self) -> usize {
+        self.gradients.len() / self.at.len()
+    }
+
+    /// The rows of `C`.
+    pub fn changes(&self) -> impl Iterator<Item = &[f64]> {
+        self.changes.chunks(self.at.len())
+    }
+
+    /// The entries of row `q` of `B` at active dofs, with their positions.
+    pub fn gradient(&self, q: usize) -> impl Iterator<Item = (usize, f64)> {
+        let width = self.at.len();
+        let row = &self.gradients[q * width..(q + 1) * width];
+        at_active(&self.at, row)
+    }
+
+    /// `q = C u`.
+    pub fn apply_changes(&self, u: &[f64], q: &mut [f64]) {
+        for (q, c) in q[self.first..].iter_mut().zip(self.changes()) {
+            *q = 0.0;
+            for (at, c) in at_active(&self.at, c) {
+                *q += c * u[at];
+            }
+        }
+    }
+
+    /// `y -= Bᵀ q`.
+    pub fn subtract_forces(&self, q: &[f64], y: &mut [f64]) {
+        for (k, q) in q[self.first..].iter().take(self.count()).enumerate() {
+            for (at, b) in self.gradient(k) {
+                y[at] -= b * q;
+            }
+        }
+    }
+}
+
+/// Entries of a row at active dofs, with their positions.
+pub(super) fn at_active<'a>(
+    at: &'a [u32],
+    row: &'a [f64],
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let entries = at.iter().zip(row);
+    entries
+        .filter(|(at, _)| **at != NONE)
+        .map(|(&at, &value)| (at as usize, value))
+}
