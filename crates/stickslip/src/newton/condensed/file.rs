@@ -13,7 +13,7 @@ use crate::linear::{Compliance, Digest, PartialFactor};
 const MAGIC: &[u8; 8] = b"slipsub\0";
 
 /// Version of the format.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 
 /// Bytes of the header: magic, format, version of the program, identity, length of what follows up to the digest.
 const HEADER: usize = 8 + 8 + VERSION + 16 + 8;

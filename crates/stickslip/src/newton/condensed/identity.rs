@@ -9,7 +9,7 @@ use crate::math::Vec3;
 pub struct Identity([u64; 2]);
 
 /// Changes whenever other results are made of the same input.
-const GENERATION: u64 = 1;
+const GENERATION: u64 = 2;
 
 /// A part of a matrix: some points, dofs of the matrix that are no unknowns, and points that are not eliminated.
 #[derive(Debug, Clone, Copy)]
