@@ -8,8 +8,8 @@ use super::failure::{describe, not_finite};
 use super::operator::Operator;
 use super::statistics::Statistics;
 use crate::linear::{
-    BlockCsr, GapVariables, GmresSettings, LinearError, MeshHints, Multigrid, MultigridSettings,
-    gmres,
+    BlockCsr, GapVariables, GmresReport, GmresSettings, LinearError, MeshHints, Multigrid,
+    MultigridSettings, gmres,
 };
 use crate::math::Vec3;
 use crate::system::{Cause, ContactBlock, ContactPair, StepFailure};
@@ -30,6 +30,9 @@ const PATIENCE: usize = 40;
 
 /// Iterations after which a fresh hierarchy is given up.
 const MOST: usize = 200;
+
+/// Iterations after which GMRES starts again.
+const RESTART: usize = 60;
 
 /// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it.
 const DRIFT: f64 = 0.03;
@@ -67,6 +70,34 @@ struct Made {
     fresh: bool,
     /// The last solution took too many iterations.
     slow: bool,
+}
+
+impl Made {
+    /// Iterates, a fresh hierarchy as long as it may, another at most so often.
+    fn gmres(
+        &mut self,
+        operator: Operator,
+        b: &[f64],
+        x: &mut [f64],
+        tolerance: f64,
+        most: usize,
+    ) -> GmresReport {
+        gmres(
+            &mut |v, out| operator.apply(v, out),
+            &mut |v| {
+                self.gaps.transpose(v);
+                self.levels.cycle(v);
+                self.gaps.apply(v);
+            },
+            b,
+            x,
+            GmresSettings {
+                tolerance,
+                max_iterations: if self.fresh { MOST } else { most },
+                restart: RESTART,
+            },
+        )
+    }
 }
 
 /// Symmetric stiffnesses over the dofs of a few points.
@@ -134,21 +165,7 @@ impl Grids {
                 return Ok(None);
             };
             let started = Instant::now();
-            let report = gmres(
-                &mut |v, out| operator.apply(v, out),
-                &mut |v| {
-                    made.gaps.transpose(v);
-                    made.levels.cycle(v);
-                    made.gaps.apply(v);
-                },
-                b,
-                &mut x,
-                GmresSettings {
-                    tolerance,
-                    max_iterations: if made.fresh { MOST } else { most },
-                    restart: 60,
-                },
-            );
+            let report = made.gmres(operator, b, &mut x, tolerance, most);
             spent += report.iterations;
             statistics.krylov += report.iterations;
             statistics.seconds_solve += started.elapsed().as_secs_f64();

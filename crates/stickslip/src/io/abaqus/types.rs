@@ -127,100 +127,102 @@ fn kind(space: Space, nodes: &str) -> Option<ElementKind> {
     })
 }
 
+/// Elements that are not read, by how their names begin, longer beginnings first: what they are and what to do.
+const STARTS: &[(&str, &str, &str)] = &[
+    (
+        "CGAX",
+        "an axisymmetric element with twist",
+        "use CAX elements: motions out of the plane are not solved",
+    ),
+    (
+        "SPRING",
+        "a spring",
+        "springs are SPRINGA, SPRING1 and SPRING2 with *SPRING",
+    ),
+    ("MASS", "a point mass", "it is read with *MASS"),
+    (
+        "ROTARYI",
+        "a rotary inertia",
+        "give the rigid body a density instead",
+    ),
+    ("DASHPOT", "a dashpot", "use *DAMPING of the material"),
+    (
+        "GAP",
+        "a gap element",
+        "use a contact pair between the surfaces",
+    ),
+    (
+        "DCOUP",
+        "a distributing coupling",
+        "write the coupling as *EQUATION or *RIGID BODY",
+    ),
+    (
+        "CONN",
+        "a connector",
+        "write the connection as *EQUATION or springs",
+    ),
+    ("R3D", "a rigid facet", "use a solid with *RIGID BODY"),
+    ("R2D", "a rigid edge", "use a plane solid with *RIGID BODY"),
+    ("RAX", "a rigid edge", "use CAX elements with *RIGID BODY"),
+    (
+        "B2",
+        "a beam",
+        "model it with solid elements: beams are not solved",
+    ),
+    (
+        "B3",
+        "a beam",
+        "model it with solid elements: beams are not solved",
+    ),
+    (
+        "PIPE",
+        "a pipe",
+        "model it with solid elements: beams are not solved",
+    ),
+    (
+        "T2D",
+        "a truss",
+        "replace it by springs, SPRINGA with *SPRING",
+    ),
+    (
+        "T3D",
+        "a truss",
+        "replace it by springs, SPRINGA with *SPRING",
+    ),
+    (
+        "M3D",
+        "a membrane",
+        "model it with solid elements: membranes are not solved",
+    ),
+    (
+        "SC",
+        "a continuum shell",
+        "use C3D8I or C3D20R elements with the same nodes",
+    ),
+    (
+        "SAX",
+        "a shell",
+        "model it with solid elements (CAX8R, say): shells are not solved",
+    ),
+    (
+        "STRI",
+        "a shell",
+        "model it with solid elements (C3D20R, say): shells are not solved",
+    ),
+    (
+        "S",
+        "a shell",
+        "model it with solid elements (C3D20R, say): shells are not solved",
+    ),
+    ("DC", "an element of heat transfer", SOLIDS),
+    ("AC", "an acoustic element", SOLIDS),
+    ("COH", "a cohesive element", "tie the surfaces with *TIE"),
+    ("F3D", "a fluid element", SOLIDS),
+    ("U", "an element of the user", SOLIDS),
+];
+
 /// What other types are, by their first letters.
 fn other(upper: &str) -> Unsupported {
-    const STARTS: &[(&str, &str, &str)] = &[
-        (
-            "CGAX",
-            "an axisymmetric element with twist",
-            "use CAX elements: motions out of the plane are not solved",
-        ),
-        (
-            "SPRING",
-            "a spring",
-            "springs are SPRINGA, SPRING1 and SPRING2 with *SPRING",
-        ),
-        ("MASS", "a point mass", "it is read with *MASS"),
-        (
-            "ROTARYI",
-            "a rotary inertia",
-            "give the rigid body a density instead",
-        ),
-        ("DASHPOT", "a dashpot", "use *DAMPING of the material"),
-        (
-            "GAP",
-            "a gap element",
-            "use a contact pair between the surfaces",
-        ),
-        (
-            "DCOUP",
-            "a distributing coupling",
-            "write the coupling as *EQUATION or *RIGID BODY",
-        ),
-        (
-            "CONN",
-            "a connector",
-            "write the connection as *EQUATION or springs",
-        ),
-        ("R3D", "a rigid facet", "use a solid with *RIGID BODY"),
-        ("R2D", "a rigid edge", "use a plane solid with *RIGID BODY"),
-        ("RAX", "a rigid edge", "use CAX elements with *RIGID BODY"),
-        (
-            "B2",
-            "a beam",
-            "model it with solid elements: beams are not solved",
-        ),
-        (
-            "B3",
-            "a beam",
-            "model it with solid elements: beams are not solved",
-        ),
-        (
-            "PIPE",
-            "a pipe",
-            "model it with solid elements: beams are not solved",
-        ),
-        (
-            "T2D",
-            "a truss",
-            "replace it by springs, SPRINGA with *SPRING",
-        ),
-        (
-            "T3D",
-            "a truss",
-            "replace it by springs, SPRINGA with *SPRING",
-        ),
-        (
-            "M3D",
-            "a membrane",
-            "model it with solid elements: membranes are not solved",
-        ),
-        (
-            "SC",
-            "a continuum shell",
-            "use C3D8I or C3D20R elements with the same nodes",
-        ),
-        (
-            "SAX",
-            "a shell",
-            "model it with solid elements (CAX8R, say): shells are not solved",
-        ),
-        (
-            "STRI",
-            "a shell",
-            "model it with solid elements (C3D20R, say): shells are not solved",
-        ),
-        (
-            "S",
-            "a shell",
-            "model it with solid elements (C3D20R, say): shells are not solved",
-        ),
-        ("DC", "an element of heat transfer", SOLIDS),
-        ("AC", "an acoustic element", SOLIDS),
-        ("COH", "a cohesive element", "tie the surfaces with *TIE"),
-        ("F3D", "a fluid element", SOLIDS),
-        ("U", "an element of the user", SOLIDS),
-    ];
     let found = STARTS.iter().find(|(start, ..)| upper.starts_with(start));
     let (what, help) = match found {
         _ if upper == "D" => (

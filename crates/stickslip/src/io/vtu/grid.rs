@@ -128,6 +128,30 @@ fn join(
     Ok(())
 }
 
+/// An array that makes the cells of a piece, and its line.
+fn topology(
+    outline: &Outline,
+    piece: &Piece,
+    name: &str,
+    count: usize,
+) -> Result<(Vec<f64>, usize), MeshError> {
+    let mut fault = format!(
+        "line {}: the piece has no array `{name}` in <Cells>",
+        piece.line
+    );
+    for array in &piece.topology {
+        match array {
+            Ok(array) if array.name == name => {
+                let values = outline.values(array, count).map_err(damaged)?;
+                return Ok((values, outline.line(array)));
+            }
+            Ok(_) => {}
+            Err(message) => fault.clone_from(message),
+        }
+    }
+    Err(damaged(fault))
+}
+
 impl Grid {
     fn append(&mut self, outline: &Outline, piece: &Piece) -> Result<(), MeshError> {
         let base = self.points.len();
@@ -159,32 +183,15 @@ impl Grid {
         if piece.cells == 0 {
             return Ok(());
         }
-        let array = |name: &str, count: usize| -> Result<(Vec<f64>, usize), MeshError> {
-            let mut fault = format!(
-                "line {}: the piece has no array `{name}` in <Cells>",
-                piece.line
-            );
-            for array in &piece.topology {
-                match array {
-                    Ok(array) if array.name == name => {
-                        let values = outline.values(array, count).map_err(damaged)?;
-                        return Ok((values, outline.line(array)));
-                    }
-                    Ok(_) => {}
-                    Err(message) => fault.clone_from(message),
-                }
-            }
-            Err(damaged(fault))
-        };
-        let (types, _) = array("types", piece.cells)?;
-        let (offsets, line) = array("offsets", piece.cells)?;
+        let (types, _) = topology(outline, piece, "types", piece.cells)?;
+        let (offsets, line) = topology(outline, piece, "offsets", piece.cells)?;
         let total = whole(offsets[piece.cells - 1]).ok_or_else(|| {
             damaged(format!(
                 "line {line}: the last of `offsets` is no count of points: {}",
                 offsets[piece.cells - 1]
             ))
         })?;
-        let (connectivity, line_of_nodes) = array("connectivity", total)?;
+        let (connectivity, line_of_nodes) = topology(outline, piece, "connectivity", total)?;
         let mut start = 0;
         for (c, (&kind, &end)) in types.iter().zip(&offsets).enumerate() {
             let end = whole(end).filter(|&end| start <= end && end <= total);

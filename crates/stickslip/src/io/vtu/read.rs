@@ -117,15 +117,8 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
             }
             (Event::Open(_), [_]) | (Event::Text(_), []) => return Err(FOREIGN.into()),
             (Event::Open(attributes), ["VTKFile", "UnstructuredGrid", "Piece"]) => {
-                pieces.push(Piece {
-                    line: line(bytes, scanner.position()),
-                    points: count(&attributes, "NumberOfPoints", None).map_err(fault)?,
-                    cells: count(&attributes, "NumberOfCells", Some(0)).map_err(fault)?,
-                    coordinates: None,
-                    data: Vec::new(),
-                    topology: Vec::new(),
-                    cell_data: Vec::new(),
-                });
+                let line = line(bytes, scanner.position());
+                pieces.push(Piece::new(line, &attributes).map_err(fault)?);
             }
             (
                 event,
@@ -137,42 +130,8 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
                     "DataArray" | "Array",
                 ],
             ) => {
-                let Some(piece) = pieces.last_mut() else {
-                    continue;
-                };
-                match event {
-                    Event::Open(attributes) => {
-                        let array = Array::new(&attributes, scanner.position()).map_err(fault);
-                        match *section {
-                            "Points" if piece.coordinates.is_some() => {
-                                return Err(fault("a second array of points".into()));
-                            }
-                            "Points" => {
-                                let mut array = array?;
-                                if array.name.is_empty() {
-                                    array.name = "Points".into();
-                                }
-                                piece.coordinates = Some(array);
-                            }
-                            "PointData" => piece.data.push(array?),
-                            "Cells" => piece.topology.push(array),
-                            // Texts, for one, are no values that a cell could have.
-                            _ => piece.cell_data.extend(array),
-                        }
-                    }
-                    Event::Text(text) => {
-                        let array = match *section {
-                            "Points" => piece.coordinates.as_mut(),
-                            "PointData" => piece.data.last_mut(),
-                            "Cells" => piece.topology.last_mut().and_then(|a| a.as_mut().ok()),
-                            _ => piece.cell_data.last_mut(),
-                        };
-                        // Text may be parted by elements that describe the array; the values are in the first part.
-                        if let Some(array) = array.filter(|array| array.text.is_empty()) {
-                            array.text = text;
-                        }
-                    }
-                    Event::Close => {}
+                if let Some(piece) = pieces.last_mut() {
+                    piece.take(section, event, &scanner)?;
                 }
             }
             (Event::Open(attributes), ["VTKFile", "AppendedData"]) => {
@@ -189,6 +148,66 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
         pieces,
         appended,
     })
+}
+
+impl<'a> Piece<'a> {
+    fn new(line: usize, attributes: &[(&str, String)]) -> Result<Piece<'a>, String> {
+        Ok(Piece {
+            line,
+            points: count(attributes, "NumberOfPoints", None)?,
+            cells: count(attributes, "NumberOfCells", Some(0))?,
+            coordinates: None,
+            data: Vec::new(),
+            topology: Vec::new(),
+            cell_data: Vec::new(),
+        })
+    }
+
+    /// Takes up the tag or the text of an array in one of its sections.
+    fn take(
+        &mut self,
+        section: &str,
+        event: Event<'a>,
+        scanner: &Scanner<'a>,
+    ) -> Result<(), String> {
+        match event {
+            Event::Open(attributes) => {
+                let array = Array::new(&attributes, scanner.position());
+                let array = array.map_err(|message| scanner.fault(message));
+                match section {
+                    "Points" if self.coordinates.is_some() => {
+                        return Err(scanner.fault("a second array of points"));
+                    }
+                    "Points" => {
+                        let mut array = array?;
+                        if array.name.is_empty() {
+                            array.name = "Points".into();
+                        }
+                        self.coordinates = Some(array);
+                    }
+                    "PointData" => self.data.push(array?),
+                    "Cells" => self.topology.push(array),
+                    // Texts, for one, are no values that a cell could have.
+                    _ => self.cell_data.extend(array),
+                }
+                Ok(())
+            }
+            Event::Text(text) => {
+                let array = match section {
+                    "Points" => self.coordinates.as_mut(),
+                    "PointData" => self.data.last_mut(),
+                    "Cells" => self.topology.last_mut().and_then(|a| a.as_mut().ok()),
+                    _ => self.cell_data.last_mut(),
+                };
+                // Text may be parted by elements that describe the array; the values are in the first part.
+                if let Some(array) = array.filter(|array| array.text.is_empty()) {
+                    array.text = text;
+                }
+                Ok(())
+            }
+            Event::Close => Ok(()),
+        }
+    }
 }
 
 /// What the root says, if all of it can be read.

@@ -1,4 +1,7 @@
 //! From what a file holds to the bytes of an array: base64, headers and compressed blocks.
+//!
+//! Base64 is decoded here, in thirty lines: VTK encodes a header and its data one after the other, each with padding of its own, over line breaks,
+//! and how much is to be taken follows from what was taken. The crates for it want a whole text, or none of that.
 
 use std::borrow::Cow;
 use std::io::Read;

@@ -1,4 +1,7 @@
 //! The little of XML that VTK files use, read tag by tag.
+//!
+//! Written by hand: bytes that are no XML follow the tag of appended data, faults are to name the line and what is missing there, and a general
+//! reader (`quick-xml`) would leave the path of elements, the lines and all of these messages to be written around it.
 
 /// What stands next in a text.
 pub(in crate::io) enum Event<'a> {

@@ -1,6 +1,10 @@
 //! A factor as bytes, little endian.
+//!
+//! Written by hand: numbers go through in bulk, of a symmetric front one triangle only, and what is read is checked as a structure in any case.
+//! `postcard`, measured on 160 MB of numbers, took 1.4 to 2.7 times as long to write and up to 1.8 times as long to read, and would save the header alone.
 
 use std::io::{self, Read, Write};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::super::ordering::NONE;
@@ -72,20 +76,74 @@ impl PartialFactor {
         if &magic != MAGIC {
             return Err(invalid("not a factor"));
         }
+        let Header {
+            shape: (points, block),
+            range,
+            interior,
+            root,
+            fronts,
+            rows,
+            smallest_pivot,
+        } = Header::read(input)?;
+        let position_of = read_indices(input, range.len() * block)?;
+        let first = read_indices(input, fronts)?;
+        let parents = read_indices(input, fronts)?;
+        let row_counts = read_indices(input, fronts)?;
+        let rows = read_indices(input, rows)?;
+        let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
+        tree.first.extend(first);
+        let fronts = Fronts {
+            shape: (points, block),
+            points: range,
+            interior: vec![NONE; interior],
+            root: vec![NONE; root],
+            position_of,
+            tree,
+            rows,
+            targets: Vec::new(),
+            pieces: Vec::new(),
+        };
+        let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
+        let mut panels = Vec::with_capacity(fronts.pieces.len());
+        for piece in &fronts.pieces {
+            panels.push(read_panels(input, &fronts, piece.fronts.clone())?);
+        }
+        Ok(PartialFactor {
+            fronts: Arc::new(fronts),
+            panels,
+            smallest_pivot,
+        })
+    }
+}
+
+/// What a file begins with.
+struct Header {
+    /// Points and block size of the matrix.
+    shape: (usize, usize),
+    /// Points of the substructure.
+    range: Range<usize>,
+    /// Dofs eliminated, dofs kept, fronts and rows of all fronts.
+    interior: usize,
+    root: usize,
+    fronts: usize,
+    rows: usize,
+    smallest_pivot: (usize, f64),
+}
+
+impl Header {
+    fn read(input: &mut dyn Read) -> io::Result<Header> {
         let mut header = [0u64; 10];
         for number in &mut header {
             let mut bytes = [0; 8];
             input.read_exact(&mut bytes)?;
             *number = u64::from_le_bytes(bytes);
         }
-        let [.., dof, ratio] = header;
-        let counts: Vec<usize> = header[..8]
-            .iter()
-            .map(|&n| usize::try_from(n).map_err(|_| invalid("counts")))
-            .collect::<io::Result<_>>()?;
-        let [points, block, start, end, interior, root, fronts, rows] = counts[..] else {
-            return Err(invalid("counts"));
-        };
+        let [counts @ .., dof, ratio] = header;
+        let mut sizes = [0; 8];
+        for (size, count) in sizes.iter_mut().zip(counts) {
+            *size = usize::try_from(count).map_err(|_| invalid("counts"))?;
+        }
+        let [points, block, start, end, interior, root, fronts, rows] = sizes;
         let dofs = points.checked_mul(block).filter(|&n| n < FIXED as usize);
         let sane = dofs.is_some()
             && (2..=3).contains(&block)
@@ -97,39 +155,18 @@ impl PartialFactor {
         if !sane {
             return Err(invalid("counts"));
         }
-        let position_of = read_indices(input, (end - start) * block)?;
-        let first = read_indices(input, fronts)?;
-        let parents = read_indices(input, fronts)?;
-        let row_counts = read_indices(input, fronts)?;
-        let rows = read_indices(input, rows)?;
-        let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
-        tree.first.extend(first);
-        let fronts = Fronts {
-            shape: (points, block),
-            points: start..end,
-            interior: vec![NONE; interior],
-            root: vec![NONE; root],
-            position_of,
-            tree,
-            rows,
-            targets: Vec::new(),
-            pieces: Vec::new(),
-        };
-        let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
         let ratio = f64::from_bits(ratio);
-        let dof = usize::try_from(dof)
-            .ok()
-            .filter(|&dof| dof <= points * block);
-        let (Some(dof), false) = (dof, ratio.is_nan()) else {
+        let dof = usize::try_from(dof).ok();
+        let (Some(dof), false) = (dof.filter(|&dof| dof <= points * block), ratio.is_nan()) else {
             return Err(invalid("pivots"));
         };
-        let mut panels = Vec::with_capacity(fronts.pieces.len());
-        for piece in &fronts.pieces {
-            panels.push(read_panels(input, &fronts, piece.fronts.clone())?);
-        }
-        Ok(PartialFactor {
-            fronts: Arc::new(fronts),
-            panels,
+        Ok(Header {
+            shape: (points, block),
+            range: start..end,
+            interior,
+            root,
+            fronts,
+            rows,
             smallest_pivot: (dof, ratio),
         })
     }
@@ -212,11 +249,7 @@ fn read_indices(input: &mut dyn Read, count: usize) -> io::Result<Vec<u32>> {
 }
 
 /// The panels of some fronts, zero above the diagonal.
-fn read_panels(
-    input: &mut dyn Read,
-    fronts: &Fronts,
-    range: std::ops::Range<usize>,
-) -> io::Result<Vec<f64>> {
+fn read_panels(input: &mut dyn Read, fronts: &Fronts, range: Range<usize>) -> io::Result<Vec<f64>> {
     let mut panels: Vec<f64> = Vec::new();
     let mut bytes = vec![0; 8 * CHUNK];
     for front in range {
