@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::problem::{Document, Meshes, Problem};
-use stickslip::simulation::Model;
+use stickslip::simulation::Setup;
 use stickslip_deck::{Deck, Severity, Translation};
 
 use crate::failure::{Failure, located};
@@ -68,7 +68,7 @@ impl Input {
     }
 
     /// The model.
-    pub fn build(&self) -> Result<Model, Failure> {
+    pub fn build(&self) -> Result<Setup, Failure> {
         let built = self
             .problem
             .build_with(&self.document.folder(), &self.meshes);

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use stickslip::Error;
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer};
 
 use crate::print;
 
@@ -11,14 +11,14 @@ use crate::print;
 pub struct Lines {}
 
 impl Observer for Lines {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         let line = match event {
             Event::Increment(row) => {
                 let names = row.names.iter().cloned();
                 // JSON has no NaN; what is not known is null.
                 let values: serde_json::Map<_, _> =
                     names.zip(row.values.iter().map(|v| json!(v))).collect();
-                json!({ "event": "increment", "step": simulation.step_name(), "row": values })
+                json!({ "event": "increment", "step": analysis.step_name(), "row": values })
             }
             Event::Cutback(trial, failure) => json!({
                 "event": "cutback", "from": trial.from, "to": trial.to,
@@ -26,7 +26,7 @@ impl Observer for Lines {
             }),
             Event::Finding(finding) => json!({ "event": "finding", "finding": finding }),
             Event::Note(text) => json!({ "event": "note", "text": text }),
-            Event::End => json!({ "event": "end", "summary": simulation.summary }),
+            Event::End => json!({ "event": "end", "summary": analysis.summary }),
             _ => return Ok(()),
         };
         print::out(&format!("{line}\n"))

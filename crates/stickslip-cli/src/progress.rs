@@ -8,7 +8,7 @@ use stickslip::Error;
 use stickslip::contact::response::Status;
 use stickslip::newton::Strategy;
 use stickslip::simulation::doctor::{Finding, Severity};
-use stickslip::simulation::{Event, Gate, Observer, Row, Simulation};
+use stickslip::simulation::{Analysis, Event, Gate, Observer, Row};
 
 /// Prints what happens.
 pub struct Progress {
@@ -54,9 +54,9 @@ impl Progress {
     }
 
     /// Points that have another status than after the last increment.
-    fn changes(&mut self, simulation: &Simulation) -> usize {
-        let now: Vec<Status> = simulation
-            .model
+    fn changes(&mut self, analysis: &Analysis) -> usize {
+        let now: Vec<Status> = analysis
+            .contact
             .interfaces
             .iter()
             .flat_map(|i| i.statuses())
@@ -72,8 +72,8 @@ impl Progress {
         }
     }
 
-    fn increment(&mut self, simulation: &Simulation, row: &Row) {
-        let changes = self.changes(simulation);
+    fn increment(&mut self, analysis: &Analysis, row: &Row) {
+        let changes = self.changes(analysis);
         if !self.terminal {
             return;
         }
@@ -84,12 +84,12 @@ impl Progress {
         let column = |name: &str| row.get(name).unwrap_or(0.0);
         let energies = ["ALLSE", "ALLCE", "ALLFD", "ALLWK", "ALLKE"].map(|n| column(n).abs());
         let scale = energies.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let worst = simulation
+        let worst = analysis
             .worst_point()
             .map_or(String::new(), |p| p.to_string());
         let text = format!(
             "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>9.1e} {:>8} {:>6} {:>6} {changes:>7} {worst:>11} {:>9.1e} {:>9}",
-            simulation.step_name(),
+            analysis.step_name(),
             column("INC"),
             column("ATT"),
             column("ITRS"),
@@ -99,14 +99,14 @@ impl Progress {
             column("STICK"),
             column("SLIP"),
             column("ERESIDUAL") / scale,
-            self.left(simulation, column("TIME")),
+            self.left(analysis, column("TIME")),
         );
         self.line(&text);
     }
 
     /// The time that is left if the rest goes as fast as what is done.
-    fn left(&self, simulation: &Simulation, time: f64) -> String {
-        let steps = &simulation.model.steps;
+    fn left(&self, analysis: &Analysis, time: f64) -> String {
+        let steps = &analysis.model.steps;
         let (Some(first), Some(last)) = (steps.first(), steps.last()) else {
             return String::new();
         };
@@ -126,19 +126,19 @@ pub fn say(text: &str) {
 }
 
 impl Observer for Progress {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Accepted(a) if self.terminal && !self.verbose => {
                 self.passing(&format!(
                     "{:<18} {:>4} {:>3} {:>3} {:>11.5e} ...",
-                    simulation.step_name(),
+                    analysis.step_name(),
                     a.increment,
                     a.attempt,
                     a.iterations,
                     a.time
                 ));
             }
-            Event::Increment(row) => self.increment(simulation, row),
+            Event::Increment(row) => self.increment(analysis, row),
             Event::Iteration(p) if self.verbose => {
                 self.line(&format!(
                     "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}{}",
@@ -196,8 +196,8 @@ pub fn gate(gate: &Gate, findings: &[Finding]) {
 }
 
 /// What a user wants to know at the end.
-pub fn closing(simulation: &Simulation, directory: &Path) {
-    let s = &simulation.summary;
+pub fn closing(analysis: &Analysis, directory: &Path) {
+    let s = &analysis.summary;
     say(&format!(
         "done: {} increments, {} iterations, {} cut-backs, {}{} factorisations, {:.2} s",
         s.increments,
@@ -237,7 +237,7 @@ pub fn closing(simulation: &Simulation, directory: &Path) {
             100.0 * s.mass_added
         ));
     }
-    if simulation.model.moves() {
+    if analysis.model.moves() {
         let q = &s.energy_quality;
         say(&format!(
             "  energy: the balance is open by {:.1e} of the energies in play{}",

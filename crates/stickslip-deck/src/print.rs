@@ -9,7 +9,7 @@ use stickslip::body::CellState;
 use stickslip::contact::interface::Interface;
 use stickslip::io::write_atomically;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
 use crate::translate::Translation;
@@ -119,13 +119,13 @@ impl Printer {
             }
     }
 
-    fn print(&mut self, simulation: &Simulation) {
+    fn print(&mut self, analysis: &Analysis) {
         let key = (self.step, self.increment);
         if self.done == Some(key) {
             return;
         }
         if self.points.is_empty() {
-            let ids = &simulation.model.mesh.point_ids;
+            let ids = &analysis.model.mesh.point_ids;
             self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
         }
         let Some(prints) = self.prints.get(self.step - 1).cloned() else {
@@ -141,7 +141,7 @@ impl Printer {
                     global,
                     when,
                 } if self.due(when) => {
-                    self.nodes(simulation, &mut out, (set, keys, *totals, *global));
+                    self.nodes(analysis, &mut out, (set, keys, *totals, *global));
                 }
                 Print::Element {
                     set,
@@ -150,7 +150,7 @@ impl Printer {
                     global,
                     when,
                 } if self.due(when) => {
-                    self.elements(simulation, &mut out, (set, keys, *totals, *global));
+                    self.elements(analysis, &mut out, (set, keys, *totals, *global));
                 }
                 Print::Contact {
                     pair,
@@ -158,7 +158,7 @@ impl Printer {
                     totals,
                     when,
                 } if self.due(when) => {
-                    self.contact(simulation, &mut out, (pair.as_ref(), keys, *totals))
+                    self.contact(analysis, &mut out, (pair.as_ref(), keys, *totals))
                 }
                 _ => {}
             }
@@ -184,11 +184,11 @@ impl Printer {
 
     fn nodes(
         &self,
-        simulation: &Simulation,
+        analysis: &Analysis,
         out: &mut String,
         (set, keys, totals, global): (&str, &[String], Totals, bool),
     ) {
-        let dofs = simulation.model.dofs;
+        let dofs = analysis.model.dofs;
         let Some(nodes) = self.node_sets.get(set) else {
             return;
         };
@@ -206,11 +206,11 @@ impl Printer {
         };
         for key in keys {
             let (title, values) = match key.as_str() {
-                "U" => ("displacements (vx,vy,vz)", simulation.state.u.clone()),
-                "V" => ("velocities (vx,vy,vz)", or_zero(&simulation.state.v)),
-                "A" => ("accelerations (vx,vy,vz)", or_zero(&simulation.state.a)),
+                "U" => ("displacements (vx,vy,vz)", analysis.frame.state.u.clone()),
+                "V" => ("velocities (vx,vy,vz)", or_zero(&analysis.frame.state.v)),
+                "A" => ("accelerations (vx,vy,vz)", or_zero(&analysis.frame.state.a)),
                 // In motion too CalculiX prints what the elements resist with: no inertia, no damping, and no loads.
-                "RF" => ("forces (fx,fy,fz)", simulation.internal_forces()),
+                "RF" => ("forces (fx,fy,fz)", analysis.internal_forces()),
                 _ => continue,
             };
             let mut sum = [0.0; 3];
@@ -245,18 +245,18 @@ impl Printer {
 
     fn elements(
         &self,
-        simulation: &Simulation,
+        analysis: &Analysis,
         out: &mut String,
         (set, keys, totals, global): (&str, &[String], Totals, bool),
     ) {
         let Some(elements) = self.element_sets.get(set) else {
             return;
         };
-        let model = &simulation.model;
+        let model = analysis.model;
         let mut by_id = BTreeMap::new();
         for body in &model.bodies {
             body.elastic
-                .each_cell_state(&simulation.state.u, &mut |state: &CellState| {
+                .each_cell_state(&analysis.frame.state.u, &mut |state: &CellState| {
                     let block = &model.mesh.blocks[state.cell.block];
                     by_id.insert(block.cell_ids[state.cell.cell], state.clone());
                 });
@@ -323,11 +323,10 @@ impl Printer {
 
     fn contact(
         &self,
-        simulation: &Simulation,
+        analysis: &Analysis,
         out: &mut String,
         (pair, keys, totals): (Option<&(String, String)>, &[String], Totals),
     ) {
-        let model = &simulation.model;
         let of_pair = |i: &&Interface| match pair {
             Some((slave, master)) => self
                 .pairs
@@ -349,8 +348,8 @@ impl Printer {
                         true => "relative contact displacement (slave node,normal,tang1,tang2)",
                         false => "contact stress (slave node,press,tang1,tang2)",
                     }));
-                    for interface in model.interfaces.iter().filter(of_pair) {
-                        let (names, columns) = interface.table(&simulation.state.u);
+                    for interface in analysis.contact.interfaces.iter().filter(of_pair) {
+                        let (names, columns) = interface.table(&analysis.frame.state.u);
                         let column =
                             |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
                         let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
@@ -375,11 +374,17 @@ impl Printer {
                         time(self.time)
                     ));
                     let tally = |i: &Interface| {
-                        let (names, columns) = i.table(&simulation.state.u);
+                        let (names, columns) = i.table(&analysis.frame.state.u);
                         let at = names.iter().position(|n| n == "CSTATUS");
                         at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
                     };
-                    let n: usize = model.interfaces.iter().filter(of_pair).map(tally).sum();
+                    let n: usize = analysis
+                        .contact
+                        .interfaces
+                        .iter()
+                        .filter(of_pair)
+                        .map(tally)
+                        .sum();
                     let _ = writeln!(out, "{n:>10}");
                 }
                 "CELS" if totals != Totals::No || pair.is_none() => {
@@ -387,7 +392,8 @@ impl Printer {
                         "\n total contact spring energy for time {}\n\n",
                         time(self.time)
                     ));
-                    let sum: f64 = model
+                    let sum: f64 = analysis
+                        .contact
                         .interfaces
                         .iter()
                         .filter(of_pair)
@@ -396,7 +402,7 @@ impl Printer {
                     row(out, "      ", &[sum]);
                 }
                 "CF" | "CFN" | "CFS" => {
-                    for interface in model.interfaces.iter().filter(of_pair) {
+                    for interface in analysis.contact.interfaces.iter().filter(of_pair) {
                         let named = self.pairs.iter().find(|(name, ..)| *name == interface.name);
                         let Some((_, slave, master)) = named else {
                             continue;
@@ -407,7 +413,7 @@ impl Printer {
                             _ => Part::Whole,
                         };
                         let names = (slave.as_str(), master.as_str());
-                        statistics(simulation, interface, out, (part, names, self.time));
+                        statistics(analysis, interface, out, (part, names, self.time));
                     }
                 }
                 _ => {}
@@ -437,12 +443,12 @@ enum Part {
 
 /// What `CF`, `CFN` and `CFS` print of a pair.
 fn statistics(
-    simulation: &Simulation,
+    analysis: &Analysis,
     interface: &Interface,
     out: &mut String,
     (part, (slave, master), t): (Part, (&str, &str), f64),
 ) {
-    let u = &simulation.state.u;
+    let u = &analysis.frame.state.u;
     let r = interface.resultant(u);
     let (force, moment) = match part {
         Part::Whole => (add(r.normal, r.shear), r.moment),
@@ -470,14 +476,14 @@ fn statistics(
 }
 
 impl Observer for Printer {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Increment(row) => {
                 let column = |name: &str| row.get(name).unwrap_or(0.0);
                 self.step = column("STEP") as usize;
                 self.increment = column("INC") as usize;
                 self.time = column("TIME");
-                let ends = simulation
+                let ends = analysis
                     .model
                     .steps
                     .get(self.step.saturating_sub(1))
@@ -485,7 +491,7 @@ impl Observer for Printer {
                 self.last = ends.is_some_and(|end| self.time >= end * (1.0 - 1e-12));
             }
             Event::Output if self.step > 0 => {
-                self.print(simulation);
+                self.print(analysis);
                 if self.last {
                     write_atomically(&self.path, self.text.as_bytes())?;
                 }

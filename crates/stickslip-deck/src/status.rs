@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::io::write_atomically;
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer};
 
 /// Writes the `.sta` file of a run.
 #[derive(Debug)]
@@ -28,13 +28,13 @@ impl Status {
 }
 
 impl Observer for Status {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Increment(row) => {
                 let column = |name: &str| row.get(name).unwrap_or(0.0);
                 let step = column("STEP") as usize;
                 let (time, dt) = (column("TIME"), column("DT"));
-                let start = simulation
+                let start = analysis
                     .model
                     .steps
                     .get(step.saturating_sub(1))
@@ -55,7 +55,7 @@ impl Observer for Status {
                 self.end = time;
             }
             Event::End => {
-                let total = simulation.model.steps.last().map_or(0.0, |s| s.end);
+                let total = analysis.model.steps.last().map_or(0.0, |s| s.end);
                 self.text.push_str(match self.end >= total * (1.0 - 1e-12) {
                     true => "\n THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n",
                     false => "\n THE ANALYSIS HAS NOT BEEN COMPLETED\n",

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Meshes};
-use stickslip::simulation::Model;
+use stickslip::simulation::{Contact, Setup};
 use stickslip_deck::{Deck, Translation};
 
 use super::errors::{raise, raise_deck};
@@ -74,7 +74,7 @@ impl Problem {
         }
     }
 
-    fn model(&self) -> Result<Model, Error> {
+    fn setup(&self) -> Result<Setup, Error> {
         let folder = self.document.folder();
         let built = self.problem.build_with(&folder, &self.meshes);
         built.map_err(|error| match error {
@@ -166,7 +166,7 @@ impl Problem {
     /// What the doctor says of the problem before it is run: as text, and as JSON.
     fn check(&self, py: Python<'_>) -> PyResult<(String, String)> {
         let checked = py.detach(|| {
-            let mut simulation = stickslip::simulation::Simulation::new(self.model()?)?;
+            let mut simulation = stickslip::simulation::Simulation::new(self.setup()?)?;
             let report = simulation.check();
             let json = serde_json::to_string(&report).unwrap_or_default();
             Ok((report.to_string(), json))
@@ -181,15 +181,15 @@ impl Problem {
         factors: Option<PyRef<'_, Factors>>,
         laws: BTreeMap<String, BTreeMap<String, Py<PyAny>>>,
     ) -> PyResult<Simulation> {
-        let built = py.detach(|| self.model());
-        let mut model = built.map_err(|e| of_deck(py, self.deck.as_deref(), e))?;
+        let built = py.detach(|| self.setup());
+        let mut setup = built.map_err(|e| of_deck(py, self.deck.as_deref(), e))?;
         let raised = Raised::default();
-        bring(&mut model, laws, &raised)?;
+        bring(&mut setup.contact, laws, &raised)?;
         let library = match factors {
             Some(factors) => Arc::clone(&factors.library),
             None => Arc::new(Library::new(Library::small_limit())),
         };
-        let made = py.detach(|| stickslip::simulation::Simulation::with_library(model, library));
+        let made = py.detach(|| stickslip::simulation::Simulation::with_library(setup, library));
         let inputs = match &self.deck {
             Some(deck) => deck.files().to_vec(),
             None => self.document.inputs(&self.problem),
@@ -222,7 +222,7 @@ fn of_deck(py: Python<'_>, deck: Option<&Translation>, error: Error) -> PyErr {
 
 /// Gives interfaces the laws that are functions.
 fn bring(
-    model: &mut Model,
+    contact: &mut Contact,
     laws: BTreeMap<String, BTreeMap<String, Py<PyAny>>>,
     raised: &Raised,
 ) -> PyResult<()> {
@@ -242,10 +242,10 @@ fn bring(
                 "laws of {name}: there is no `{key}`; allowed are normal and friction"
             )));
         }
-        let known: Vec<String> = model.interfaces.iter().map(|i| i.name.clone()).collect();
+        let known: Vec<String> = contact.interfaces.iter().map(|i| i.name.clone()).collect();
         let mut found = false;
         // Two-sided contact is two interfaces of one name.
-        for interface in model.interfaces.iter_mut().filter(|i| i.name == name) {
+        for interface in contact.interfaces.iter_mut().filter(|i| i.name == name) {
             found = true;
             interface.bring(
                 normal.clone().map(|f| f as _),

@@ -40,7 +40,7 @@ struct Rows {
 impl Observer for Rows {
     fn see(
         &mut self,
-        simulation: &stickslip::simulation::Simulation,
+        analysis: &stickslip::simulation::Analysis,
         event: Event,
     ) -> Result<(), Error> {
         match event {
@@ -48,7 +48,7 @@ impl Observer for Rows {
                 if self.names.is_empty() {
                     self.names.clone_from(&row.names);
                 }
-                let step = simulation.step_name().to_string();
+                let step = analysis.step_name().to_string();
                 self.all.extend_from_slice(&row.values);
                 self.fresh.push_back((step, row.values.clone()));
             }
@@ -116,10 +116,10 @@ impl Simulation {
     fn values(&mut self, quantity: Quantity) -> &mut Vec<f64> {
         let simulation = &mut self.simulation;
         match quantity {
-            Quantity::Displacement => &mut simulation.state.u,
-            Quantity::Velocity => &mut simulation.state.v,
-            Quantity::Acceleration => &mut simulation.state.a,
-            Quantity::Forces => &mut simulation.forces,
+            Quantity::Displacement => &mut simulation.frame.state.u,
+            Quantity::Velocity => &mut simulation.frame.state.v,
+            Quantity::Acceleration => &mut simulation.frame.state.a,
+            Quantity::Forces => &mut simulation.frame.forces,
         }
     }
 
@@ -219,7 +219,7 @@ impl Simulation {
 
     #[getter]
     fn time(&self) -> f64 {
-        self.simulation.state.t
+        self.simulation.frame.state.t
     }
 
     #[getter]
@@ -234,7 +234,7 @@ impl Simulation {
 
     #[getter]
     fn interfaces(&self) -> Vec<String> {
-        let interfaces = self.simulation.model.interfaces.iter();
+        let interfaces = self.simulation.contact.interfaces.iter();
         interfaces.map(|i| i.name.clone()).collect()
     }
 
@@ -308,14 +308,14 @@ impl Simulation {
 
     /// Columns of the table of an interface by name.
     fn contact(&self, name: &str) -> PyResult<Vec<(String, Array)>> {
-        let model = &self.simulation.model;
-        let Some(interface) = model.interfaces.iter().find(|i| i.name == name) else {
+        let contact = &self.simulation.contact;
+        let Some(interface) = contact.interfaces.iter().find(|i| i.name == name) else {
             return Err(PyKeyError::new_err(format!(
                 "there is no interface `{name}`; there are: {}",
                 self.interfaces().join(", ")
             )));
         };
-        let (names, columns) = interface.table(&self.simulation.state.u);
+        let (names, columns) = interface.table(&self.simulation.frame.state.u);
         let columns = columns.into_iter().map(|c| {
             let shape = vec![c.len()];
             Array::floats(c, shape)
@@ -325,7 +325,7 @@ impl Simulation {
 
     /// All fields: name, whether at points, values `(points or cells, components)`.
     fn fields(&self, py: Python<'_>) -> Vec<(String, bool, Array)> {
-        let fields = py.detach(|| fields(&self.simulation));
+        let fields = py.detach(|| fields(&self.simulation.view()));
         let fields = fields.all.into_iter();
         fields
             .map(|field| {

@@ -32,8 +32,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
             print::out(&(notes.join("\n") + "\n"))?;
         }
     }
-    let model = input.build()?;
-    let mut simulation = stickslip::simulation::Simulation::new(model)?;
+    let setup = input.build()?;
+    let mut simulation = stickslip::simulation::Simulation::new(setup)?;
     let report = simulation.check();
     let text = match arguments.json {
         false => report.to_string(),

@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     use_threads(arguments.threads, arguments.quiet);
     let started = Instant::now();
     let input = Input::open(&arguments.file, &arguments.set)?;
-    let model = input.build()?;
+    let setup = input.build()?;
     let directory = arguments
         .output
         .clone()
@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let read = started.elapsed().as_secs_f64();
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
-    let mut simulation = Simulation::with_library(model, library)?;
+    let mut simulation = Simulation::with_library(setup, library)?;
     simulation.summary.phases.read = read;
     simulation.set_interrupt(crate::interrupt::watch());
     let stem = arguments.file.file_stem().unwrap_or_default();
@@ -94,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     simulation.run(&mut observers)?;
     if loud {
-        crate::progress::closing(&simulation, &directory);
+        crate::progress::closing(&simulation.analysis(), &directory);
     }
     let quality = &simulation.summary.quality;
     if quality.failed() || loud {

@@ -95,7 +95,7 @@ pub fn run(name: &str, text: &str) -> Run {
         .unwrap_or_else(|e| panic!("{name}: {e}\n{}", translation.toml));
     let model = &simulation.model;
     let ids = model.mesh.point_ids.iter().enumerate();
-    let u = ids.map(|(i, id)| (*id, model.dofs.vector(&simulation.state.u, i)));
+    let u = ids.map(|(i, id)| (*id, model.dofs.vector(&simulation.frame.state.u, i)));
     Run {
         u: u.collect(),
         blocks: printer.map_or(Vec::new(), |p| blocks(p.text())),

@@ -1,8 +1,7 @@
 //! Which way to solve is the cheapest, by counts that are known before any arithmetic.
 
 use super::model::{Solution, Step};
-use super::pending::TOGETHER;
-use super::run::Simulation;
+use super::scene::Scene;
 use crate::linear::{BlockCsr, Symbolic};
 use crate::machine::available_memory;
 use crate::newton::condensed::Cost;
@@ -32,6 +31,12 @@ const FEW: f64 = 1.0 / 12.0;
 /// Part of the free memory that may be taken.
 const MEMORY: f64 = 0.85;
 
+/// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
+pub(super) const TOGETHER: usize = 16;
+
+/// Vectors by dof that an increment holds which waits for its interior: displacements, forces of contact and loads, and what is swept to find it.
+const VECTORS: usize = 4;
+
 /// Seconds above which the other ways are looked at in any case.
 const LONG: f64 = 60.0;
 
@@ -57,7 +62,7 @@ pub(super) struct Choice {
     pub reason: String,
 }
 
-impl Simulation {
+impl Scene<'_> {
     /// The cheapest way that fits into memory.
     pub(super) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
         let free = held.iter().filter(|h| !**h).count() as f64;
@@ -65,7 +70,7 @@ impl Simulation {
         let [static_, moving] = self.increments_left();
         let iterations = static_ * NEWTON[0] + moving * NEWTON[1];
         let memory = available_memory().map(|free| free as f64);
-        let points: usize = self.model.interfaces.iter().map(|i| i.points.len()).sum();
+        let points: usize = self.contact.interfaces.iter().map(|i| i.points.len()).sum();
         let bytes = cost.bytes as f64 + self.pending_bytes() as f64 * static_.min(TOGETHER as f64);
         let what = format!(
             "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
@@ -128,6 +133,13 @@ impl Simulation {
         }
     }
 
+    /// Memory that an increment takes until it is reported `[bytes]`.
+    fn pending_bytes(&self) -> usize {
+        let interfaces = self.contact.interfaces.iter();
+        let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
+        histories + VECTORS * size_of::<f64>() * self.model.dofs.count()
+    }
+
     /// Quasi-static and dynamic increments from this step on, if none is cut.
     fn increments_left(&self) -> [f64; 2] {
         let mut counts = [0.0, 0.0];
@@ -140,7 +152,7 @@ impl Simulation {
             };
             ((s.end - s.start) / length).clamp(1.0, MOST_INCREMENTS)
         };
-        for step in &self.model.steps[self.step..] {
+        for step in &self.model.steps[self.frame.step..] {
             counts[usize::from(step.dynamic.is_some())] += count(step);
         }
         counts

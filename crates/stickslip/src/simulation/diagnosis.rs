@@ -2,13 +2,14 @@
 
 use std::fmt;
 
-use super::doctor::{self, Finding};
+use super::contact::Contact;
+use super::doctor::Finding;
+use super::frame::Frame;
 use super::model::Model;
-use super::run::Simulation;
-use crate::body::{RigidMode, rigid_modes};
+use super::view::View;
 use crate::contact::interface::Interface;
 use crate::error::RunError;
-use crate::math::{Vec3, add, symmetric_eigen};
+use crate::math::add;
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
@@ -87,21 +88,11 @@ pub struct InterfaceReport {
     pub laws: String,
 }
 
-/// A body that supports and springs leave free to move.
-pub(super) struct FreeBody {
-    /// Its index.
-    pub body: usize,
-    /// Its free motions: what they are, and displacements by dof, the largest of size one.
-    pub motions: Vec<(String, Vec<f64>)>,
-    /// An orthonormal basis of the directions in which it can move without turning.
-    pub slides: Vec<Vec3>,
-}
-
 /// Motions of each body that the supports and springs acting at `t` do not hold.
-pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
-    let bodies = free_bodies(simulation, t).into_iter();
+pub fn free_modes(view: &View, t: f64) -> Vec<FreeMode> {
+    let bodies = view.free_bodies(t).into_iter();
     let modes = bodies.flat_map(|free| {
-        let body = simulation.model.bodies[free.body].name.clone();
+        let body = view.model.bodies[free.body].name.clone();
         let modes = free.motions.into_iter();
         modes.map(move |(motion, _)| FreeMode {
             body: body.clone(),
@@ -111,135 +102,9 @@ pub fn free_modes(simulation: &Simulation, t: f64) -> Vec<FreeMode> {
     modes.collect()
 }
 
-/// The bodies that supports, springs and couplings acting at `t` leave free to move.
-pub(super) fn free_bodies(simulation: &Simulation, t: f64) -> Vec<FreeBody> {
-    let model = &simulation.model;
-    let mut held = simulation.constraints(t).fixed;
-    for link in model.links.all() {
-        // Their points are no unknowns, but springs may hold them.
-        held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)].fill(false);
-    }
-    for spring in &model.springs {
-        for &(dof, stiffness) in spring.entries() {
-            held[dof] |= stiffness > 0.0;
-        }
-    }
-    let rows: Vec<_> = model.couplings.acting(t).collect();
-    let mut out = Vec::new();
-    for (index, body) in model.bodies.iter().enumerate() {
-        let modes = match body.rigid {
-            None => {
-                let points: Vec<usize> = body.points.clone().collect();
-                rigid_modes(&model.mesh, &points, model.space)
-            }
-            Some(rigid) => motions(model, rigid.link),
-        };
-        // Rotations count by the displacement they make at the rim of the body, like translations.
-        let modes: Vec<_> = modes
-            .into_iter()
-            .map(|m| {
-                let largest = m.vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-                (m.name, m.vector, 1.0 / largest.max(f64::MIN_POSITIVE))
-            })
-            .collect();
-        let gram: Vec<Vec<f64>> = modes
-            .iter()
-            .map(|(_, a, sa)| {
-                modes
-                    .iter()
-                    .map(|(_, b, sb)| {
-                        let sum: f64 = a
-                            .iter()
-                            .zip(b)
-                            .zip(&held)
-                            .filter(|(_, held)| **held)
-                            .map(|((a, b), _)| a * b)
-                            .sum();
-                        // What a coupling resists, whatever is at its other end.
-                        let coupled: f64 = rows.iter().map(|r| r.sum(a) * r.sum(b)).sum();
-                        (sum + coupled) * sa * sb
-                    })
-                    .collect()
-            })
-            .collect();
-        let (values, vectors) = symmetric_eigen(&gram);
-        let largest = values.last().copied().unwrap_or(0.0);
-        let mut motions = Vec::new();
-        for (k, value) in values.iter().enumerate() {
-            if *value > 1e-10 * largest.max(f64::MIN_POSITIVE) {
-                continue;
-            }
-            let parts: Vec<&str> = modes
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| vectors[*i][k].abs() > 0.1)
-                .map(|(_, (name, _, _))| name.as_str())
-                .collect();
-            let mut vector = vec![0.0; model.dofs.count()];
-            for (i, (_, mode, scale)) in modes.iter().enumerate() {
-                let factor = scale * vectors[i][k];
-                vector
-                    .iter_mut()
-                    .zip(mode)
-                    .for_each(|(v, m)| *v += factor * m);
-            }
-            motions.push((parts.join(" with "), vector));
-        }
-        if motions.is_empty() {
-            continue;
-        }
-        // Translations come first.
-        let axes: Vec<usize> = modes.iter().filter_map(|(name, ..)| axis(name)).collect();
-        let block: Vec<Vec<f64>> = gram[..axes.len()]
-            .iter()
-            .map(|row| row[..axes.len()].to_vec())
-            .collect();
-        let (values, vectors) = symmetric_eigen(&block);
-        let slides = values.iter().enumerate();
-        let slides = slides.filter(|(_, v)| **v <= 1e-10 * largest.max(f64::MIN_POSITIVE));
-        let slides = slides.map(|(k, _)| {
-            let mut slide = [0.0; 3];
-            for (i, &c) in axes.iter().enumerate() {
-                slide[c] = vectors[i][k];
-            }
-            slide
-        });
-        out.push(FreeBody {
-            body: index,
-            motions,
-            slides: slides.collect(),
-        });
-    }
-    out
-}
-
-/// The direction of a translation.
-fn axis(motion: &str) -> Option<usize> {
-    let axes = ["x", "y", "z"].into_iter();
-    let translation = motion.strip_prefix("translation ")?;
-    axes.into_iter().position(|a| a == translation)
-}
-
-/// The motions of a rigid body over all dofs, hidden ones and those of its points.
-pub(super) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
-    let motions = model.links.all()[link].motions(model.dofs);
-    motions
-        .into_iter()
-        .map(|(dof, motion)| {
-            let mut vector = vec![0.0; model.dofs.count()];
-            vector[dof] = 1.0;
-            model.links.impose(&mut vector);
-            RigidMode {
-                name: motion.to_string(),
-                vector,
-            }
-        })
-        .collect()
-}
-
 /// The error for a singular system in which every body is held: something inside a body is not.
-pub(super) fn explain_singular(simulation: &Simulation, failure: &StepFailure) -> RunError {
-    let model = &simulation.model;
+pub(super) fn explain_singular(view: &View, failure: &StepFailure) -> RunError {
+    let model = view.model;
     // A hidden point has no number.
     let meshed = |dof: &usize| model.dofs.locate(*dof).0 < model.mesh.points.len();
     let place = failure.dof.filter(meshed).map(|dof| {
@@ -254,7 +119,7 @@ pub(super) fn explain_singular(simulation: &Simulation, failure: &StepFailure) -
     });
     RunError {
         message: "the system is singular although supports hold every body".to_string(),
-        time: simulation.state.t,
+        time: view.frame.state.t,
         culprits: place.into_iter().collect(),
         help: Some(
             "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness"
@@ -263,34 +128,31 @@ pub(super) fn explain_singular(simulation: &Simulation, failure: &StepFailure) -
     }
 }
 
-impl Simulation {
-    /// What the doctor finds in the model at its start, and the gaps by interface.
-    pub(super) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
-        let start = self.state.clone();
-        let steps = self.model.steps.first();
-        let end = State {
-            t: start.t + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start)),
-            ..start.clone()
-        };
-        let stage = Stage {
-            from: &start,
-            at: &end,
-            dt: end.t - start.t,
-            rate: None,
-        };
-        let interfaces = self.model.interfaces.iter_mut();
-        let gaps: Vec<Vec<f64>> = interfaces.map(|i| i.gaps_at(&stage)).collect();
-        let findings = doctor::examine(self, &gaps);
-        (gaps, findings)
-    }
+/// Gaps at the start, by interface.
+pub(super) fn start_gaps(model: &Model, frame: &Frame, contact: &mut Contact) -> Vec<Vec<f64>> {
+    let start = &frame.state;
+    let steps = model.steps.first();
+    let end = State {
+        t: start.t + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start)),
+        ..start.clone()
+    };
+    let stage = Stage {
+        from: start,
+        at: &end,
+        dt: end.t - start.t,
+        rate: None,
+    };
+    let interfaces = contact.interfaces.iter_mut();
+    interfaces.map(|i| i.gaps_at(&stage)).collect()
+}
 
-    /// Looks at the model without running it.
-    pub fn check(&mut self) -> CheckReport {
-        let (gaps, findings) = self.look();
-        let start = self.state.t;
+impl View<'_> {
+    /// What there is to say of a model before it runs, given the gaps at its start by interface.
+    pub(super) fn check(&self, gaps: &[Vec<f64>], findings: Vec<Finding>) -> CheckReport {
+        let start = self.frame.state.t;
         let steps = self.model.steps.first();
         let end = start + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start));
-        let interfaces = self.model.interfaces.iter().zip(&gaps);
+        let interfaces = self.contact.interfaces.iter().zip(gaps);
         let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
         let mesh = &self.model.mesh;
         let bodies = self

@@ -4,7 +4,7 @@ use super::figures::EQUILIBRIUM;
 use super::limits::Limits;
 use super::model::Body;
 use super::quality::Gate;
-use super::run::Simulation;
+use super::view::View;
 use crate::body::Space;
 use crate::math::{Vec3, add, cross, norm, sub};
 
@@ -32,26 +32,26 @@ struct Acting {
     arm: f64,
 }
 
-impl Simulation {
+impl View<'_> {
     /// Resultants of what acts on the bodies from outside. The forces inside a body have none, so that it is a check of the solution that
     /// knows nothing of how it was found. In motion the out-of-balance forces of the scheme are taken, in which inertia and damping
     /// stand as well.
     pub(super) fn judge_bodies(&self, limits: &Limits, gate: &mut Gate) {
-        let fixed = self.constraints(self.state.t).fixed;
-        let mut springs = vec![0.0; self.forces.len()];
+        let fixed = self.constraints(self.frame.state.t).fixed;
+        let mut springs = vec![0.0; self.frame.forces.len()];
         for &(dof, k) in self.model.springs.iter().flat_map(|s| s.entries()) {
-            springs[dof] -= k * self.state.u[dof];
+            springs[dof] -= k * self.frame.state.u[dof];
         }
-        let inertia = self.motion.as_ref().map(|motion| {
-            let inertial = motion.inertia.mass_times(&self.state.a);
-            [inertial, motion.internal.clone()]
+        let inertia = self.inertia().map(|inertia| {
+            let inertial = inertia.mass_times(&self.frame.state.a);
+            [inertial, self.frame.motion.internal.clone()]
         });
         let inside = inertia.unwrap_or_default();
         let bodies = self.model.bodies.iter();
         let acting = bodies.map(|b| self.acting(b, &fixed, &springs, &inside));
         let acting: Vec<Acting> = acting.collect();
         // Before anything touches there may be nothing but what rounding of the displacements leaves.
-        let stiff = self.diagonal.iter().zip(&self.state.u);
+        let stiff = self.solver.diagonal.iter().zip(&self.frame.state.u);
         let rounding = stiff.map(|(k, u)| (k * u).powi(2)).sum::<f64>().sqrt();
         let rounding = ROUNDINGS * f64::EPSILON * rounding;
         let stopping = self.stopping();
@@ -70,8 +70,8 @@ impl Simulation {
             });
             let stop: f64 = dofs.filter_map(|dof| stopping.get(dof)).sum();
             let scale = a.scale.max(TRIFLE * stop);
-            let (pair, limit, t) = ([left, scale], limits.equilibrium, self.state.t);
-            match self.motion.is_some() {
+            let (pair, limit, t) = ([left, scale], limits.equilibrium, self.frame.state.t);
+            match self.inertia().is_some() {
                 true => gate.note_in_motion(&EQUILIBRIUM, &place, pair, limit, t),
                 false => gate.note(&EQUILIBRIUM, &place, pair, limit, t),
             }
@@ -80,12 +80,17 @@ impl Simulation {
 
     /// Forces `[N]` by which the stiffness would stop the fastest motion at each dof, `v √(k m)`; nothing where nothing is in motion.
     fn stopping(&self) -> Vec<f64> {
-        let Some(motion) = &self.motion else {
+        let Some(inertia) = self.inertia() else {
             return Vec::new();
         };
-        let fastest = self.state.v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let masses = motion.inertia.mass_times(&vec![1.0; self.state.u.len()]);
-        let both = self.diagonal.iter().zip(masses);
+        let fastest = self
+            .frame
+            .state
+            .v
+            .iter()
+            .fold(0.0_f64, |m, v| m.max(v.abs()));
+        let masses = inertia.mass_times(&vec![1.0; self.frame.state.u.len()]);
+        let both = self.solver.diagonal.iter().zip(masses);
         both.map(|(k, m)| fastest * (k * m).max(0.0).sqrt())
             .collect()
     }
@@ -98,7 +103,7 @@ impl Simulation {
         springs: &[f64],
         inside: &[Vec<f64>; 2],
     ) -> Acting {
-        let model = &self.model;
+        let model = self.model;
         let dofs = model.dofs;
         // Of a rigid body the hidden points carry everything: the second has moments over a length.
         let link = body.rigid.map(|rigid| &model.links.all()[rigid.link]);
@@ -125,17 +130,26 @@ impl Simulation {
             let mut parts = [[0.0; 3]; 6];
             for (c, left) in left.iter_mut().enumerate().take(dofs.dim) {
                 let dof = dofs.of(p, c);
-                let reaction = if fixed[dof] { self.forces[dof] } else { 0.0 };
-                let all = [self.load[dof], -self.contact[dof], reaction, springs[dof]];
+                let reaction = if fixed[dof] {
+                    self.frame.forces[dof]
+                } else {
+                    0.0
+                };
+                let all = [
+                    self.frame.load[dof],
+                    -self.frame.contact[dof],
+                    reaction,
+                    springs[dof],
+                ];
                 let within = inside
                     .each_ref()
                     .map(|f| f.get(dof).copied().unwrap_or(0.0));
                 for (part, x) in parts.iter_mut().zip(all.into_iter().chain(within)) {
                     part[c] = x;
                 }
-                *left = match self.motion.is_some() || link.is_some() {
+                *left = match self.inertia().is_some() || link.is_some() {
                     true if fixed[dof] => 0.0,
-                    true => -self.forces[dof],
+                    true => -self.frame.forces[dof],
                     false => all.iter().sum(),
                 };
             }

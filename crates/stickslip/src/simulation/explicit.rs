@@ -6,9 +6,11 @@
 
 use std::sync::Arc;
 
+use super::contact::Contact;
+use super::frame::Frame;
 use super::inertia::lumped;
 use super::model::{Dynamic, Model};
-use super::run::Simulation;
+use super::onset::{AFTER, initial_contact};
 use super::spin::{Spin, mobility};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::error::{Error, RunError};
@@ -37,6 +39,10 @@ pub(super) struct Explicit {
     pub(super) damped_before: Vec<f64>,
     /// Supports, if they do not move in this step.
     pub(super) still: Option<Arc<Constraints>>,
+    /// Mass added by mass scaling, relative to the mass there is.
+    pub mass_added: f64,
+    /// Longest stable increment at the start, with its safety; 0 where any is stable.
+    pub at_start: f64,
     /// Whether any load acts.
     pub(super) loaded: bool,
 }
@@ -101,6 +107,8 @@ impl Explicit {
             damped: vec![0.0; dofs.count()],
             damped_before: vec![0.0; dofs.count()],
             still: None,
+            mass_added: 0.0,
+            at_start: 0.0,
             loaded: true,
             mass,
         }
@@ -182,120 +190,115 @@ fn scale_masses(model: &Model, mass: &mut [f64], half: f64) {
     }
 }
 
-impl Simulation {
-    /// Masses, frequencies and the acceleration at the start of an explicit step.
-    pub(super) fn start_explicit(&mut self, dynamic: &Dynamic) -> Result<(), Error> {
-        let n = self.state.u.len();
-        if self.state.v.is_empty() {
-            self.state.v = vec![0.0; n];
+impl Explicit {
+    /// Begins an explicit step: masses, frequencies and the acceleration at the start.
+    pub fn begin(
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        dynamic: &Dynamic,
+    ) -> Result<Self, Error> {
+        let n = frame.state.u.len();
+        if frame.state.v.is_empty() {
+            frame.state.v = vec![0.0; n];
         }
-        let mut explicit = Explicit::new(&self.model, dynamic.method);
-        let plain: f64 = masses(&self.model).iter().sum();
-        let dim = self.model.dofs.dim;
-        let scaled: f64 = explicit.mass.iter().step_by(dim).sum();
-        self.summary.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
-        let before = self.summary.energy.kinetic;
-        self.model
-            .apply_initial_velocities(self.step, &mut self.state.v);
-        let energy = &mut self.summary.energy;
-        energy.kinetic = explicit.kinetic_energy(&self.state.v);
+        let mut explicit = Explicit::new(model, dynamic.method);
+        let plain: f64 = masses(model).iter().sum();
+        let scaled: f64 = explicit.mass.iter().step_by(model.dofs.dim).sum();
+        explicit.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
+        let before = frame.ledger.kinetic;
+        model.apply_initial_velocities(frame.step, &mut frame.state.v);
+        let energy = &mut frame.ledger;
+        energy.kinetic = explicit.kinetic_energy(&frame.state.v);
         energy.initial += energy.kinetic - before;
-        let step = self.model.steps[self.step].clone();
-        let soon = step.start + super::onset::AFTER * (step.end - step.start);
-        let still = self.model.supports.iter().all(|s| {
+        let step = &model.steps[frame.step];
+        let soon = step.start + AFTER * (step.end - step.start);
+        let still = model.supports.iter().all(|s| {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
-        let constraints = self.constraints(soon);
-        explicit.loaded = !self.model.loads.is_empty();
-        for interface in &mut self.model.interfaces {
-            self.summary.energy.initial += interface.use_springs(true);
+        let constraints = frame.constraints(model, soon);
+        explicit.loaded = !model.loads.is_empty();
+        for interface in &mut contact.interfaces {
+            frame.ledger.initial += interface.use_springs(true);
         }
-        let couplings = &mut self.model.couplings;
+        let couplings = &mut contact.couplings;
         couplings.use_springs(true);
-        couplings.fit_springs(&explicit.inverse, explicit.frequency, &self.model.links);
-        let dt = self
-            .stable_increment(&explicit)
-            .min(step.increments.largest);
-        if step.fixed
-            && step.increments.initial > explicit.stable(self.contact_frequency(&explicit))
-        {
-            return Err(unstable(
-                &step.name,
-                self.state.t,
-                step.increments.initial,
-                explicit.stable(self.contact_frequency(&explicit)),
-                step.end - step.start,
-            )
-            .into());
+        couplings.fit_springs(&explicit.inverse, explicit.frequency, &model.links);
+        let stable = explicit.stable_increment(model, frame, contact);
+        let dt = stable.min(step.increments.largest);
+        let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));
+        let given = step.increments.initial;
+        if step.fixed && given > limit {
+            let t = frame.state.t;
+            return Err(unstable(&step.name, t, given, limit, step.end - step.start).into());
         }
-        let stable = self.stable_increment(&explicit);
-        self.summary.stable_increment = if stable.is_finite() { stable } else { 0.0 };
-        self.load = self.external(soon);
-        self.contact = self.initial_contact(soon, dt)?;
-        explicit.internal.apply(&self.state.u, &mut explicit.force);
-        let u = &self.state.u;
-        for &(dof, k) in &explicit.springs {
-            explicit.force[dof] += k * u[dof];
+        explicit.at_start = if stable.is_finite() { stable } else { 0.0 };
+        frame.load = frame.external(model, soon);
+        frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
+        explicit.start_forces(model, frame, contact);
+        explicit.start_acceleration(model, frame, &constraints);
+        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
+        explicit.still = still.then(|| Arc::new(constraints));
+        Ok(explicit)
+    }
+
+    /// Elastic and damping forces at the start, and the strain energy there.
+    fn start_forces(&mut self, model: &Model, frame: &mut Frame, contact: &Contact) {
+        self.internal.apply(&frame.state.u, &mut self.force);
+        let u = &frame.state.u;
+        for &(dof, k) in &self.springs {
+            self.force[dof] += k * u[dof];
         }
         // Without a matrix the energy of initial displacements is known only now.
-        let strain: f64 = 0.5
-            * explicit
-                .force
-                .iter()
-                .zip(u)
-                .map(|(f, u)| f * u)
-                .sum::<f64>();
-        let energy = &mut self.summary.energy;
-        let strain = strain + self.model.couplings.energy().stored;
+        let both = self.force.iter().zip(u);
+        let strain: f64 = 0.5 * both.map(|(f, u)| f * u).sum::<f64>();
+        let energy = &mut frame.ledger;
+        let strain = strain + contact.couplings.energy().stored;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
-        self.model.links.transfer(&mut explicit.force);
-        explicit.damp(&self.state.v);
-        self.state.a = (0..n)
+        model.links.transfer(&mut self.force);
+        self.damp(&frame.state.v);
+    }
+
+    /// Accelerations at the start.
+    fn start_acceleration(&self, model: &Model, frame: &mut Frame, constraints: &Constraints) {
+        let (load, contact) = (&frame.load, &frame.contact);
+        let mut a: Vec<f64> = (0..load.len())
             .map(|i| match constraints.fixed[i] {
                 true => 0.0,
                 false => {
-                    let internal = explicit.force[i] + explicit.damped[i];
-                    explicit.inverse[i] * (self.load[i] - internal - self.contact[i])
+                    let internal = self.force[i] + self.damped[i];
+                    self.inverse[i] * (load[i] - internal - contact[i])
                 }
             })
             .collect();
-        for spin in &explicit.spins {
+        for spin in &self.spins {
             let range = spin.range();
             let mut moment = [0.0; 3];
             for (m, i) in moment.iter_mut().zip(range.clone()) {
-                *m = self.load[i] - explicit.force[i] - self.contact[i];
+                *m = load[i] - self.force[i] - contact[i];
             }
             let turn = spin.acceleration(moment, &constraints.fixed, [0.0; 3]);
             let dim = range.len();
-            self.state.a[range].copy_from_slice(&turn[..dim]);
+            a[range].copy_from_slice(&turn[..dim]);
         }
-        self.model.links.impose(&mut self.state.a);
-        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
-        explicit.still = still.then(|| Arc::new(constraints));
-        self.explicit = Some(explicit);
-        Ok(())
+        model.links.impose(&mut a);
+        frame.state.a = a;
     }
 
-    pub(super) fn contact_frequency(&self, explicit: &Explicit) -> f64 {
-        let step = &self.model.steps[self.step];
-        let all = self.model.interfaces.iter();
-        let links = &self.model.links;
-        let interfaces: f64 = all
-            .map(|i| i.highest_frequency(&explicit.inverse, links))
-            .sum();
-        let t = self.state.t + super::onset::AFTER * (step.end - step.start);
-        interfaces + (self.model.couplings).highest_frequency(t, &explicit.inverse, links)
+    /// Sum of the highest squared frequencies of interfaces and couplings now.
+    pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
+        let step = &model.steps[frame.step];
+        let all = contact.interfaces.iter();
+        let links = &model.links;
+        let interfaces: f64 = all.map(|i| i.highest_frequency(&self.inverse, links)).sum();
+        let t = frame.state.t + AFTER * (step.end - step.start);
+        interfaces + (contact.couplings).highest_frequency(t, &self.inverse, links)
     }
 
-    fn stable_increment(&self, explicit: &Explicit) -> f64 {
-        explicit.safety * explicit.stable(self.contact_frequency(explicit))
-    }
-
-    /// The longest increment that is stable now, with its safety; `None` in a step that is not explicit or of given increments.
-    pub(super) fn bound(&self) -> Option<f64> {
-        let explicit = self.explicit.as_ref()?;
-        (!self.model.steps[self.step].fixed).then(|| self.stable_increment(explicit))
+    /// The longest increment that is stable now, with its safety.
+    pub fn stable_increment(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
+        self.safety * self.stable(self.contact_frequency(model, frame, contact))
     }
 }
 

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use super::doctor;
 use super::folder::{Claim, Folder, INTERFACES};
-use super::run::{Event, Observer, Simulation};
+use super::observer::{Event, Observer};
+use super::summary::Summary;
+use super::view::{Analysis, View};
 use crate::error::Error;
 use crate::io::{csv, pvd, vtu, write_atomically};
 use crate::system::{Field, Fields, Location};
@@ -38,37 +40,32 @@ impl ResultFiles {
         &self.folder.notes
     }
 
-    fn output(&mut self, simulation: &Simulation) -> Result<(), Error> {
-        let fields = fields(simulation);
+    fn output(&mut self, view: &View) -> Result<(), Error> {
+        let fields = fields(view);
         let name = format!("fields_{:05}.vtu", self.count);
         self.count += 1;
         let path = self.folder.directory.join(&name);
-        vtu::write(
-            &path,
-            &simulation.model.mesh,
-            &fields,
-            Some(&owners(simulation)),
-        )?;
-        self.pvd.push(simulation.state.t, &name)?;
+        vtu::write(&path, &view.model.mesh, &fields, Some(&owners(view)))?;
+        self.pvd.push(view.frame.state.t, &name)?;
         let folder = self.folder.directory.join(INTERFACES);
-        if !simulation.model.interfaces.is_empty() {
+        if !view.contact.interfaces.is_empty() {
             std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
         }
-        for interface in &simulation.model.interfaces {
-            let (names, columns) = interface.table(&simulation.state.u);
+        for interface in &view.contact.interfaces {
+            let (names, columns) = interface.table(&view.frame.state.u);
             let path = folder.join(format!("{}.csv", interface.name));
             csv::write(&path, &csv::Table { names, columns })?;
         }
         Ok(())
     }
 
-    fn end(&mut self, simulation: &Simulation) -> Result<(), Error> {
-        let text = serde_json::to_string_pretty(&simulation.summary)
+    fn end(&mut self, summary: &Summary) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(summary)
             .map_err(|e| Error::io(&self.folder.directory, std::io::Error::other(e)))?;
         let path = self.folder.directory.join("summary.json");
         write_atomically(&path, text.as_bytes())?;
         let places = self.folder.directory.join("culprits.vtu");
-        let findings = &simulation.summary.findings;
+        let findings = &summary.findings;
         if findings.iter().all(|f| f.guilty.is_empty()) {
             // Those of an earlier run would mislead.
             return match std::fs::remove_file(&places) {
@@ -81,8 +78,8 @@ impl ResultFiles {
 }
 
 /// All fields of the last accepted state.
-pub fn fields(simulation: &Simulation) -> Fields {
-    let model = &simulation.model;
+pub fn fields(view: &View) -> Fields {
+    let model = view.model;
     let mut fields = Fields::default();
     let dofs = model.dofs;
     let vectors = |values: &[f64]| -> Vec<f64> {
@@ -94,9 +91,9 @@ pub fn fields(simulation: &Simulation) -> Fields {
         name: "U".into(),
         location: Location::Point,
         components: 3,
-        values: vectors(&simulation.state.u),
+        values: vectors(&view.frame.state.u),
     });
-    for (name, values) in [("V", &simulation.state.v), ("A", &simulation.state.a)] {
+    for (name, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
         if model.moves() {
             fields.all.push(Field {
                 name: name.into(),
@@ -109,8 +106,9 @@ pub fn fields(simulation: &Simulation) -> Fields {
             });
         }
     }
-    let fixed = simulation.constraints(simulation.state.t).fixed;
-    let reactions: Vec<f64> = simulation
+    let fixed = view.held_dofs();
+    let reactions: Vec<f64> = view
+        .frame
         .forces
         .iter()
         .zip(&fixed)
@@ -123,17 +121,17 @@ pub fn fields(simulation: &Simulation) -> Fields {
         values: vectors(&reactions),
     });
     for body in &model.bodies {
-        body.fields(&simulation.state, &mut fields);
+        body.fields(&view.frame.state, &mut fields);
     }
-    for interface in &model.interfaces {
+    for interface in &view.contact.interfaces {
         interface.fields(&mut fields);
     }
     fields
 }
 
 /// The number of its body for every cell.
-fn owners(simulation: &Simulation) -> Vec<usize> {
-    let model = &simulation.model;
+fn owners(view: &View) -> Vec<usize> {
+    let model = view.model;
     let bodies = model.bodies.iter().enumerate();
     bodies
         .flat_map(|(i, body)| {
@@ -145,7 +143,7 @@ fn owners(simulation: &Simulation) -> Vec<usize> {
 }
 
 impl Observer for ResultFiles {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         // A run that was stopped may go on.
         self.folder.resume()?;
         if matches!(event, Event::Output | Event::End) {
@@ -161,9 +159,9 @@ impl Observer for ResultFiles {
                     history.row(&row.values)?;
                 }
             }
-            Event::Output => self.output(simulation)?,
+            Event::Output => self.output(analysis)?,
             Event::End => {
-                let ended = self.end(simulation);
+                let ended = self.end(analysis.summary);
                 self.folder.release();
                 ended?;
             }

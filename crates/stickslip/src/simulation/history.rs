@@ -1,7 +1,8 @@
 //! One row of numbers an increment: what happened, energies, interfaces, supports, probes.
 
 use super::model::Support;
-use super::run::Simulation;
+use super::view::View;
+use crate::body::Around;
 use crate::contact::interface::Resultant;
 use crate::system::Tally;
 use crate::time::Trial;
@@ -42,14 +43,15 @@ pub struct Effort {
 }
 
 pub(super) fn row(
-    simulation: &Simulation,
+    view: &View,
+    around: &[Option<Around>],
     trial: Trial,
     effort: Effort,
     (increment, attempt): (usize, usize),
 ) -> Row {
     let mut row = Row::default();
     // the first columns as in the .sta file of Abaqus and CalculiX
-    row.push("STEP", simulation.step_index() as f64 + 1.0);
+    row.push("STEP", view.step_index() as f64 + 1.0);
     row.push("INC", increment as f64);
     row.push("ATT", attempt as f64);
     row.push("ITRS", effort.iterations as f64);
@@ -60,23 +62,23 @@ pub(super) fn row(
     row.push("OPEN", effort.tally.open as f64);
     row.push("STICK", effort.tally.stick as f64);
     row.push("SLIP", effort.tally.slip as f64);
-    let e = &simulation.summary.energy;
+    let e = &view.frame.ledger;
     row.push("ALLSE", e.strain);
     row.push("ALLCE", e.contact);
     row.push("ALLFD", e.friction);
     row.push("ALLWK", e.external_work + e.belt_work);
     row.push("ALLAE", e.artificial);
     row.push("ERESIDUAL", e.residual);
-    if simulation.model.moves() {
+    if view.model.moves() {
         row.push("ALLKE", e.kinetic);
         row.push("ALLVD", e.rayleigh_damping);
         row.push("ALLCD", e.contact_damping);
         row.push("ALLND", e.numerical);
         row.push("EINITIAL", e.initial);
     }
-    let dim = simulation.model.dofs.dim;
-    for interface in &simulation.model.interfaces {
-        let r = interface.resultant(&simulation.state.u);
+    let dim = view.model.dofs.dim;
+    for interface in &view.contact.interfaces {
+        let r = interface.resultant(&view.frame.state.u);
         push_resultant(&mut row, &interface.name, &r, dim);
         row.push(
             format!("{}.ALLFD", interface.name),
@@ -89,26 +91,26 @@ pub(super) fn row(
             row.push(format!("{}.CWEARVOL", interface.name), volume);
         }
     }
-    for (name, force, sum) in simulation.model.couplings.report(&simulation.state.u) {
+    for (name, force, sum) in view.contact.couplings.report(&view.frame.state.u) {
         row.push(format!("{name}.F"), force);
         row.push(format!("{name}.U"), sum);
     }
-    for support in &simulation.model.supports {
-        push_reaction(&mut row, &support.name, simulation, support);
+    for support in &view.model.supports {
+        push_reaction(&mut row, &support.name, view, support);
     }
-    push_probes(&mut row, simulation);
+    push_probes(&mut row, view, around);
     row
 }
 
-fn push_reaction(row: &mut Row, name: &str, simulation: &Simulation, support: &Support) {
-    let dofs = simulation.model.dofs;
+fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
+    let dofs = view.model.dofs;
     let mut sum = [0.0; 3];
-    if support.schedule.active(simulation.state.t) {
+    if support.schedule.active(view.frame.state.t) {
         for e in &support.entries {
             let (point, component) = dofs.locate(e.dof);
             // the moments that hold a rigid body are no forces
-            if !simulation.model.links.turns(point) {
-                sum[component] += simulation.forces[e.dof];
+            if !view.model.links.turns(point) {
+                sum[component] += view.frame.forces[e.dof];
             }
         }
     }
@@ -131,17 +133,17 @@ fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
     row.push(format!("{name}.CPRESSMAX"), r.peak);
 }
 
-fn push_probes(row: &mut Row, simulation: &Simulation) {
-    let model = &simulation.model;
+fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
+    let model = view.model;
     let dim = model.dofs.dim;
-    for (probe, around) in model.probes.iter().zip(&simulation.around) {
+    for (probe, around) in model.probes.iter().zip(around) {
         let point = probe.point;
-        let u = model.dofs.vector(&simulation.state.u, point);
+        let u = model.dofs.vector(&view.frame.state.u, point);
         for (c, u) in u.iter().enumerate().take(dim) {
             row.push(format!("{}.U{}", probe.name, c + 1), *u);
         }
         if model.moves() {
-            for (letter, values) in [("V", &simulation.state.v), ("A", &simulation.state.a)] {
+            for (letter, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
                 let x = match values.is_empty() {
                     true => [0.0; 3],
                     false => model.dofs.vector(values, point),
@@ -153,7 +155,7 @@ fn push_probes(row: &mut Row, simulation: &Simulation) {
         }
         // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
         let stress = match around {
-            Some(around) => around.stress(model.dofs, &simulation.state.u),
+            Some(around) => around.stress(model.dofs, &view.frame.state.u),
             None => [0.0; 6],
         };
         for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::contact::Contact;
 use super::model::{ContactMass, Dynamic, Model};
 use super::spin::mobility;
 use crate::body::MassKind;
-use crate::body::couplings::Couplings;
 use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, Factor, GmresSettings, Isotropic, Symbolic, gmres};
 use crate::math::vector::dot;
-use crate::system::{Cause, Force, Links, StepFailure};
+use crate::system::{Cause, Links, StepFailure};
 use crate::time::scheme::Alphas;
 
 /// What resists acceleration and velocity.
@@ -48,9 +48,14 @@ const SAME: f64 = 1e-9;
 
 impl Inertia {
     /// Assembles the mass; `stiffness` gives the pattern.
-    pub fn new(model: &Model, stiffness: &BlockCsr, dynamic: &Dynamic, before: u64) -> Self {
+    pub fn new(
+        (model, contact): (&Model, &Contact),
+        stiffness: &BlockCsr,
+        dynamic: &Dynamic,
+        before: u64,
+    ) -> Self {
         let dim = model.dofs.dim;
-        let mut light = light(model, dynamic);
+        let mut light = light(model, contact, dynamic);
         let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
             if body.rigid.is_some() {
@@ -66,7 +71,7 @@ impl Inertia {
         let damping = damping(model, stiffness, &mass);
         Inertia {
             mass_kind: dynamic.mass,
-            redistributed: redistributed(model, dynamic),
+            redistributed: redistributed(contact, dynamic),
             masses: Isotropic::of(&mass),
             mass,
             damping,
@@ -93,8 +98,8 @@ impl Inertia {
     }
 
     /// Whether it serves a step with these settings.
-    pub fn suits(&self, model: &Model, dynamic: &Dynamic) -> bool {
-        self.mass_kind == dynamic.mass && self.redistributed == redistributed(model, dynamic)
+    pub fn suits(&self, contact: &Contact, dynamic: &Dynamic) -> bool {
+        self.mass_kind == dynamic.mass && self.redistributed == redistributed(contact, dynamic)
     }
 
     /// The last key given to a matrix.
@@ -148,9 +153,9 @@ impl Inertia {
     }
 
     /// The matrix made ready last, its diagonal and its key.
-    pub fn matrix(&self) -> Option<(&BlockCsr, &[f64], u64)> {
-        let m = self.matrices.last()?;
-        Some((&m.values, &m.diagonal, m.key))
+    pub fn matrix(&self) -> (&BlockCsr, &[f64], u64) {
+        let m = (self.matrices.last()).expect("the matrix of this length was made");
+        (&m.values, &m.diagonal, m.key)
     }
 
     /// `A x` of the matrix made ready last, from `K x`.
@@ -267,21 +272,21 @@ impl Inertia {
 }
 
 /// Interfaces whose points have their mass given to their neighbours.
-fn redistributed(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
+fn redistributed(contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
     let wanted = |interface: &Interface| match dynamic.contact_mass {
         Some(ContactMass::Redistributed) => true,
         Some(ContactMass::AsMeshed) => false,
         // A compliant law stops a mass gently.
         None => interface.laws.set_valued(),
     };
-    model.interfaces.iter().map(wanted).collect()
+    contact.interfaces.iter().map(wanted).collect()
 }
 
 /// Points whose mass is to be given to their neighbours. Where a body has no others, and in rigid bodies, they keep it all the same.
-pub(super) fn light(model: &Model, dynamic: &Dynamic) -> Vec<bool> {
+pub(super) fn light(model: &Model, contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
     let mut light = vec![false; model.dofs.points];
-    let redistributed = redistributed(model, dynamic);
-    for (interface, &wanted) in model.interfaces.iter().zip(&redistributed) {
+    let redistributed = redistributed(contact, dynamic);
+    for (interface, &wanted) in contact.interfaces.iter().zip(&redistributed) {
         if wanted {
             // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
             // as a secondary one does against a wall.
@@ -363,22 +368,4 @@ pub(super) fn times(matrix: &BlockCsr, x: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; x.len()];
     matrix.mul(x, &mut out);
     out
-}
-
-/// The energy of springs and bodies at `u`.
-pub(super) fn strain_energy(stiffness: &BlockCsr, u: &[f64]) -> f64 {
-    0.5 * dot(u, &times(stiffness, u))
-}
-
-/// All interfaces and couplings as forces.
-pub(super) fn contact<'a>(
-    interfaces: &'a mut [Interface],
-    couplings: &'a mut Couplings,
-) -> Vec<&'a mut dyn Force> {
-    let mut forces: Vec<&mut dyn Force> =
-        interfaces.iter_mut().map(|i| i as &mut dyn Force).collect();
-    if !couplings.is_empty() {
-        forces.push(couplings);
-    }
-    forces
 }

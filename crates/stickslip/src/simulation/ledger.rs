@@ -2,8 +2,18 @@
 
 use serde::Serialize;
 
-use super::accepted::Flow;
 use crate::system::Energy;
+
+/// Energy that flows over an increment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Flow {
+    /// Work of loads and reactions.
+    pub work: f64,
+    /// Dissipated by Rayleigh damping.
+    pub damped: f64,
+    /// Dissipated by the scheme.
+    pub numerical: f64,
+}
 
 /// Energies `[J]` (per unit of thickness or over 2π as the model has it).
 #[derive(Debug, Clone, Copy, Default, Serialize)]

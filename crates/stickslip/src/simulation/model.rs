@@ -1,11 +1,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::contact::Contact;
 use super::limits::Limits;
-use crate::body::couplings::Couplings;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
-use crate::contact::interface::{Change, Interface};
+use crate::contact::interface::Change;
 use crate::math::Mat3;
 use crate::mesh::Mesh;
 use crate::newton::{BodyPoints, Settings};
@@ -14,7 +14,17 @@ use crate::time::Increments;
 use crate::time::scheme::Method;
 pub use crate::time::{ContactAt, ContactMass};
 
-/// Everything that is simulated.
+/// What a problem is built to, and a simulation begins with.
+pub struct Setup {
+    /// What is simulated.
+    pub model: Model,
+    /// Interfaces and couplings before anything has happened.
+    pub contact: Contact,
+    /// What a user should know of how it was made.
+    pub notes: Vec<String>,
+}
+
+/// Everything that is simulated and does not change while it is.
 pub struct Model {
     /// Title for reports.
     pub title: String,
@@ -34,12 +44,8 @@ pub struct Model {
     pub springs: Vec<Spring>,
     /// Masses at points beside those of the cells `[kg]`.
     pub masses: Vec<(usize, f64)>,
-    /// Equations between displacements and springs between points.
-    pub couplings: Couplings,
     /// Supports and prescribed displacements.
     pub supports: Vec<Support>,
-    /// Interfaces.
-    pub interfaces: Vec<Interface>,
     /// Initial displacements and velocities.
     pub initials: Vec<Initial>,
     /// Steps, in order of time.
@@ -60,8 +66,6 @@ pub struct Model {
     pub follow: bool,
     /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
     pub unused: Vec<String>,
-    /// What a user should know of how it was made.
-    pub notes: Vec<String>,
     /// What counts as a good solution.
     pub quality: Limits,
 }

@@ -4,13 +4,16 @@ use std::collections::VecDeque;
 use std::time::Instant;
 
 use super::accepted::Accepted;
+use super::book::book;
+use super::choice::TOGETHER;
+use super::condensed::Candidates;
 use super::history;
-use super::run::{Advance, Event, Observer, Simulation};
+use super::observer::{Advance, Event, Observer};
+use super::run::{Simulation, view};
 use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::History;
 use crate::error::Error;
 use crate::newton::Progress;
-use crate::newton::condensed::Amplitudes;
 use crate::system::State;
 use crate::time::Trial;
 
@@ -25,16 +28,37 @@ pub(super) struct Pending {
     pub fields: bool,
     pub row: bool,
     /// Newton iterations nobody has been told of.
-    pub seen: Vec<Progress>,
+    seen: Vec<Progress>,
     /// The histories of the interfaces after it; empty if it is reported at once.
-    pub histories: Vec<History>,
+    histories: Vec<History>,
     /// The same of the couplings.
-    pub couplings: CouplingsMemory,
-    /// The loads of a condensed increment and the displacements of the candidates: its interior is not known yet.
-    pub found: Option<(Amplitudes, Vec<f64>)>,
+    couplings: CouplingsMemory,
+    /// What the interior of a condensed increment follows from; `None` where it is known.
+    found: Option<Candidates>,
 }
 
 impl Pending {
+    /// An increment and attempt of these numbers, for which fields and a row of the history are due or not.
+    pub fn new(
+        trial: Trial,
+        accepted: Accepted,
+        (increment, attempt): (usize, usize),
+        (fields, row): (bool, bool),
+    ) -> Self {
+        Pending {
+            trial,
+            accepted,
+            increment,
+            attempt,
+            fields,
+            row,
+            seen: Vec::new(),
+            histories: Vec::new(),
+            couplings: CouplingsMemory::default(),
+            found: None,
+        }
+    }
+
     /// It at a glance.
     pub fn advance(&self) -> Advance {
         Advance {
@@ -57,20 +81,7 @@ pub(super) struct Recovered {
     coupled: CouplingsMemory,
 }
 
-/// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
-pub(super) const TOGETHER: usize = 16;
-
-/// Vectors by dof that such an increment holds: displacements, forces of contact and loads, and what is swept to find its interior.
-const VECTORS: usize = 4;
-
 impl Simulation {
-    /// Memory that an increment takes until it is reported `[bytes]`.
-    pub(super) fn pending_bytes(&self) -> usize {
-        let interfaces = self.model.interfaces.iter();
-        let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
-        histories + VECTORS * size_of::<f64>() * self.model.dofs.count()
-    }
-
     /// Goes on from an accepted increment: at once, or with others in one sweep.
     pub(super) fn go_on(
         &mut self,
@@ -78,15 +89,26 @@ impl Simulation {
         last: bool,
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
-        if self.condensed.is_none() {
-            let from = std::mem::take(&mut self.state);
-            self.commit(&from, pending.trial, &pending.accepted);
-            let length = pending.trial.to - pending.trial.from;
-            self.state = from;
-            self.previous = Some((length, self.state.u.clone()));
+        let Simulation {
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        let Pending {
+            accepted, trial, ..
+        } = &pending;
+        let Some(condensed) = solver.condenser.at_rest() else {
+            contact.commit(&accepted.stage(&frame.state, *trial));
+            frame.previous = Some((trial.to - trial.from, frame.state.u.clone()));
             return self.report(pending, observers);
-        }
-        self.move_ahead(&mut pending);
+        };
+        contact.commit(&accepted.stage(&condensed.state, *trial));
+        pending.found = solver.move_ahead(accepted, *trial);
+        pending.seen = std::mem::take(&mut solver.seen);
+        let interfaces = contact.interfaces.iter();
+        pending.histories = interfaces.map(|i| i.history.clone()).collect();
+        pending.couplings = contact.couplings.memory.clone();
         self.pending.push(pending);
         if last || self.pending.len() >= TOGETHER {
             self.recover_pending();
@@ -107,13 +129,15 @@ impl Simulation {
             return;
         }
         let mut pending = std::mem::take(&mut self.pending);
-        self.recover(&mut pending);
+        let unknown = pending.iter_mut();
+        let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
+        self.solver.recover(unknown);
         // The interfaces tell what they knew after each of them.
-        let interfaces = self.model.interfaces.iter_mut();
+        let interfaces = self.contact.interfaces.iter_mut();
         self.recovered = Some(Recovered {
             queue: pending.into(),
             now: interfaces.map(|i| std::mem::take(&mut i.history)).collect(),
-            coupled: std::mem::take(&mut self.model.couplings.memory),
+            coupled: std::mem::take(&mut self.contact.couplings.memory),
         });
     }
 
@@ -128,7 +152,7 @@ impl Simulation {
         let mut outcome = Ok(());
         if let Some(mut one) = recovered.queue.pop_front() {
             self.remember(std::mem::take(&mut one.histories));
-            self.model.couplings.memory = std::mem::take(&mut one.couplings);
+            self.contact.couplings.memory = std::mem::take(&mut one.couplings);
             outcome = self.complete(&mut one);
             if outcome.is_ok() {
                 outcome = self.report(one, observers);
@@ -136,7 +160,7 @@ impl Simulation {
         }
         if recovered.queue.is_empty() || outcome.is_err() {
             self.remember(recovered.now);
-            self.model.couplings.memory = recovered.coupled;
+            self.contact.couplings.memory = recovered.coupled;
         } else {
             self.recovered = Some(recovered);
         }
@@ -144,9 +168,25 @@ impl Simulation {
     }
 
     fn remember(&mut self, histories: Vec<History>) {
-        for (interface, history) in self.model.interfaces.iter_mut().zip(histories) {
+        for (interface, history) in self.contact.interfaces.iter_mut().zip(histories) {
             interface.history = history;
         }
+    }
+
+    /// Completes an increment whose interior has been found.
+    fn complete(&mut self, one: &mut Pending) -> Result<(), Error> {
+        if one.found.is_none() {
+            return Ok(());
+        }
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        let completed = solver.complete(model, frame, contact, &mut one.accepted);
+        completed.map_err(|e| e.at(one.trial.to).into())
     }
 
     /// Enters an increment into the ledger and tells the observers.
@@ -155,40 +195,69 @@ impl Simulation {
         pending: Pending,
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
-        self.tell(&pending.seen, observers);
+        self.tell_iterations(&pending.seen, observers);
         let counts = (pending.increment, pending.attempt);
-        let effort = self.book(pending.accepted);
+        let Simulation {
+            model,
+            contact,
+            frame,
+            summary,
+            ..
+        } = self;
+        let effort = book(model, contact, frame, summary, pending.accepted);
         let started = Instant::now();
         if pending.row {
-            let row = history::row(self, pending.trial, effort, counts);
+            let row = history::row(&view!(self), &self.around, pending.trial, effort, counts);
             let named = row.names.iter().cloned().zip(row.values.iter().copied());
             self.summary.last = named.collect();
-            let limits = self.model.quality;
-            self.judge_quality(&limits);
-            self.judge_unjoined();
-            for observer in observers.iter_mut() {
-                observer.see(self, Event::Increment(&row))?;
-            }
+            self.judge();
+            self.tell(observers, || Event::Increment(&row))?;
         }
         if pending.fields {
-            let State { u, t, .. } = &self.state;
-            for interface in &mut self.model.interfaces {
+            let State { u, t, .. } = &self.frame.state;
+            for interface in &mut self.contact.interfaces {
                 interface.measure(u, *t);
             }
-            for observer in observers.iter_mut() {
-                observer.see(self, Event::Output)?;
-            }
+            self.tell(observers, || Event::Output)?;
         }
         self.summary.phases.write += started.elapsed().as_secs_f64();
         Ok(())
     }
 
+    /// Judges the last accepted increment.
+    fn judge(&mut self) {
+        let limits = &self.model.quality;
+        let view = view!(self);
+        let summary = &mut self.summary;
+        view.watch(&mut self.watches);
+        view.judge_quality(limits, &mut summary.quality);
+        view.judge_travel(
+            limits,
+            &mut summary.quality,
+            &mut summary.largest_rotation,
+            &mut summary.findings,
+        );
+        summary.quality.settle();
+        self.unjoined.judge(&view, &mut summary.findings);
+    }
+
+    /// Tells observers about iterations.
+    pub(super) fn tell_iterations(&self, seen: &[Progress], observers: &mut [&mut dyn Observer]) {
+        for p in seen {
+            for observer in observers.iter_mut() {
+                // An observer that cannot keep up with iterations does not stop the run.
+                let _ = observer.see(&self.analysis(), Event::Iteration(p));
+            }
+        }
+    }
+
     /// Tells observers what has been noted.
     pub(super) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        for note in std::mem::take(&mut self.notes) {
-            for observer in observers.iter_mut() {
-                observer.see(self, Event::Note(&note))?;
-            }
+        let log = &mut self.solver.log;
+        self.summary.method = log.method.into();
+        self.summary.method_reason.clone_from(&log.reason);
+        for note in std::mem::take(&mut log.notes) {
+            self.tell(observers, || Event::Note(&note))?;
             // Which method was chosen and why has a place of its own in the summary.
             let reason = &self.summary.method_reason;
             if reason.is_empty() || !note.ends_with(reason.as_str()) {
@@ -200,9 +269,7 @@ impl Simulation {
 
     /// What the last increment did is no guide for the next.
     pub(super) fn forget_direction(&mut self) {
-        self.previous = None;
-        if let Some(condensed) = &mut self.condensed {
-            condensed.forget_direction();
-        }
+        self.frame.previous = None;
+        self.solver.condenser.forget_direction();
     }
 }

@@ -2,16 +2,16 @@
 
 use serde::Serialize;
 
-use super::doctor::Finding;
+use super::doctor::{Finding, Watch};
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
     FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
     UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
+use super::ledger::EnergyQuality;
 use super::limits::{GateMode, Limits};
-use super::run::Simulation;
-use super::summary::{InterfaceSummary, NumericalStiffness};
-use crate::contact::interface::{Between, Interface};
+use super::view::View;
+use crate::contact::interface::{Between, Interface, Quality};
 use crate::math::norm;
 
 /// The outcome of the quality gate.
@@ -190,18 +190,23 @@ fn ratio(value: f64, scale: f64) -> f64 {
     }
 }
 
-impl Simulation {
+impl View<'_> {
     /// Elastic energy of bodies and compliant interfaces `[J]`.
     fn elastic_energy(&self) -> f64 {
-        let interfaces = self.model.interfaces.iter();
+        let interfaces = self.contact.interfaces.iter();
         let compliant = interfaces.map(Interface::law_energy).sum::<f64>();
-        self.summary.energy.strain + compliant
+        self.frame.ledger.strain + compliant
     }
 
     /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
     pub(in crate::simulation) fn strain_force(&self) -> f64 {
         let size = self.model.mesh.diameter();
-        let u = self.state.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        let u = self
+            .frame
+            .state
+            .u
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
         let blocks = 0..self.model.mesh.blocks.len();
         let moduli = self.model.elastic().flat_map(|b| {
             let of = |k: usize| b.elastic.constrained_modulus(k);
@@ -212,37 +217,37 @@ impl Simulation {
     }
 
     /// Judges the last accepted state.
-    pub(super) fn judge_quality(&mut self, limits: &Limits) {
-        let (u, t) = (&self.state.u, self.state.t);
-        for (watch, interface) in self.watches.iter_mut().zip(&self.model.interfaces) {
-            watch.note(interface, interface.resultant(u).carried, (u, t));
-        }
-        let mut gate = std::mem::take(&mut self.summary.quality);
+    pub(super) fn judge_quality(&self, limits: &Limits, gate: &mut Gate) {
         gate.gate = limits.gate;
         if limits.gate != GateMode::Off {
-            self.judge_interfaces(limits, &mut gate);
+            self.judge_interfaces(limits, gate);
             if self.explicit.is_none() {
-                self.judge_bodies(limits, &mut gate);
+                self.judge_bodies(limits, gate);
             }
         }
-        self.judge_travel(limits, &mut gate);
-        gate.settle();
-        self.summary.quality = gate;
+    }
+
+    /// Takes note of what interfaces do.
+    pub(super) fn watch(&self, watches: &mut [Watch]) {
+        let (u, t) = (&self.frame.state.u, self.frame.state.t);
+        for (watch, interface) in watches.iter_mut().zip(&self.contact.interfaces) {
+            watch.note(interface, interface.resultant(u).carried, (u, t));
+        }
     }
 
     fn judge_interfaces(&self, limits: &Limits, gate: &mut Gate) {
-        let t = self.state.t;
+        let t = self.frame.state.t;
         let energy = self.elastic_energy();
-        for interface in &self.model.interfaces {
+        for interface in &self.contact.interfaces {
             let q = interface.quality();
-            let r = interface.resultant(&self.state.u);
+            let r = interface.resultant(&self.frame.state.u);
             let place = format!("interface {}", interface.name);
             let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
             let approach = match r.carried > 0.0 {
                 true => whole.max(q.layer),
                 false => 0.0,
             };
-            let between = interface.between(&self.state.u, t);
+            let between = interface.between(&self.frame.state.u, t);
             judge_between(interface, (between, approach), limits, (gate, &place, t));
             if r.carried <= 0.0 {
                 continue;
@@ -257,7 +262,7 @@ impl Simulation {
                 let elastic = (2.0 * energy).max(r.carried * q.layer);
                 let pair = [q.penetration * r.carried, elastic];
                 let limit = limits.penetration_to_approach;
-                if self.motion.is_some() {
+                if self.inertia().is_some() {
                     gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
                 } else {
                     note(&PENETRATION_TO_APPROACH, pair, limit);
@@ -272,7 +277,7 @@ impl Simulation {
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
             let wrong = [q.friction_law * q.limit, q.limit];
             note(&FRICTION_LAW, wrong, limits.friction_law);
-            let b = interface.balance(&self.state.u);
+            let b = interface.balance(&self.frame.state.u);
             if b.scale > 0.0 {
                 let force = [norm(b.force), b.scale];
                 let moment = [norm(b.moment), b.scale * b.size];
@@ -282,37 +287,48 @@ impl Simulation {
         }
     }
 
-    /// Judges the energy balance, once all is done.
-    pub(super) fn judge_energy(&mut self, limits: &Limits) {
-        if limits.gate == GateMode::Off || self.summary.increments == 0 {
+    /// Judges the energy balance, once all is done; what a user should know of it goes to `notes`.
+    pub(super) fn judge_energy(
+        &self,
+        limits: &Limits,
+        quality: &EnergyQuality,
+        gate: &mut Gate,
+        notes: &mut Vec<String>,
+    ) {
+        if limits.gate == GateMode::Off {
             return;
         }
+        let ledger = &self.frame.ledger;
         let moves = self.model.moves();
         let limit = limits.energy.unwrap_or(self.model.energy_limit);
-        let quality = &self.summary.energy_quality;
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
-        let forces = self.summary.quality.largest(&EQUILIBRIUM, None);
+        let forces = gate.largest(&EQUILIBRIUM, None);
         let least = STILL * self.model.mesh.diameter() * forces;
-        let moved = self.state.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        let moved = self
+            .frame
+            .state
+            .u
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
         let least = least.max(ROUNDED * self.strain_force() * moved);
         let pair = [quality.largest, quality.scale.max(least)];
-        let t = self.state.t;
+        let t = self.frame.state.t;
         let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
-        let unknown = self.summary.energy.uncertain;
+        let unknown = ledger.uncertain;
         if !moves && open > OPEN * scale {
-            self.notes.push(format!(
+            notes.push(format!(
                 "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that; forces do not follow from them. Smaller increments make it less",
                 100.0 * open / scale
             ));
         }
         if !moves && unknown > UNKNOWN * scale {
-            self.notes.push(format!(
+            notes.push(format!(
                 "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
-                self.summary.energy.friction
+                ledger.friction
             ));
         }
-        self.summary.quality.note(&ENERGY, "model", pair, limit, t);
-        self.summary.quality.settle();
+        gate.note(&ENERGY, "model", pair, limit, t);
+        gate.settle();
     }
 }
 
@@ -337,17 +353,52 @@ fn judge_between(
     }
 }
 
+/// An interface at the end of a run.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct InterfaceSummary {
+    /// Name.
+    pub name: String,
+    /// Whether contact points are those of the side that the problem calls primary, see [`Interface::exchanged`].
+    ///
+    /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
+    pub exchanged: bool,
+    /// Largest unwanted penetration and false slip.
+    pub quality: Quality,
+    /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
+    /// force.
+    pub relative_to_approach: f64,
+    /// Out-of-balance between what the two sides receive, relative to the force.
+    pub action_reaction: f64,
+    /// Sum of the moments of what the two sides receive, relative to the force times the size of the interface.
+    pub moment: f64,
+    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
+    pub numerical_stiffness: Option<NumericalStiffness>,
+}
+
+/// How much a result depends on the numerical stiffness of an enforcement.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct NumericalStiffness {
+    /// The stiffness in use, the smallest of any point in contact, as a multiple of the bodies' own.
+    pub factor: f64,
+    /// By how much the force of the interface would rise, relative to what it is, if the stiffness became infinite and supports stayed where
+    /// they are. Bodies and the springs of the enforcement are in series: the violations `v` that are left are to the elastic
+    /// approach `2 U / F` as that rise is to the force, and so it is `Σ A (p |v_n| + |t| |v_t|) / 2 U` `[-]`.
+    pub independent_to: f64,
+}
+
 /// The interfaces at the last accepted state.
-pub(super) fn interfaces(simulation: &Simulation) -> Vec<InterfaceSummary> {
-    let energy = simulation.elastic_energy();
-    let all = simulation.model.interfaces.iter();
+pub(super) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
+    let energy = view.elastic_energy();
+    let all = view.contact.interfaces.iter();
     all.map(|interface| {
         let quality = interface.quality();
-        let r = interface.resultant(&simulation.state.u);
-        let b = interface.balance(&simulation.state.u);
+        let r = interface.resultant(&view.frame.state.u);
+        let b = interface.balance(&view.frame.state.u);
         let place = format!("interface {}", interface.name);
-        let floor = |kind| simulation.summary.quality.floor(kind, &place);
-        let strain = simulation.summary.energy.strain;
+        let floor = |kind| gate.floor(kind, &place);
+        let strain = view.frame.ledger.strain;
         let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
         let factor = interface.numerical_factor();
         InterfaceSummary {

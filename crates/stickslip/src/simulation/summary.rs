@@ -1,10 +1,10 @@
 use serde::Serialize;
 
+use super::contact::Contact;
 use super::doctor::Finding;
 use super::ledger::{EnergyLedger, EnergyQuality};
 use super::model::Model;
-use super::quality::Gate;
-use crate::contact::interface::Quality;
+use super::quality::{Gate, InterfaceSummary};
 use crate::error::Error;
 use crate::machine::peak_memory;
 use crate::newton::{Fallback, Statistics};
@@ -151,44 +151,9 @@ pub struct Phases {
     pub total: f64,
 }
 
-/// An interface at the end of a run.
-#[derive(Debug, Clone, Default, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct InterfaceSummary {
-    /// Name.
-    pub name: String,
-    /// Whether contact points are those of the side that the problem calls primary, see [`Interface::exchanged`].
-    ///
-    /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
-    pub exchanged: bool,
-    /// Largest unwanted penetration and false slip.
-    pub quality: Quality,
-    /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
-    /// force.
-    pub relative_to_approach: f64,
-    /// Out-of-balance between what the two sides receive, relative to the force.
-    pub action_reaction: f64,
-    /// Sum of the moments of what the two sides receive, relative to the force times the size of the interface.
-    pub moment: f64,
-    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
-    pub numerical_stiffness: Option<NumericalStiffness>,
-}
-
-/// How much a result depends on the numerical stiffness of an enforcement.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct NumericalStiffness {
-    /// The stiffness in use, the smallest of any point in contact, as a multiple of the bodies' own.
-    pub factor: f64,
-    /// By how much the force of the interface would rise, relative to what it is, if the stiffness became infinite and supports stayed where
-    /// they are. Bodies and the springs of the enforcement are in series: the violations `v` that are left are to the elastic
-    /// approach `2 U / F` as that rise is to the force, and so it is `Σ A (p |v_n| + |t| |v_t|) / 2 U` `[-]`.
-    pub independent_to: f64,
-}
-
 impl Summary {
     /// An empty summary of this model.
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &Model, contact: &Contact) -> Self {
         Summary {
             title: model.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
@@ -196,7 +161,7 @@ impl Summary {
                 points: model.mesh.points.len(),
                 cells: model.mesh.blocks.iter().map(|b| b.cell_ids.len()).sum(),
                 dofs: model.dofs.count(),
-                contact_points: model.interfaces.iter().map(|i| i.points.len()).sum(),
+                contact_points: contact.interfaces.iter().map(|i| i.points.len()).sum(),
             },
             threads: rayon::current_num_threads(),
             ..Summary::default()

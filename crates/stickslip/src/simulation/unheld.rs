@@ -1,7 +1,7 @@
 //! Motions of whole bodies that nothing can hold, however contact comes out: known before a quasi-static step begins.
 
 use super::model::Model;
-use super::run::Simulation;
+use super::scene::Scene;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add, cross, dot, scale, sub, symmetric_eigen};
 use crate::system::{Freedom, Motion};
@@ -173,12 +173,12 @@ impl Resisted<'_> {
     }
 }
 
-impl Simulation {
+impl Scene<'_> {
     /// Motions that neither supports, springs and couplings nor any contact could hold while the interfaces act as they do at `t`. Of contact
     /// the most is believed: that every point of a secondary meets what it faces, and that friction is as large as need be. Tied surfaces count
     /// without contact too.
     pub(super) fn unheld(&self, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
-        let model = &self.model;
+        let model = self.model;
         let count = modes.len();
         if count == 0 || count > MOST_MODES {
             return Vec::new();
@@ -201,7 +201,7 @@ impl Simulation {
                 resisted.dof(dof);
             }
         }
-        for row in model.couplings.acting(t) {
+        for row in self.contact.couplings.acting(t) {
             let value = |m: &Mode| {
                 let terms = row.dofs.iter().zip(&row.factors);
                 terms.map(|(&dof, a)| a * m.at(model, dof)).sum::<f64>()
@@ -209,7 +209,11 @@ impl Simulation {
             let values: Vec<_> = modes.iter().map(value).enumerate().collect();
             resisted.row(&values, 1.0);
         }
-        let acting = model.interfaces.iter().filter(|i| i.schedule.active(t));
+        let acting = self
+            .contact
+            .interfaces
+            .iter()
+            .filter(|i| i.schedule.active(t));
         for interface in acting.filter(|i| contact || i.laws.tied) {
             let directions = directions(interface, t);
             resisted.interface(interface, &directions);

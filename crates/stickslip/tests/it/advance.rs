@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use stickslip::Error;
 use stickslip::contact::law::own::{LimitFunction, PressureFunction};
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer, Simulation, View};
 
 /// A block pressed on a base and dragged; the second step has more increments than are recovered in one sweep.
 const CASE: &str = r#"
@@ -76,17 +76,17 @@ struct Diary {
 }
 
 /// Pressures of the interface.
-fn pressures(simulation: &Simulation) -> Vec<f64> {
-    let table = simulation.model.interfaces[0].table(&simulation.state.u);
+fn pressures(simulation: &View) -> Vec<f64> {
+    let table = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
     table.1[4].clone()
 }
 
 impl Observer for Diary {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, simulation: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Increment(row) => {
                 self.rows.push(row.values.clone());
-                self.states.push(simulation.state.u.clone());
+                self.states.push(simulation.frame.state.u.clone());
                 self.pressures.push(pressures(simulation));
             }
             Event::End => self.ended += 1,
@@ -112,8 +112,8 @@ fn going_on_by_one_increment_shows_the_state_of_each_and_gives_the_bits_of_a_run
             let more = stepwise.advance(&mut [&mut seen]).unwrap();
             assert!(seen.rows.len() <= before + 1);
             if seen.rows.len() > before {
-                assert_eq!(seen.states.last(), Some(&stepwise.state.u));
-                assert_eq!(seen.pressures.last(), Some(&pressures(&stepwise)));
+                assert_eq!(seen.states.last(), Some(&stepwise.frame.state.u));
+                assert_eq!(seen.pressures.last(), Some(&pressures(&stepwise.view())));
             }
             if !more {
                 break;
@@ -168,7 +168,7 @@ fn an_analysis_can_be_interrupted_between_increments() {
     assert!(matches!(simulation.run(&mut []), Err(Error::Interrupted(t)) if t == 0.0));
     stop.store(false, Ordering::Relaxed);
     simulation.run(&mut []).unwrap();
-    assert_eq!(simulation.state.t, 2.0);
+    assert_eq!(simulation.frame.state.t, 2.0);
 }
 
 /// The laws of the case as functions, and how often they are asked about how many points.
@@ -205,10 +205,10 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
             .replace("normal.linear = { c = 2e12 }", "")
             .replace("friction.coulomb = { mu = 0.3 }", "")
             .replace("METHOD", method);
-        let mut model = support::problem(&other).build(Path::new("")).unwrap();
+        let mut setup = support::problem(&other).build(Path::new("")).unwrap();
         let functions = Arc::new(Functions::default());
-        model.interfaces[0].bring(Some(functions.clone()), Some(functions.clone()));
-        let mut simulation = Simulation::new(model).unwrap();
+        setup.contact.interfaces[0].bring(Some(functions.clone()), Some(functions.clone()));
+        let mut simulation = Simulation::new(setup).unwrap();
         let mut seen = Diary::default();
         simulation.run(&mut [&mut seen]).unwrap();
 
@@ -225,7 +225,7 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
             assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
         }
         // One call an evaluation, not one a point.
-        let points = simulation.model.interfaces[0].points.len();
+        let points = simulation.contact.interfaces[0].points.len();
         let calls = functions.calls.load(Ordering::Relaxed);
         assert!(functions.asked.load(Ordering::Relaxed) >= points * calls);
         assert!(calls < 8 * (own.iterations + own.increments), "{calls}");

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::problem::Document;
 use stickslip::simulation::compare::Expected;
-use stickslip::simulation::{Event, Observer, Simulation, Solution};
+use stickslip::simulation::{Analysis, Event, Observer, Simulation};
 
 /// Displacements and out-of-balance forces (reactions) after every increment that is reported.
 #[derive(Default)]
@@ -22,10 +22,10 @@ struct States {
 }
 
 impl Observer for States {
-    fn see(&mut self, simulation: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, simulation: &Analysis, event: Event) -> Result<(), Error> {
         if let Event::Increment(row) = event {
-            self.times.push(simulation.state.t);
-            self.displacements.push(simulation.state.u.clone());
+            self.times.push(simulation.frame.state.t);
+            self.displacements.push(simulation.frame.state.u.clone());
             for (name, value) in row.names.iter().zip(&row.values) {
                 if [".CFN", ".CFS", ".RF"]
                     .iter()
@@ -40,7 +40,7 @@ impl Observer for States {
                 self.quiet += 1;
             }
             let held = simulation.held_dofs();
-            let forces = simulation.forces.iter().zip(held);
+            let forces = simulation.frame.forces.iter().zip(held);
             self.forces.push(
                 forces
                     .map(|(f, held)| if held { *f } else { 0.0 })
@@ -129,8 +129,7 @@ fn check(name: &str) {
         }
         let (condensed, after) = run(condensed);
         assert_eq!(
-            after.model.method,
-            Solution::Condensed,
+            after.summary.method, "condensed",
             "{name}: {:?}",
             after.summary.notes
         );

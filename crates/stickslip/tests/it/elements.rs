@@ -493,7 +493,7 @@ up-front = {{ set = "up.front", y = 0 }}
         let mut simulation: Simulation =
             support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-        let (names, columns) = simulation.model.interfaces[0].table(&simulation.state.u);
+        let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
         let pressure = &columns[names.iter().position(|n| n == "CPRESS").unwrap()];
         for p in pressure {
             assert!((p / 0.01 - 1.0).abs() < 1e-6, "{formulation} {cells}: {p}");

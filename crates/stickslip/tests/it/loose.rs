@@ -318,7 +318,7 @@ step = [{ name = "press" }]
 fn a_body_between_others_is_never_thrown_out_of_the_model() {
     let mut simulation = simulation(SANDWICH);
     let outcome = simulation.run(&mut []);
-    let u = &simulation.state.u;
+    let u = &simulation.frame.state.u;
     let farthest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     match outcome {
         // The gaps are closed, and both interfaces carry the same.

@@ -186,8 +186,8 @@ fn deviation(folder: &Path, text: &str, pressure: f64, shear: Option<f64>) -> f6
     let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut worst: f64 = 0.0;
-    for interface in &simulation.model.interfaces {
-        let (names, columns) = interface.table(&simulation.state.u);
+    for interface in &simulation.contact.interfaces {
+        let (names, columns) = interface.table(&simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         assert!(!column("CPRESS").is_empty());
         for (p, s) in column("CPRESS").iter().zip(column("CSHEAR1")) {
@@ -386,8 +386,8 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     let (force, radius) = (1000.0, 1.0 / (0.1 - curvature));
     let a = f64::cbrt(0.75 * force * radius / (1e5 / (1.0 - 0.09)));
     let peak = 1.5 * force / (std::f64::consts::PI * a * a);
-    let interface = &simulation.model.interfaces[0];
-    let (names, columns) = interface.table(&simulation.state.u);
+    let interface = &simulation.contact.interfaces[0];
+    let (names, columns) = interface.table(&simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
     let mut worst: f64 = 0.0;
     let mut points = 0;
@@ -400,7 +400,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     }
     assert!(points > 20, "{element}: {points}");
     assert!(simulation.summary.quality.met);
-    (worst, interface.resultant(&simulation.state.u).total)
+    (worst, interface.resultant(&simulation.frame.state.u).total)
 }
 
 /// Quadratic faces carry pressure on obstacles as they do on bodies: not at points within faces, whose pressures are noise.
@@ -445,8 +445,8 @@ step = [{{ increments = {{ fixed = 2 }} }}]
         // E* = E / (1 - ν²) on what is as good as rigid; a³ = 3 F R / 4 E*, p₀ = 3 F / 2 π a².
         let a = f64::cbrt(0.75 * 1000.0 * 10.0 / (1e5 / (1.0 - 0.09)));
         let peak = 1500.0 / (std::f64::consts::PI * a * a);
-        let interface = &simulation.model.interfaces[0];
-        let (names, columns) = interface.table(&simulation.state.u);
+        let interface = &simulation.contact.interfaces[0];
+        let (names, columns) = interface.table(&simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let mut points = 0;
         for (x, p) in column("x").iter().zip(column("CPRESS")) {
@@ -458,7 +458,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
             }
         }
         assert!(points >= 10, "{element}: {points}");
-        let force = interface.resultant(&simulation.state.u).total;
+        let force = interface.resultant(&simulation.frame.state.u).total;
         assert!((force / 1000.0 - 1.0).abs() < 1e-3, "{element}: {force}");
     }
 }
@@ -480,12 +480,12 @@ step = [{ increments.fixed = 1 }]
     let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut fields = stickslip::system::Fields::default();
-    for interface in &simulation.model.interfaces {
+    for interface in &simulation.contact.interfaces {
         interface.fields(&mut fields);
     }
     let points = &simulation.model.mesh.points;
-    for (interface, sign) in simulation.model.interfaces.iter().zip([1.0, -1.0]) {
-        let (names, columns) = interface.table(&simulation.state.u);
+    for (interface, sign) in simulation.contact.interfaces.iter().zip([1.0, -1.0]) {
+        let (names, columns) = interface.table(&simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let set = if sign > 0.0 {
             "upper.bottom"

@@ -135,10 +135,14 @@ fn an_attempt_repeated_gives_the_same_bits() {
             joint.kinematics.kind(),
             joint.slip.kind()
         );
-        let model = support::build(&problem)
+        let contact = support::build(&problem)
             .unwrap_or_else(|e| panic!("{e}"))
-            .model;
-        let mut interface = model.interfaces.into_iter().next().expect("one interface");
+            .contact;
+        let mut interface = contact
+            .interfaces
+            .into_iter()
+            .next()
+            .expect("one interface");
         let start = state(&interface, 0.0, 0.0, [0.0; 2]);
         let pressed = state(&interface, 1.0, 1e-6, [2e-7, 1e-7]);
         attempt(&mut interface, &start, &pressed);
@@ -206,8 +210,13 @@ fn a_run_with_cutbacks_ends_like_one_without() {
     assert!(cutbacks > 1, "nothing was cut");
     let (without, cutbacks, same) = run(None, &times);
     assert_eq!((cutbacks, &same), (0, &times));
-    let size = with.state.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    for (a, b) in with.state.u.iter().zip(&without.state.u) {
+    let size = with
+        .frame
+        .state
+        .u
+        .iter()
+        .fold(0.0_f64, |m, u| m.max(u.abs()));
+    for (a, b) in with.frame.state.u.iter().zip(&without.frame.state.u) {
         assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
     }
     let friction = [&with, &without].map(|s| s.summary.energy.friction);

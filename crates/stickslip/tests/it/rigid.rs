@@ -306,7 +306,7 @@ duration = 1.0
         2.0_f64.sqrt() * turned,
         1e-10,
     );
-    let fields = stickslip::simulation::fields(&simulation);
+    let fields = stickslip::simulation::fields(&simulation.view());
     for field in &fields.all {
         let count = match field.location {
             stickslip::system::Location::Point => 27,

@@ -75,7 +75,7 @@ primary-velocity-table = [{belt}]
 
 /// Values of a field at the nodes of a body that lie in the interface, and have one.
 fn on(simulation: &Simulation, body: usize, name: &str) -> Vec<f64> {
-    let all = fields(simulation);
+    let all = fields(&simulation.view());
     let field = all.get(name).unwrap_or_else(|| panic!("no field {name}"));
     let points = simulation.model.bodies[body].points.clone();
     let values = field.values[points].iter().copied();
@@ -151,7 +151,7 @@ wear = { coefficient = 1e-6, primary-coefficient = 1e-6 }
 "#;
     let mut simulation = support::build(&support::problem(text)).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-    let all = fields(&simulation);
+    let all = fields(&simulation.view());
     let worn = all.get("CWEAR").expect("wear is followed");
     let pressed = all.get("CPRESS").expect("an interface");
     let at = |x: f64| {

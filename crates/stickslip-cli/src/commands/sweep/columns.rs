@@ -3,7 +3,7 @@
 use stickslip::Error;
 use stickslip::error::RunError;
 use stickslip::simulation::compare::near;
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer};
 
 use crate::failure::Failure;
 
@@ -41,7 +41,7 @@ impl<'a> Columns<'a> {
 }
 
 impl Observer for Columns<'_> {
-    fn see(&mut self, _: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
         let Event::Increment(row) = event else {
             return Ok(());
         };

@@ -15,7 +15,7 @@ use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
 use stickslip::simulation::doctor::Severity;
 use stickslip::simulation::{
-    Claim, FileClaim, Interrupt, Model, Observer, ResultFiles, Simulation, Summary,
+    Claim, FileClaim, Interrupt, Observer, ResultFiles, Setup, Simulation, Summary,
 };
 
 use super::{library, spare, use_threads};
@@ -206,8 +206,8 @@ fn analyse(
         Ok(problem) => problem,
         Err(e) => return failed(e.into()),
     };
-    let model = match problem.build(&document.folder()) {
-        Ok(model) => model,
+    let setup = match problem.build(&document.folder()) {
+        Ok(setup) => setup,
         Err(e) => return failed(located(document, e)),
     };
     let read = started.elapsed().as_secs_f64();
@@ -224,17 +224,17 @@ fn analyse(
     if let Some(files) = &mut files {
         observers.push(files);
     }
-    simulate(model, read, &mut observers, shared)
+    simulate(setup, read, &mut observers, shared)
 }
 
 /// Runs a model. The one place where a sweep makes a simulation.
 fn simulate(
-    model: Model,
+    setup: Setup,
     read: f64,
     observers: &mut [&mut dyn Observer],
     shared: &Shared,
 ) -> Ended {
-    match Simulation::with_library(model, Arc::clone(&shared.library)) {
+    match Simulation::with_library(setup, Arc::clone(&shared.library)) {
         Ok(mut simulation) => {
             simulation.summary.phases.read = read;
             simulation.set_interrupt(Arc::clone(&shared.interrupt));

@@ -20,7 +20,7 @@ use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target}
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
 use crate::newton::Settings;
-use crate::simulation::{Body, Model, OutputPlan, Prescribed, Probe, Support};
+use crate::simulation::{Body, Contact, Model, OutputPlan, Prescribed, Probe, Setup, Support};
 use crate::system::{Dofs, Links};
 pub use meshes::Meshes;
 
@@ -35,7 +35,7 @@ impl Problem {
     /// # Errors
     /// [`Error::Problem`] with findings that carry keys but no places (see [`Document::error`](super::Document::error)),
     /// [`Error::Mesh`] for a mesh that cannot be used, [`Error::Io`] for a file that cannot be read.
-    pub fn build(&self, folder: &Path) -> Result<Model, Error> {
+    pub fn build(&self, folder: &Path) -> Result<Setup, Error> {
         self.build_with(folder, &Meshes::default())
     }
 
@@ -43,16 +43,16 @@ impl Problem {
     ///
     /// # Errors
     /// Those of [`Problem::build`].
-    pub fn build_with(&self, folder: &Path, meshes: &Meshes) -> Result<Model, Error> {
+    pub fn build_with(&self, folder: &Path, meshes: &Meshes) -> Result<Setup, Error> {
         let findings = self.check();
         if !findings.is_empty() {
             return Err(problem_error(findings));
         }
-        let model = self.build_moved(folder, meshes, snap::Moves::default())?;
-        let start = model.steps.first().map_or(0.0, |s| s.start);
-        let moves = snap::moves(self, &model.interfaces, start);
+        let setup = self.build_moved(folder, meshes, snap::Moves::default())?;
+        let start = setup.model.steps.first().map_or(0.0, |s| s.start);
+        let moves = snap::moves(self, &setup.contact.interfaces, start);
         if moves.notes.is_empty() {
-            return Ok(model);
+            return Ok(setup);
         }
         // All that follows from coordinates is made anew.
         self.build_moved(folder, meshes, moves)
@@ -75,7 +75,7 @@ impl Problem {
         folder: &Path,
         given: &Meshes,
         moves: snap::Moves,
-    ) -> Result<Model, Error> {
+    ) -> Result<Setup, Error> {
         let space = space(self);
         let mut built = meshes::build(self, folder, given)?;
         snap::apply(&moves, &mut built.mesh)?;
@@ -139,7 +139,7 @@ impl Problem {
         let probes = probes(self, &sets, &bodies)?;
         let mut notes = moves.notes;
         notes.extend(interfaces.iter().filter_map(|i| self.exchange_note(i)));
-        Ok(Model {
+        let model = Model {
             title: self.title.clone().unwrap_or_default(),
             space,
             dofs,
@@ -148,9 +148,7 @@ impl Problem {
             loads,
             springs,
             masses,
-            couplings,
             supports,
-            interfaces,
             initials,
             steps: timeline.steps(self),
             probes,
@@ -170,10 +168,17 @@ impl Problem {
             energy_limit: self.solver.energy_limit,
             follow: self.solver.follow_loose_bodies,
             unused: unused::tables(self),
-            notes,
             quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,
+        };
+        Ok(Setup {
+            model,
+            contact: Contact {
+                interfaces,
+                couplings,
+            },
+            notes,
         })
     }
 }

@@ -6,8 +6,9 @@ use super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::surfaces::Opposite;
 use crate::contact::interface::Primary;
 use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
-use crate::simulation::model::{Body, Model};
-use crate::simulation::run::Simulation;
+use crate::simulation::model::Body;
+use crate::simulation::scene::Scene;
+use crate::simulation::view::View;
 
 /// Cosine between outward normals below which two places face each other.
 const FACING: f64 = -0.3;
@@ -28,10 +29,10 @@ struct Push {
 }
 
 /// Bodies without supports and springs on which the loads at time `t` and contact cannot be in balance.
-pub(super) fn unbalanced(simulation: &Simulation, t: f64) -> Option<Finding> {
-    let model = &simulation.model;
-    let held = simulation.constraints(t).fixed;
-    let loads = simulation.external(t);
+pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
+    let model = view.model;
+    let held = view.constraints(t).fixed;
+    let loads = view.external(t);
     let scale_of_loads = vector::norm(&loads);
     for body in &model.bodies {
         let mut dofs: Vec<usize> =
@@ -48,7 +49,7 @@ pub(super) fn unbalanced(simulation: &Simulation, t: f64) -> Option<Finding> {
         if sprung || dofs.iter().any(|&dof| held[dof]) {
             continue;
         }
-        let Some(push) = push(model, body, t) else {
+        let Some(push) = push(view, body, t) else {
             continue;
         };
         let mut force = [0.0; 3];
@@ -138,12 +139,12 @@ fn judge(
 }
 
 /// How contact can push a body; `None` if it cannot.
-fn push(model: &Model, body: &Body, t: f64) -> Option<Push> {
+fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
     let mut push = Push {
         friction: Some(0.0),
         ..Push::default()
     };
-    for interface in &model.interfaces {
+    for interface in &scene.contact.interfaces {
         if !interface.schedule.active(t) {
             continue;
         }

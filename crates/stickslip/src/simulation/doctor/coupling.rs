@@ -5,49 +5,49 @@
 //! everything else free (from the condensed compliance), or, where there is none, with everything else held.
 
 use crate::math::{Vec3, cross, dot, inverse, normalize, scale, sub};
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Candidates up to which a column of the compliance is worth its price.
 const MOST_CANDIDATES: usize = 6000;
 
 /// `k_t / |k_tn|` at a point of the mesh for a contact with this normal; infinite where normal and tangential motion are not coupled, `None`
 /// where nothing is known.
-pub(super) fn limit(simulation: &Simulation, point: usize, normal: Vec3) -> Option<f64> {
-    let block = match condensed(simulation, point) {
+pub(super) fn limit(view: &View, point: usize, normal: Vec3) -> Option<f64> {
+    let block = match condensed(view, point) {
         Some(block) => block,
-        None => held(simulation, point)?,
+        None => held(view, point)?,
     };
-    of_block(&block, normal, simulation.model.dofs.dim)
+    of_block(&block, normal, view.model.dofs.dim)
 }
 
 /// The same with all other points held, from the assembled matrix alone.
-pub(super) fn local_limit(simulation: &Simulation, point: usize, normal: Vec3) -> Option<f64> {
-    let block = held(simulation, point)?;
-    of_block(&block, normal, simulation.model.dofs.dim)
+pub(super) fn local_limit(view: &View, point: usize, normal: Vec3) -> Option<f64> {
+    let block = held(view, point)?;
+    of_block(&block, normal, view.model.dofs.dim)
 }
 
 /// The diagonal block of the matrix.
-fn held(simulation: &Simulation, point: usize) -> Option<[[f64; 3]; 3]> {
-    let model = &simulation.model;
+fn held(view: &View, point: usize) -> Option<[[f64; 3]; 3]> {
+    let model = view.model;
     let dim = model.dofs.dim;
     let mut block = [[0.0; 3]; 3];
     for (i, row) in block.iter_mut().enumerate().take(dim) {
         for (j, entry) in row.iter_mut().enumerate().take(dim) {
             let dofs = (model.dofs.of(point, i), model.dofs.of(point, j));
-            *entry = simulation.matrix.entry(dofs.0, dofs.1);
+            *entry = view.solver.stiffness.entry(dofs.0, dofs.1);
         }
     }
     (block[0][0] > 0.0).then_some(block)
 }
 
 /// The inverse of the block of the compliance.
-fn condensed(simulation: &Simulation, point: usize) -> Option<[[f64; 3]; 3]> {
-    let condensation = simulation.condensed.as_ref()?.condensation();
+fn condensed(view: &View, point: usize) -> Option<[[f64; 3]; 3]> {
+    let condensation = view.solver.condenser.at_rest()?.condensation();
     let size = condensation.size();
     if size > MOST_CANDIDATES {
         return None;
     }
-    let dofs = simulation.model.dofs;
+    let dofs = view.model.dofs;
     let mut block = crate::math::identity();
     let places: Option<Vec<usize>> = (0..dofs.dim)
         .map(|c| condensation.place(dofs.of(point, c)))

@@ -11,7 +11,7 @@ use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::math::Vec3;
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
 
@@ -23,7 +23,7 @@ pub(in crate::simulation) const MORE_MEMORY: &str = "a coarser mesh away from th
 
 /// A finding about an attempt that failed, the `attempt`-th of its increment.
 pub(in crate::simulation) fn diagnose(
-    simulation: &Simulation,
+    view: &View,
     (trial, attempt, chart): (&Trial, usize, Chart),
     failure: &StepFailure,
 ) -> Finding {
@@ -32,11 +32,11 @@ pub(in crate::simulation) fn diagnose(
         .iter()
         .filter_map(|c| c.evidence.as_deref())
         .collect();
-    let root = root(simulation, &failure.cause);
+    let root = root(view, &failure.cause);
     let mut finding = root.unwrap_or_else(|| match failure.cause {
-        Cause::Singular => singular(simulation, trial, failure),
-        Cause::LinearSolver => linear(simulation, trial),
-        Cause::NotConverged => not_converged(simulation, trial, &evidence),
+        Cause::Singular => singular(view, trial, failure),
+        Cause::LinearSolver => linear(view, trial),
+        Cause::NotConverged => not_converged(view, trial, &evidence),
         Cause::NotFinite => Finding::new(DoctorCause::NotFinite, Severity::Warning, "")
             .advise("smaller increments; look for a stiffness or a load that is far too large"),
         Cause::CollapsedCell => Finding::new(DoctorCause::CollapsedCell, Severity::Warning, "")
@@ -48,7 +48,7 @@ pub(in crate::simulation) fn diagnose(
         }
         Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
     });
-    finding = with_drivers(finding, simulation, trial);
+    finding = with_drivers(finding, view, trial);
     if finding.message.is_empty() {
         finding.message = failure.message.clone();
     } else {
@@ -61,15 +61,14 @@ pub(in crate::simulation) fn diagnose(
     if !finding.cause.is_mistake() {
         finding.advice.extend(failure.help.clone());
     }
-    finding.tried = tried(simulation, trial, attempt, chart);
-    finding.step = Some(simulation.step_name().to_string());
+    finding.tried = tried(view, trial, attempt, chart);
+    finding.step = Some(view.step_name().to_string());
     finding.time = Some(trial.from);
     finding
 }
 
 /// A mistake in the model that keeps any system from being solved.
-fn root(simulation: &Simulation, cause: &Cause) -> Option<Finding> {
-    let model = &simulation.model;
+fn root(view: &View, cause: &Cause) -> Option<Finding> {
     match cause {
         Cause::TooFar | Cause::Reach | Cause::Event | Cause::Interrupted | Cause::Memory => {
             return None;
@@ -77,7 +76,7 @@ fn root(simulation: &Simulation, cause: &Cause) -> Option<Finding> {
         Cause::Singular | Cause::LinearSolver | Cause::NotConverged | Cause::CollapsedCell => {}
         Cause::NotFinite => {
             // Laws of the families are finite wherever they are asked.
-            let own = model.interfaces.iter().find(|i| i.laws.own.any());
+            let own = view.contact.interfaces.iter().find(|i| i.laws.own.any());
             let faulty = own.map(|i| {
                 Finding::new(
                     DoctorCause::FaultyLaw,
@@ -90,18 +89,18 @@ fn root(simulation: &Simulation, cause: &Cause) -> Option<Finding> {
                 .blame(Guilty::interface(&i.name, "laws from functions"))
                 .advise("try the function at the gaps, pressures and speeds of the last increment")
             });
-            return check::roots(model).into_iter().next().or(faulty);
+            return check::roots(view).into_iter().next().or(faulty);
         }
     }
-    check::roots(model).into_iter().next()
+    check::roots(view).into_iter().next()
 }
 
 /// A run that ended for a reason of which there is no finding yet.
-pub(in crate::simulation) fn stopped(simulation: &Simulation, error: &RunError) -> Finding {
-    if let Some(mut finding) = check::roots(&simulation.model).into_iter().next() {
+pub(in crate::simulation) fn stopped(view: &View, error: &RunError) -> Finding {
+    if let Some(mut finding) = check::roots(view).into_iter().next() {
         finding.severity = Severity::Error;
         finding.message = format!("{}: {}", finding.message, error.message);
-        finding.step = Some(simulation.step_name().to_string());
+        finding.step = Some(view.step_name().to_string());
         finding.time = Some(error.time);
         return finding;
     }
@@ -110,7 +109,7 @@ pub(in crate::simulation) fn stopped(simulation: &Simulation, error: &RunError) 
         finding = finding.blame(Guilty::key("", culprit.clone()));
     }
     finding.advice.extend(error.help.clone());
-    finding.step = Some(simulation.step_name().to_string());
+    finding.step = Some(view.step_name().to_string());
     finding.time = Some(error.time);
     finding
 }
@@ -129,8 +128,8 @@ fn point(e: &Evidence, remark: String) -> Guilty {
     .at(e.position)
 }
 
-fn tried(simulation: &Simulation, trial: &Trial, attempt: usize, chart: Chart) -> Vec<String> {
-    let now = &simulation.newton.statistics;
+fn tried(view: &View, trial: &Trial, attempt: usize, chart: Chart) -> Vec<String> {
+    let now = &view.solver.newton.statistics;
     let count = |now: usize, then: usize| now.saturating_sub(then);
     let mut tried = vec![format!(
         "increment {:.6e} to {:.6e}, attempt {attempt}: {} Newton iterations with line search",
@@ -152,9 +151,9 @@ fn tried(simulation: &Simulation, trial: &Trial, attempt: usize, chart: Chart) -
 }
 
 /// What contact holds in the state of the last evaluation.
-fn contact_rows(simulation: &Simulation, t: f64) -> Vec<Row> {
+fn contact_rows(view: &View, t: f64) -> Vec<Row> {
     let mut out = Vec::new();
-    for interface in &simulation.model.interfaces {
+    for interface in &view.contact.interfaces {
         if !interface.schedule.active(t) {
             continue;
         }
@@ -169,33 +168,33 @@ fn contact_rows(simulation: &Simulation, t: f64) -> Vec<Row> {
     out
 }
 
-fn singular(simulation: &Simulation, trial: &Trial, failure: &StepFailure) -> Finding {
-    let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
-    let by_contact = loose(simulation, trial.to, &[]);
+fn singular(view: &View, trial: &Trial, failure: &StepFailure) -> Finding {
+    let free = loose(view, trial.to, &contact_rows(view, trial.to));
+    let by_contact = loose(view, trial.to, &[]);
     if !by_contact.is_empty()
-        && let Some(finding) = balance::unbalanced(simulation, trial.to)
+        && let Some(finding) = balance::unbalanced(view, trial.to)
     {
         return finding;
     }
     if !free.is_empty() {
         // A body that contact cannot hold because its sides look the wrong way needs no other support.
-        let turned = check::opposed(simulation);
-        return turned.unwrap_or_else(|| free_mode(simulation, trial, &free, "is held by nothing"));
+        let turned = check::opposed(view);
+        return turned.unwrap_or_else(|| free_mode(view, trial, &free, "is held by nothing"));
     }
-    let model = &simulation.model;
+    let model = view.model;
     // A body in pieces is held only where its supports are.
     if let Some(finding) = check::disconnected(model).into_iter().next() {
         return finding;
     }
     // The points that were in contact at the end may not be those with which the system was singular.
     match by_contact.is_empty() {
-        true => near_singular(simulation, failure),
-        false => free_mode(simulation, trial, &by_contact, "is held by contact alone"),
+        true => near_singular(view, failure),
+        false => free_mode(view, trial, &by_contact, "is held by contact alone"),
     }
 }
 
-fn near_singular(simulation: &Simulation, failure: &StepFailure) -> Finding {
-    let model = &simulation.model;
+fn near_singular(view: &View, failure: &StepFailure) -> Finding {
+    let model = view.model;
     let mut finding = Finding::new(
         DoctorCause::NearSingularOperator,
         Severity::Warning,
@@ -208,15 +207,15 @@ fn near_singular(simulation: &Simulation, failure: &StepFailure) -> Finding {
         let (point, component) = model.dofs.locate(dof);
         if point < model.mesh.points.len() {
             let direction = ["x", "y", "z"][component];
-            finding = finding.blame(node(simulation, point, format!("direction {direction}")));
+            finding = finding.blame(node(view, point, format!("direction {direction}")));
         }
     }
     finding
 }
 
 /// A point of the mesh.
-fn node(simulation: &Simulation, point: usize, remark: String) -> Guilty {
-    let model = &simulation.model;
+fn node(view: &View, point: usize, remark: String) -> Guilty {
+    let model = view.model;
     let body = model.bodies.iter().find(|b| b.points.contains(&point));
     let name = body.map_or(String::new(), |b| b.name.clone());
     Guilty {
@@ -231,12 +230,12 @@ fn node(simulation: &Simulation, point: usize, remark: String) -> Guilty {
 }
 
 /// Bodies that move as a whole, what drives them, and how far they are from what might hold them.
-fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) -> Finding {
-    let model = &simulation.model;
+fn free_mode(view: &View, trial: &Trial, free: &[Loose], how: &str) -> Finding {
+    let model = view.model;
     let index = |l: &Loose| model.bodies.iter().position(|b| b.name == l.body);
     let touching = free.iter().filter_map(index);
-    if let Some(body) = touching.into_iter().find(|&b| simulation.touches(b)) {
-        return lost(simulation, free, body);
+    if let Some(body) = touching.into_iter().find(|&b| view.touches(b)) {
+        return lost(view, free, body);
     }
     let mut finding = Finding::new(
         DoctorCause::FreeRigidMode,
@@ -247,7 +246,7 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
         let remark = format!("{} {how}", l.motion);
         finding = finding.blame(check::body(model, &l.body, remark));
     }
-    for interface in &model.interfaces {
+    for interface in &view.contact.interfaces {
         let Some((i, gap)) = smallest_gap(interface, trial.from) else {
             continue;
         };
@@ -265,8 +264,8 @@ fn free_mode(simulation: &Simulation, trial: &Trial, free: &[Loose], how: &str) 
 }
 
 /// Bodies that were in contact and move as a whole all the same.
-fn lost(simulation: &Simulation, free: &[Loose], body: usize) -> Finding {
-    let model = &simulation.model;
+fn lost(view: &View, free: &[Loose], body: usize) -> Finding {
+    let model = view.model;
     let name = &model.bodies[body].name;
     let own = free.iter().find(|l| l.body == *name);
     let motion = own.map_or("", |l| l.motion.as_str());
@@ -287,7 +286,7 @@ fn lost(simulation: &Simulation, free: &[Loose], body: usize) -> Finding {
 }
 
 /// A finding about a body that moves as a whole with what drives it, if it is not there yet.
-fn with_drivers(finding: Finding, simulation: &Simulation, trial: &Trial) -> Finding {
+fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
     let moves = matches!(
         finding.cause,
         DoctorCause::SlidesAway | DoctorCause::FreeRigidMode
@@ -298,16 +297,16 @@ fn with_drivers(finding: Finding, simulation: &Simulation, trial: &Trial) -> Fin
     }
     let mut guilty = finding.guilty.iter();
     let named = guilty.find(|g| g.what == What::Body).map(|g| &g.name);
-    let mut bodies = simulation.model.bodies.iter();
+    let mut bodies = view.model.bodies.iter();
     match named.and_then(|name| bodies.position(|b| b.name == *name)) {
-        Some(body) => driven(finding, simulation, body, trial),
+        Some(body) => driven(finding, view, body, trial),
         None => finding,
     }
 }
 
 /// With the loads, supports and obstacles that drive a body.
-fn driven(finding: Finding, simulation: &Simulation, body: usize, trial: &Trial) -> Finding {
-    let drivers = simulation.drivers(body, trial.to).into_iter();
+fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
+    let drivers = view.drivers(body, trial.to).into_iter();
     drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)))
 }
 
@@ -327,12 +326,12 @@ fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
     gaps.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-fn linear(simulation: &Simulation, trial: &Trial) -> Finding {
-    let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+fn linear(view: &View, trial: &Trial) -> Finding {
+    let free = loose(view, trial.to, &contact_rows(view, trial.to));
     if !free.is_empty() {
-        return free_mode(simulation, trial, &free, "is held by nothing");
+        return free_mode(view, trial, &free, "is held by nothing");
     }
-    let weak = loose(simulation, trial.to, &[]);
+    let weak = loose(view, trial.to, &[]);
     if weak.is_empty() {
         return Finding::new(DoctorCause::LinearSolver, Severity::Warning, "")
             .advise("set `solver.method = \"sparse\"`");
@@ -345,18 +344,18 @@ fn linear(simulation: &Simulation, trial: &Trial) -> Finding {
     .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)");
     for l in weak {
         let remark = format!("{} is held by contact alone", l.motion);
-        finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+        finding = finding.blame(check::body(view.model, &l.body, remark));
     }
     finding
 }
 
-fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence]) -> Finding {
+fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding {
     let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
-    let dynamic = simulation.model.steps[simulation.step].dynamic.is_some();
+    let dynamic = view.model.steps[view.frame.step].dynamic.is_some();
     if !dynamic {
-        let free = loose(simulation, trial.to, &contact_rows(simulation, trial.to));
+        let free = loose(view, trial.to, &contact_rows(view, trial.to));
         if !free.is_empty()
-            && let Some(finding) = balance::unbalanced(simulation, trial.to)
+            && let Some(finding) = balance::unbalanced(view, trial.to)
         {
             return finding;
         }
@@ -372,12 +371,12 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
             .advise("make the step dynamic if the body is meant to take off");
             for l in &free {
                 let remark = format!("{} is not resisted any more", l.motion);
-                finding = finding.blame(check::body(&simulation.model, &l.body, remark));
+                finding = finding.blame(check::body(view.model, &l.body, remark));
             }
             return finding;
         }
     }
-    if let Some((mu, limit, e)) = beyond_coupling(simulation, evidence) {
+    if let Some((mu, limit, e)) = beyond_coupling(view, evidence) {
         return of(
             DoctorCause::CoulombNonUniqueness,
             format!(
@@ -401,23 +400,20 @@ fn not_converged(simulation: &Simulation, trial: &Trial, evidence: &[&Evidence])
     let to_and_fro = signs.clone().filter(|_| !told);
     let prescribed = match told {
         true => None,
-        false => prescribed_slip(simulation, trial),
+        false => prescribed_slip(view, trial),
     };
     let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
     prescribed
         .or(signs.filter(|_| told))
-        .or_else(|| check::suspects(&simulation.model).into_iter().next())
+        .or_else(|| check::suspects(view.model).into_iter().next())
         .or(to_and_fro)
         .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
 }
 
 /// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.
-fn beyond_coupling<'a>(
-    simulation: &Simulation,
-    evidence: &[&'a Evidence],
-) -> Option<(f64, f64, &'a Evidence)> {
+fn beyond_coupling<'a>(view: &View, evidence: &[&'a Evidence]) -> Option<(f64, f64, &'a Evidence)> {
     let found = evidence.iter().take(LOOKED_AT).filter_map(|e| {
-        let interfaces = &simulation.model.interfaces;
+        let interfaces = &view.contact.interfaces;
         let interface = interfaces.iter().find(|i| i.name == e.interface)?;
         let own = friction_coefficient(interface)?;
         let now = if e.pressure > 0.0 {
@@ -430,7 +426,7 @@ fn beyond_coupling<'a>(
             return None;
         };
         let normal: Vec3 = e.normal;
-        let limit = coupling::limit(simulation, point, normal)?;
+        let limit = coupling::limit(view, point, normal)?;
         (mu >= limit).then_some((mu, limit, *e))
     });
     found.min_by(|a, b| (a.1).total_cmp(&b.1))

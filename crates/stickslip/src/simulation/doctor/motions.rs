@@ -5,8 +5,8 @@ use crate::contact::interface::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
-use crate::simulation::run::Simulation;
 use crate::simulation::unheld::{self, Mode};
+use crate::simulation::view::View;
 
 /// Something that resists a motion: a linear function of the displacements by dof.
 pub(super) type Row = Vec<(usize, f64)>;
@@ -27,9 +27,9 @@ pub(super) struct Loose {
 }
 
 /// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
-pub(super) fn loose(simulation: &Simulation, t: f64, rows: &[Row]) -> Vec<Loose> {
-    let model = &simulation.model;
-    let mut held = simulation.constraints(t).fixed;
+pub(super) fn loose(view: &View, t: f64, rows: &[Row]) -> Vec<Loose> {
+    let model = view.model;
+    let mut held = view.constraints(t).fixed;
     for link in model.links.all() {
         held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)].fill(false);
     }
@@ -45,7 +45,8 @@ pub(super) fn loose(simulation: &Simulation, t: f64, rows: &[Row]) -> Vec<Loose>
     let along = |mode: &Mode, row: &Row| -> f64 {
         row.iter().map(|&(dof, w)| w * mode.at(model, dof)).sum()
     };
-    let coupled: Vec<Row> = model
+    let coupled: Vec<Row> = view
+        .contact
         .couplings
         .acting(t)
         .map(|row| {

@@ -3,7 +3,7 @@
 use super::finding::{DoctorCause, Finding, Guilty, Severity};
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 use crate::system::Evidence;
 use crate::time::Trial;
 
@@ -87,10 +87,10 @@ pub(super) fn too_large_slip(slip: f64, interface: &str) -> Finding {
 }
 
 /// The largest slip that supports prescribe over the increment, in facets, and its interface; `None` where it is small.
-pub(super) fn prescribed_slip(simulation: &Simulation, trial: &Trial) -> Option<(f64, String)> {
-    let model = &simulation.model;
-    let constraints = simulation.constraints(trial.to);
-    let before = simulation.constraints(trial.from);
+pub(super) fn prescribed_slip(view: &View, trial: &Trial) -> Option<(f64, String)> {
+    let model = view.model;
+    let constraints = view.constraints(trial.to);
+    let before = view.constraints(trial.from);
     let moved = |local: usize, interface: &Interface| -> Option<Vec3> {
         let point = interface.nodes[local];
         let body = model.bodies.iter().find(|b| b.points.contains(&point))?;
@@ -106,7 +106,7 @@ pub(super) fn prescribed_slip(simulation: &Simulation, trial: &Trial) -> Option<
         }
         Some(sum)
     };
-    let slips = model.interfaces.iter().filter_map(|interface| {
+    let slips = view.contact.interfaces.iter().filter_map(|interface| {
         let Primary::Facets(facets) = &interface.primary else {
             return None;
         };

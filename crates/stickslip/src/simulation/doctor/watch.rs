@@ -2,7 +2,7 @@
 
 use super::finding::{DoctorCause, Finding, Guilty, Severity};
 use crate::contact::interface::{Interface, Resolution};
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// What is remembered of an interface.
 #[derive(Debug, Clone, Copy, Default)]
@@ -45,19 +45,16 @@ impl Watch {
 }
 
 /// What there is to say at the end of a run.
-pub(in crate::simulation) fn watched(simulation: &Simulation) -> Vec<Finding> {
-    let interfaces = simulation.model.interfaces.iter();
-    let pairs = interfaces.zip(&simulation.watches);
-    let nothing = NOTHING * simulation.strain_force();
+pub(in crate::simulation) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
+    let interfaces = view.contact.interfaces.iter();
+    let pairs = interfaces.zip(watches);
+    let nothing = NOTHING * view.strain_force();
     pairs
         .filter(|(_, watch)| watch.acted)
         .flat_map(|(interface, watch)| match watch.force > nothing {
             // One half of a pair may be idle where the other one carries.
             false if interface.share < 1.0 => [None, None],
-            false => [
-                Some(never_carried(interface, simulation.model.moves())),
-                None,
-            ],
+            false => [Some(never_carried(interface, view.model.moves())), None],
             true => [coarse(interface, watch), turned(interface, watch)],
         })
         .flatten()

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use stickslip::contact::law::own::{LimitFunction, PressureFunction};
-use stickslip::simulation::Model;
+use stickslip::simulation::Contact;
 use stickslip::simulation::doctor::DoctorCause;
 
 use super::models::COMPLIANT;
@@ -27,19 +27,19 @@ impl PressureFunction for Each {
     }
 }
 
-fn named(name: &str, prepare: &dyn Fn(&mut Model)) {
+fn named(name: &str, prepare: &dyn Fn(&mut Contact)) {
     let said = examined(COMPLIANT, &folder(name, &[]), prepare);
     let said = said.unwrap_or_else(|e| panic!("{name}: {e}"));
     let fault = judged(&said, (DoctorCause::FaultyLaw, "joint"), &[]);
     assert!(fault.is_none(), "{name}: {fault:?}\n{}", said.text());
 }
 
-fn limit(law: fn(f64) -> f64) -> impl Fn(&mut Model) {
-    move |model| model.interfaces[0].bring(None, Some(Arc::new(Each(law))))
+fn limit(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
+    move |contact| contact.interfaces[0].bring(None, Some(Arc::new(Each(law))))
 }
 
-fn pressure(law: fn(f64) -> f64) -> impl Fn(&mut Model) {
-    move |model| model.interfaces[0].bring(Some(Arc::new(Each(law))), None)
+fn pressure(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
+    move |contact| contact.interfaces[0].bring(Some(Arc::new(Each(law))), None)
 }
 
 #[test]
@@ -52,9 +52,9 @@ fn functions_that_are_no_laws_are_named() {
 
 #[test]
 fn functions_that_are_laws_raise_no_alarm() {
-    let sound = |model: &mut Model| {
+    let sound = |contact: &mut Contact| {
         let normal = Arc::new(Each(|g| 1e14 * (-g).max(0.0)));
-        model.interfaces[0].bring(Some(normal), Some(Arc::new(Each(|p| 0.3 * p))));
+        contact.interfaces[0].bring(Some(normal), Some(Arc::new(Each(|p| 0.3 * p))));
     };
     let said = examined(COMPLIANT, &folder("functions", &[]), &sound).expect("a sound model");
     assert!(

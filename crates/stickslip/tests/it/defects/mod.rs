@@ -13,7 +13,7 @@ use std::path::Path;
 use stickslip::Error;
 use stickslip::problem::Document;
 use stickslip::simulation::doctor::{DoctorCause, Finding, Severity};
-use stickslip::simulation::{Model, Simulation};
+use stickslip::simulation::{Contact, Simulation};
 
 /// What has to be said of a defect.
 pub enum Expected {
@@ -121,17 +121,17 @@ impl Examined {
 pub fn examined(
     text: &str,
     folder: &Path,
-    prepare: &dyn Fn(&mut Model),
+    prepare: &dyn Fn(&mut Contact),
 ) -> Result<Examined, Error> {
     let document = Document::new(text, None);
     let simulation = || -> Result<Simulation, Error> {
         let built = document.problem()?.build(folder);
-        let mut model = built.map_err(|e| match e {
+        let mut setup = built.map_err(|e| match e {
             Error::Problem(e) => Error::Problem(document.error(e.findings)),
             e => e,
         })?;
-        prepare(&mut model);
-        Simulation::new(model)
+        prepare(&mut setup.contact);
+        Simulation::new(setup)
     };
     let before = simulation()?.check().findings;
     let mut simulation = simulation()?;

@@ -8,7 +8,7 @@ use stickslip::Error;
 use stickslip::newton::Progress;
 use stickslip::problem::{Document, Problem};
 pub use stickslip::simulation::Row;
-use stickslip::simulation::{Event, Observer, Simulation};
+use stickslip::simulation::{Analysis, Event, Observer, Simulation};
 
 /// The problem in `text`, which must be sound.
 pub fn problem(text: &str) -> Problem {
@@ -42,7 +42,7 @@ pub struct Record {
 }
 
 impl Observer for Record {
-    fn see(&mut self, _: &Simulation, event: Event) -> Result<(), Error> {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Iteration(progress) => self.current.push(*progress),
             Event::Increment(row) => {

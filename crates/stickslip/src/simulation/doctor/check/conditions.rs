@@ -5,20 +5,20 @@ use std::collections::BTreeMap;
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
 use super::{Measured, forced, travel};
 use crate::simulation::model::{Model, Prescribed};
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Difference of prescribed displacements, relative to the larger, that is one.
 const DIFFERENT: f64 = 1e-9;
 
-pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Finding> {
-    let model = &simulation.model;
+pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
+    let model = view.model;
     let mut out: Vec<Finding> = contradictions(model);
-    let belts = model.interfaces.iter().any(|i| !i.belt.is_empty());
-    let overlaps = model.interfaces.iter().zip(measured).any(|(i, m)| {
+    let belts = view.contact.interfaces.iter().any(|i| !i.belt.is_empty());
+    let overlaps = view.contact.interfaces.iter().zip(measured).any(|(i, m)| {
         let points = i.points.iter().zip(&m.gaps);
         points.into_iter().any(|(p, g)| *g < -1e-6 * p.size)
     });
-    if travel(model) == 0.0 && !forced(model) && !belts && !overlaps && model.initials.is_empty() {
+    if travel(view) == 0.0 && !forced(model) && !belts && !overlaps && model.initials.is_empty() {
         out.push(
             Finding::new(
                 DoctorCause::NothingActs,

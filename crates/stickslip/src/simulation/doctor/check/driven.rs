@@ -3,6 +3,7 @@
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add, distance, scale, sub};
 use crate::simulation::model::{Body, Model};
+use crate::simulation::scene::Scene;
 
 /// Values of one component that differ by more than this part of the larger move a body in more than one way.
 const UNEVEN: f64 = 1e-6;
@@ -104,10 +105,11 @@ pub(super) struct Approach {
 /// The approach of the sides of an interface along `normal` (out of the primary) at `x`; `None` where it does not follow from what is prescribed: a
 /// body is moved by others or strained, or forces act.
 pub(super) fn approach(
-    model: &Model,
+    scene: &Scene,
     interface: &Interface,
     (x, normal): (Vec3, Vec3),
 ) -> Option<Approach> {
+    let model = scene.model;
     let owners = owners(model);
     let sides = pair(model, interface);
     let start = model.steps.first().map_or(0.0, |s| s.start);
@@ -146,7 +148,7 @@ pub(super) fn approach(
                 // A loose body: it flies, or others push it.
                 match thrown {
                     Some((v, from)) => moved[c] = v[c] * (t - from).max(0.0),
-                    None if meets_others(model, interface, b) => return None,
+                    None if meets_others(scene, interface, b) => return None,
                     None => {}
                 }
             }
@@ -159,13 +161,18 @@ pub(super) fn approach(
 }
 
 /// Whether a body has something to do with others beside this interface.
-pub(super) fn meets_others(model: &Model, interface: &Interface, body: usize) -> bool {
-    let others = model.interfaces.iter().filter(|i| i.name != interface.name);
+pub(super) fn meets_others(scene: &Scene, interface: &Interface, body: usize) -> bool {
+    let model = scene.model;
+    let others = scene
+        .contact
+        .interfaces
+        .iter()
+        .filter(|i| i.name != interface.name);
     let meets = others
         .into_iter()
         .any(|i| pair(model, i).contains(&Some(body)));
     let t = model.steps.last().map_or(0.0, |s| s.end);
-    meets || model.couplings.acting(t).next().is_some()
+    meets || scene.contact.couplings.acting(t).next().is_some()
 }
 
 /// How far a body that is moved at most gets in a dynamic analysis `[m]`, initial velocities only.

@@ -7,8 +7,9 @@ use super::{Measured, driven, forced, median, secondary};
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::normal::NormalModel;
 use crate::math::{Vec3, dot, norm, sub};
-use crate::simulation::model::{Model, Step};
-use crate::simulation::run::Simulation;
+use crate::simulation::model::Step;
+use crate::simulation::scene::Scene;
+use crate::simulation::view::View;
 
 /// Coefficients of friction of dry surfaces end here.
 const LARGE: f64 = 1.5;
@@ -19,15 +20,11 @@ const KINK: f64 = 300.0;
 /// Part of a motion along the normal that presses surfaces together.
 const ALONG: f64 = 1e-6;
 
-pub(super) fn check(
-    simulation: &Simulation,
-    interface: &Interface,
-    measured: &Measured,
-) -> Vec<Finding> {
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
     let mut out = Vec::new();
     let name = &interface.name;
     if let Some(mu) = friction_coefficient(interface) {
-        let limit = coupling(simulation, interface, measured);
+        let limit = coupling(view, interface, measured);
         if mu > LARGE {
             out.push(
                 Finding::new(
@@ -90,11 +87,7 @@ pub(super) fn check(
 }
 
 /// The median of the coupling limit over the points that are nearest to contact, with all other points held, and the point with the smallest.
-fn coupling(
-    simulation: &Simulation,
-    interface: &Interface,
-    measured: &Measured,
-) -> Option<(f64, usize)> {
+fn coupling(view: &View, interface: &Interface, measured: &Measured) -> Option<(f64, usize)> {
     let mut limits: Vec<(usize, f64)> = Vec::new();
     for (i, beside) in measured.nearest.iter().enumerate() {
         let Some(node) = interface.points[i].node() else {
@@ -104,10 +97,10 @@ fn coupling(
             continue;
         };
         let point = interface.nodes[node];
-        if simulation.model.links.of_point(point).is_some() {
+        if view.model.links.of_point(point).is_some() {
             continue;
         }
-        if let Some(limit) = local_limit(simulation, point, beside.normal) {
+        if let Some(limit) = local_limit(view, point, beside.normal) {
             limits.push((i, limit));
         }
     }
@@ -117,12 +110,12 @@ fn coupling(
 
 /// Friction on an interface that slides while nothing has pressed it together, in the whole analysis or before a later step does.
 pub(super) fn pressureless(
-    simulation: &Simulation,
+    view: &View,
     interface: &Interface,
     measured: &Measured,
 ) -> Option<Finding> {
     friction_coefficient(interface)?;
-    let model = &simulation.model;
+    let model = view.model;
     let closed = measured.gaps.iter().zip(&interface.points);
     let overlaps = closed.into_iter().any(|(g, p)| *g < -1e-6 * p.size);
     if forced(model) || overlaps || !model.initials.is_empty() {
@@ -144,7 +137,7 @@ pub(super) fn pressureless(
         .iter()
         .filter(|s| interface.schedule.active(s.end))
     {
-        let moved = moved(model, interface, x, step)?;
+        let moved = moved(view, interface, x, step)?;
         let presses = |m: &Vec3| normals.iter().any(|n| dot(*m, *n).abs() > ALONG * norm(*m));
         if moved.iter().any(presses) {
             return slid.map(|early| too_early(interface, early, &step.name));
@@ -170,7 +163,8 @@ pub(super) fn pressureless(
 
 /// Motions of the secondary relative to the primary that are prescribed within a step, both moved as wholes; `None` where it does not follow from
 /// supports and obstacles: bodies that are strained between supports bulge, and loose ones are pressed by others.
-fn moved(model: &Model, interface: &Interface, x: Vec3, step: &Step) -> Option<Vec<Vec3>> {
+fn moved(scene: &Scene, interface: &Interface, x: Vec3, step: &Step) -> Option<Vec<Vec3>> {
+    let model = scene.model;
     let owners = driven::owners(model);
     let start = model.steps.first().map_or(0.0, |s| s.start);
     let mut times = vec![step.end];
@@ -193,7 +187,7 @@ fn moved(model: &Model, interface: &Interface, x: Vec3, step: &Step) -> Option<V
             };
             for c in 0..model.dofs.dim {
                 let component = prescribed[b][c];
-                let pushed = component.count == 0 && driven::meets_others(model, interface, b);
+                let pushed = component.count == 0 && driven::meets_others(scene, interface, b);
                 if component.uneven || pushed {
                     return None;
                 }

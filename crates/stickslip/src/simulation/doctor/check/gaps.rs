@@ -5,7 +5,7 @@ use super::driven::flight;
 use super::{Measured, forced_by_loads, secondary, travel};
 use crate::contact::interface::{Interface, Primary, Start};
 use crate::contact::surface::{Facet, turns};
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
 const DEEP: f64 = 0.5;
@@ -18,11 +18,7 @@ const ROUNDING: f64 = 1e-9;
 /// By how much prescribed motion may be amplified by the bodies on its way to an interface.
 const LEVER: f64 = 10.0;
 
-pub(super) fn check(
-    simulation: &Simulation,
-    interface: &Interface,
-    measured: &Measured,
-) -> Vec<Finding> {
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
     let finite = measured.gaps.iter().enumerate();
     let mut gaps: Vec<(usize, f64)> = finite
         .filter(|(_, g)| g.is_finite())
@@ -32,7 +28,7 @@ pub(super) fn check(
     let Some(&(first, smallest)) = gaps.first() else {
         return vec![nothing_opposite(interface, measured)];
     };
-    let model = &simulation.model;
+    let model = view.model;
     let mut out = Vec::new();
     let size = interface.points[first].size;
     // What is to be done with overlaps has been said where `initial` says it.
@@ -67,7 +63,7 @@ pub(super) fn check(
         });
     }
     out.extend(faceted(interface, &gaps));
-    let reach = travel(model) + flight(model);
+    let reach = travel(view) + flight(model);
     if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(model) {
         out.push(
             Finding::new(

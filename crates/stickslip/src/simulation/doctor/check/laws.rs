@@ -6,7 +6,7 @@ use crate::contact::interface::Interface;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
 use crate::contact::law::normal::NormalLaw;
 use crate::registry::Family;
-use crate::simulation::model::Model;
+use crate::simulation::scene::Scene;
 
 /// Strain of the cells beneath at the pressure by which laws are compared.
 const WORKING: f64 = 1e-3;
@@ -21,12 +21,13 @@ const STIFF: f64 = 1e10;
 const TRIED: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// What is wrong with the laws of all interfaces.
-pub(in crate::simulation::doctor) fn check(model: &Model) -> Vec<Finding> {
+pub(in crate::simulation::doctor) fn check(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
     let bodies = model.elastic();
     let largest = bodies.fold(0.0_f64, |m, b| {
         m.max(diameter(&model.mesh.points[b.points.clone()]))
     });
-    let elastic = model.interfaces.iter().filter(|i| !i.laws.tied);
+    let elastic = scene.contact.interfaces.iter().filter(|i| !i.laws.tied);
     elastic
         .filter_map(|i| {
             let own = function(i);

@@ -6,7 +6,7 @@ use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
 use super::{Measured, median, roles, sides};
 use crate::contact::interface::Interface;
 use crate::simulation::model::Model;
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Sizes of primary facets over those of the secondary that are worth a warning.
 const FINER: f64 = 1.0 / 3.0;
@@ -88,12 +88,8 @@ fn pieces(model: &Model, body: &crate::simulation::Body) -> Vec<Vec<usize>> {
     pieces.into_values().collect()
 }
 
-pub(super) fn check(
-    simulation: &Simulation,
-    interface: &Interface,
-    measured: &Measured,
-) -> Vec<Finding> {
-    let model = &simulation.model;
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
+    let model = view.model;
     let [Some(ours), Some(theirs)] = sides(model, interface) else {
         return Vec::new();
     };

@@ -24,11 +24,13 @@ pub(super) use meshes::disconnected;
 
 use super::finding::{Finding, Guilty, What};
 use super::surfaces::Opposite;
+use super::unjoined::Unjoined;
 use crate::body::couplings::Tie;
 use crate::contact::interface::Interface;
 use crate::math::Vec3;
 use crate::simulation::model::Model;
-use crate::simulation::run::Simulation;
+use crate::simulation::scene::Scene;
+use crate::simulation::view::View;
 
 /// What is measured once for all rules, by interface.
 struct Measured {
@@ -48,44 +50,48 @@ struct Beside {
 }
 
 /// All findings about a model, given the gaps at its start by interface; worst first.
-pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>]) -> Vec<Finding> {
-    let t = simulation.state.t;
-    let interfaces = simulation.model.interfaces.iter().zip(gaps);
+pub(in crate::simulation) fn examine(
+    view: &View,
+    unjoined: &Unjoined,
+    gaps: &[Vec<f64>],
+) -> Vec<Finding> {
+    let t = view.frame.state.t;
+    let interfaces = view.contact.interfaces.iter().zip(gaps);
     let measured: Vec<Measured> = interfaces
         .map(|(interface, gaps)| measure(interface, gaps, t))
         .collect();
-    let model = &simulation.model;
-    let mut out = roots(model);
+    let model = view.model;
+    let mut out = roots(view);
     out.extend(disconnected(model));
-    out.extend(motions::check(simulation, &measured));
-    for (interface, measured) in model.interfaces.iter().zip(&measured) {
-        match normals::check(simulation, interface, measured) {
+    out.extend(motions::check(view, &measured));
+    for (interface, measured) in view.contact.interfaces.iter().zip(&measured) {
+        match normals::check(view, interface, measured) {
             // Gaps to a surface that looks the other way mean nothing.
             Some(finding) => out.push(finding),
             None => {
-                let apart = speeds::apart(model, interface, measured);
+                let apart = speeds::apart(view, interface, measured);
                 match apart {
                     // What is never in contact rubs on nothing and closes no gap.
                     Some(finding) => out.push(finding),
                     None => {
-                        out.extend(gaps::check(simulation, interface, measured));
-                        out.extend(friction::pressureless(simulation, interface, measured));
+                        out.extend(gaps::check(view, interface, measured));
+                        out.extend(friction::pressureless(view, interface, measured));
                     }
                 }
-                out.extend(strains::pressed(model, interface, measured));
-                out.extend(meshes::check(simulation, interface, measured));
+                out.extend(strains::pressed(view, interface, measured));
+                out.extend(meshes::check(view, interface, measured));
                 out.extend(surfaces::check(model, interface));
                 out.extend(curved::check(model, interface, t));
             }
         }
-        out.extend(friction::check(simulation, interface, measured));
+        out.extend(friction::check(view, interface, measured));
     }
-    out.extend(conditions::check(simulation, &measured));
-    out.extend(schedules::check(model));
-    out.extend(released::check(simulation));
-    out.extend(unmoved::check(model));
+    out.extend(conditions::check(view, &measured));
+    out.extend(schedules::check(view));
+    out.extend(released::check(view));
+    out.extend(unmoved::check(view));
     out.extend(unused::check(model));
-    out.extend(simulation.unjoined.check(model, &simulation.state.u));
+    out.extend(unjoined.check(view));
     out.extend(strains::check(model));
     out.extend(locking::check(model));
     out.extend(units::check(model));
@@ -94,11 +100,11 @@ pub(in crate::simulation) fn examine(simulation: &Simulation, gaps: &[Vec<f64>])
 }
 
 /// The first interface whose sides do not face each other, as far as the state of the run shows.
-pub(super) fn opposed(simulation: &Simulation) -> Option<Finding> {
-    let interfaces = simulation.model.interfaces.iter();
+pub(super) fn opposed(view: &View) -> Option<Finding> {
+    let interfaces = view.contact.interfaces.iter();
     let mut found = interfaces.filter_map(|i| {
-        let measured = measure(i, &i.initial_gaps(), simulation.state.t);
-        normals::check(simulation, i, &measured)
+        let measured = measure(i, &i.initial_gaps(), view.frame.state.t);
+        normals::check(view, i, &measured)
     });
     found.next()
 }
@@ -111,11 +117,12 @@ pub(super) fn suspects(model: &Model) -> Vec<Finding> {
 }
 
 /// Mistakes that keep a system from being solved, whatever is done to solve it: cells, laws, surfaces that are joined twice, units of velocities.
-pub(super) fn roots(model: &Model) -> Vec<Finding> {
+pub(super) fn roots(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
     let mut out = cells::slivers(model);
-    out.extend(laws::check(model));
-    out.extend(surfaces::doubled(model));
-    out.extend(speeds::fast(model));
+    out.extend(laws::check(scene));
+    out.extend(surfaces::doubled(scene));
+    out.extend(speeds::fast(scene));
     out
 }
 
@@ -216,7 +223,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// How far supports, obstacles and belts move anything in the whole analysis, at most `[m]`.
-fn travel(model: &Model) -> f64 {
+fn travel(scene: &Scene) -> f64 {
+    let model = scene.model;
     use crate::contact::interface::Primary;
     let times = times(model);
     let mut largest = 0.0_f64;
@@ -229,7 +237,7 @@ fn travel(model: &Model) -> f64 {
             }
         }
     }
-    for interface in &model.interfaces {
+    for interface in &scene.contact.interfaces {
         let Primary::Rigid(_, motion) = &interface.primary else {
             continue;
         };
@@ -243,7 +251,7 @@ fn travel(model: &Model) -> f64 {
             }
         }
     }
-    for coupling in model.couplings.all() {
+    for coupling in scene.contact.couplings.all() {
         let Tie::Equation { value } = coupling.tie else {
             continue;
         };

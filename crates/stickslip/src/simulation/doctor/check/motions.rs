@@ -6,7 +6,7 @@ use super::super::motions::{loose, rows};
 use super::super::surfaces::Opposite;
 use super::{Measured, body, forced, secondary};
 use crate::contact::response::Status;
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Gap relative to the cell beneath from which nothing touches.
 const TOUCHING: f64 = 1e-6;
@@ -14,14 +14,14 @@ const TOUCHING: f64 = 1e-6;
 /// Points of an interface that are asked, about; those that touch are all asked.
 const ASKED: usize = 2000;
 
-pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Finding> {
-    let model = &simulation.model;
+pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
+    let model = view.model;
     let Some(step) = model.steps.first().filter(|s| s.dynamic.is_none()) else {
         return Vec::new();
     };
     let t = step.start + 1e-9 * (step.end - step.start);
     let (mut all, mut touching) = (Vec::new(), Vec::new());
-    for (interface, measured) in model.interfaces.iter().zip(measured) {
+    for (interface, measured) in view.contact.interfaces.iter().zip(measured) {
         if !interface.schedule.active(t) {
             continue;
         }
@@ -52,7 +52,7 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
             all.extend(own);
         }
     }
-    let free = loose(simulation, t, &all);
+    let free = loose(view, t, &all);
     if !free.is_empty() {
         let mut finding = Finding::new(
             DoctorCause::FreeRigidMode,
@@ -73,8 +73,8 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
     let statics = model.steps.iter().filter(|s| s.dynamic.is_none());
     let mut out = Vec::new();
     // Supports that come later may hold what is free now: the first step counts.
-    out.extend(statics.take(1).find_map(|s| unbalanced(simulation, s.end)));
-    let waiting = loose(simulation, t, &touching);
+    out.extend(statics.take(1).find_map(|s| unbalanced(view, s.end)));
+    let waiting = loose(view, t, &touching);
     if waiting.is_empty() || !forced(model) {
         return out;
     }
@@ -90,7 +90,7 @@ pub(super) fn check(simulation: &Simulation, measured: &[Measured]) -> Vec<Findi
     let Some((k, i, gap)) = nearest else {
         return out;
     };
-    let interface = &model.interfaces[k];
+    let interface = &view.contact.interfaces[k];
     let severity = match gap > interface.points[i].size {
         true => Severity::Warning,
         false => Severity::Note,

@@ -4,7 +4,7 @@ use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
 use super::{Measured, roles, secondary, sides};
 use crate::contact::interface::{Interface, Primary};
 use crate::math::dot;
-use crate::simulation::run::Simulation;
+use crate::simulation::view::View;
 
 /// Cosine between outward normals below which two places face each other.
 const FACING: f64 = -0.3;
@@ -12,17 +12,13 @@ const FACING: f64 = -0.3;
 /// Part of the points of a body inside an obstacle from which the obstacle is inside out.
 const INSIDE: f64 = 0.5;
 
-pub(super) fn check(
-    simulation: &Simulation,
-    interface: &Interface,
-    measured: &Measured,
-) -> Option<Finding> {
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Option<Finding> {
     let best = measured.nearest.iter().enumerate().filter_map(|(i, n)| {
         let n = n.as_ref()?;
         Some((i, dot(n.normal, interface.points[i].normal)))
     });
     let (i, cosine) = best.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let [ours, theirs] = sides(&simulation.model, interface);
+    let [ours, theirs] = sides(view.model, interface);
     let ours = ours.unwrap_or_default();
     let [own, other] = roles(interface);
     let what = match &theirs {
@@ -70,17 +66,17 @@ pub(super) fn check(
             false => "name the surfaces that face each other; `stickslip check` lists the sets of each body",
         }));
     }
-    inside_out(simulation, interface, &ours)
+    inside_out(view, interface, &ours)
 }
 
 /// A body most of which lies within the obstacle it is meant to rest on.
-fn inside_out(simulation: &Simulation, interface: &Interface, ours: &str) -> Option<Finding> {
-    let model = &simulation.model;
+fn inside_out(view: &View, interface: &Interface, ours: &str) -> Option<Finding> {
+    let model = view.model;
     if !interface.rigid() {
         return None;
     }
     let body = model.bodies.iter().find(|b| b.name == ours)?;
-    let mut opposite = super::super::surfaces::Opposite::new(interface, simulation.state.t);
+    let mut opposite = super::super::surfaces::Opposite::new(interface, view.frame.state.t);
     let points = &model.mesh.points[body.points.clone()];
     let inside = points.iter().filter(|x| {
         let nearest = opposite.nearest(**x);

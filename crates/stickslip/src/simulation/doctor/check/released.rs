@@ -6,8 +6,8 @@ use std::ops::Range;
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::body;
 use crate::simulation::model::{Body, Model, Step};
-use crate::simulation::run::Simulation;
 use crate::simulation::unheld::{self, Mode, NO_PART};
+use crate::simulation::view::View;
 use crate::system::{Course, Schedule};
 
 /// What a step leaves out: its kind, its name, and the body.
@@ -17,8 +17,8 @@ struct Dropped<'a> {
     body: usize,
 }
 
-pub(super) fn check(simulation: &Simulation) -> Vec<Finding> {
-    let model = &simulation.model;
+pub(super) fn check(view: &View) -> Vec<Finding> {
+    let model = view.model;
     let mut out = Vec::new();
     if !dropped_any(model) {
         return out;
@@ -30,8 +30,8 @@ pub(super) fn check(simulation: &Simulation) -> Vec<Finding> {
         if step.dynamic.is_some() || before.dynamic.is_some() {
             continue;
         }
-        let was = free(simulation, &modes, before.end);
-        let free = free(simulation, &modes, step.end);
+        let was = free(view, &modes, before.end);
+        let free = free(view, &modes, step.end);
         let mut told = BTreeSet::new();
         for dropped in supports(model, before, step) {
             let name = |modes: &BTreeMap<usize, BTreeSet<String>>| {
@@ -78,9 +78,9 @@ fn left_out(schedule: &Schedule, before: &Step, step: &Step) -> bool {
 }
 
 /// Motions as a whole that nothing but contact resists, by body.
-fn free(simulation: &Simulation, modes: &[Mode], t: f64) -> BTreeMap<usize, BTreeSet<String>> {
+fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, BTreeSet<String>> {
     let mut out: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
-    for unheld in simulation.unheld(t, modes, false) {
+    for unheld in view.unheld(t, modes, false) {
         for (mode, part) in modes.iter().zip(unheld) {
             if part.abs() > NO_PART {
                 out.entry(mode.body).or_default().insert(mode.name.clone());

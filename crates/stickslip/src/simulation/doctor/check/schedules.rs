@@ -2,6 +2,7 @@
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use crate::simulation::model::Model;
+use crate::simulation::scene::Scene;
 use crate::system::{Course, Schedule};
 
 /// Part of a step in which a factor may not change by half its range.
@@ -24,7 +25,8 @@ struct Acting<'a> {
     scaled: bool,
 }
 
-fn all(model: &Model) -> Vec<Acting<'_>> {
+fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
+    let model = scene.model;
     let mut all = Vec::new();
     for load in &model.loads {
         all.push(Acting {
@@ -44,7 +46,7 @@ fn all(model: &Model) -> Vec<Acting<'_>> {
             scaled: true,
         });
     }
-    for interface in &model.interfaces {
+    for interface in &scene.contact.interfaces {
         all.push(Acting {
             what: "interface",
             name: &interface.name,
@@ -56,14 +58,15 @@ fn all(model: &Model) -> Vec<Acting<'_>> {
     all
 }
 
-pub(super) fn check(model: &Model) -> Vec<Finding> {
+pub(super) fn check(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
     let mut out = Vec::new();
-    for acting in all(model) {
+    for acting in all(scene) {
         match never(model, &acting) {
             Some(finding) => out.push(finding),
             None if acting.counts && acting.scaled => {
                 out.extend(unreached(model, &acting));
-                out.extend(jump(model, &acting));
+                out.extend(jump(scene, &acting));
                 out.extend(ended(model, &acting));
             }
             None => {}
@@ -138,9 +141,11 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
 }
 
 /// A factor that changes, in a quasi-static step, faster than any increment follows.
-fn jump(model: &Model, acting: &Acting) -> Option<Finding> {
+fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
+    let model = scene.model;
     let mut before = 0.0;
-    let rubs = model
+    let rubs = scene
+        .contact
         .interfaces
         .iter()
         .any(|i| i.laws.friction_law().frictional());

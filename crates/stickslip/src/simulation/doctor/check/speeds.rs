@@ -6,6 +6,7 @@ use super::{Measured, body, forced_by_loads};
 use crate::contact::interface::{Interface, Primary};
 use crate::math::norm;
 use crate::simulation::model::{Body, Model};
+use crate::simulation::scene::Scene;
 
 /// Velocity over that of sound beyond which strains are not small: an impact strains by half of it.
 const FAST: f64 = 0.1;
@@ -25,7 +26,8 @@ fn sound(model: &Model) -> Option<(f64, &Body)> {
 }
 
 /// Velocities that come near the speed of sound, in dynamic steps.
-pub(super) fn fast(model: &Model) -> Vec<Finding> {
+pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
     let Some((sound, slowest)) = sound(model).filter(|_| model.moves()) else {
         return Vec::new();
     };
@@ -65,7 +67,7 @@ pub(super) fn fast(model: &Model) -> Vec<Finding> {
         );
         judge("support", &support.name, value * rate);
     }
-    for interface in &model.interfaces {
+    for interface in &scene.contact.interfaces {
         let Primary::Rigid(_, motion) = &interface.primary else {
             continue;
         };
@@ -106,19 +108,21 @@ fn rates(model: &Model, value: impl Fn(f64) -> f64, active: impl Fn(f64) -> bool
 }
 
 /// Whether equations or springs act on a body of an interface.
-fn coupled(model: &Model, interface: &Interface) -> bool {
+fn coupled(scene: &Scene, interface: &Interface) -> bool {
+    let model = scene.model;
     let sides = super::driven::pair(model, interface);
     let mine = |p: usize| {
         let mut bodies = sides.iter().flatten();
         bodies.any(|&b| model.bodies[b].points.contains(&p))
     };
-    model.couplings.points().any(mine)
+    scene.contact.couplings.points().any(mine)
 }
 
 /// An interface that everything prescribed opens.
-pub(super) fn apart(model: &Model, interface: &Interface, measured: &Measured) -> Option<Finding> {
+pub(super) fn apart(scene: &Scene, interface: &Interface, measured: &Measured) -> Option<Finding> {
+    let model = scene.model;
     // Glued sides are meant to pull at each other, and equations and springs move bodies as supports do.
-    if interface.laws.tied || coupled(model, interface) {
+    if interface.laws.tied || coupled(scene, interface) {
         return None;
     }
     let gaps = measured.gaps.iter().enumerate().filter(|g| g.1.is_finite());
@@ -130,7 +134,7 @@ pub(super) fn apart(model: &Model, interface: &Interface, measured: &Measured) -
     }
     let x = interface.points[i].position(&interface.reference);
     let normal = measured.nearest[i].as_ref()?.normal;
-    let way = approach(model, interface, (x, normal))?;
+    let way = approach(scene, interface, (x, normal))?;
     if way.most > APART * size || way.least > -APART * size {
         return None;
     }

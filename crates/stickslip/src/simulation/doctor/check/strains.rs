@@ -7,6 +7,7 @@ use crate::body::Space;
 use crate::contact::interface::Interface;
 use crate::math::sub;
 use crate::simulation::model::{Body, Model};
+use crate::simulation::scene::Scene;
 
 /// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is counted.
 const LARGE: f64 = 0.2;
@@ -124,15 +125,16 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
 
 /// Sides of an interface that are pressed into each other by a large part of their bodies.
 pub(super) fn pressed(
-    model: &Model,
+    scene: &Scene,
     interface: &Interface,
     measured: &Measured,
 ) -> Option<Finding> {
+    let model = scene.model;
     let gaps = measured.gaps.iter().enumerate().filter(|g| g.1.is_finite());
     let (i, &gap) = gaps.min_by(|a, b| a.1.total_cmp(b.1))?;
     let x = interface.points[i].position(&interface.reference);
     let normal = measured.nearest[i].as_ref()?.normal;
-    let way = approach(model, interface, (x, normal)).filter(|a| a.both)?;
+    let way = approach(scene, interface, (x, normal)).filter(|a| a.both)?;
     let depth = way.most - gap.max(0.0);
     // What of a body lies along the normal takes its part of the approach.
     let sides = pair(model, interface);

@@ -8,6 +8,7 @@ use crate::contact::interface::{Interface, Primary};
 use crate::contact::pairing::evaluate;
 use crate::math::Vec3;
 use crate::simulation::model::{Body, Model};
+use crate::simulation::scene::Scene;
 
 /// Part of the points of a surface that is most of it.
 const MOST: f64 = 0.5;
@@ -154,10 +155,11 @@ fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Fin
 }
 
 /// Two interfaces between the same surfaces that act at the same time.
-pub(in crate::simulation::doctor) fn doubled(model: &Model) -> Option<Finding> {
-    let sets: Vec<[BTreeSet<usize>; 2]> = model.interfaces.iter().map(nodes).collect();
-    for (b, second) in model.interfaces.iter().enumerate() {
-        for (a, first) in model.interfaces.iter().enumerate().take(b) {
+pub(in crate::simulation::doctor) fn doubled(scene: &Scene) -> Option<Finding> {
+    let model = scene.model;
+    let sets: Vec<[BTreeSet<usize>; 2]> = scene.contact.interfaces.iter().map(nodes).collect();
+    for (b, second) in scene.contact.interfaces.iter().enumerate() {
+        for (a, first) in scene.contact.interfaces.iter().enumerate().take(b) {
             // The two halves of two-sided contact are one interface of the problem.
             if first.name == second.name || first.share < 1.0 || second.share < 1.0 {
                 continue;

@@ -2,18 +2,21 @@
 
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use crate::simulation::inertia::light;
-use crate::simulation::model::{Initial, Model};
+use crate::simulation::model::Initial;
+use crate::simulation::scene::Scene;
 
-pub(super) fn check(model: &Model) -> Vec<Finding> {
+pub(super) fn check(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
     let all = model.initials.iter();
-    all.filter_map(|initial| massless(model, initial)).collect()
+    all.filter_map(|initial| massless(scene, initial)).collect()
 }
 
 /// Initial velocities of nothing but points of contact, whose mass the step gives to their neighbours: they have no momentum.
-fn massless(model: &Model, initial: &Initial) -> Option<Finding> {
+fn massless(scene: &Scene, initial: &Initial) -> Option<Finding> {
+    let model = scene.model;
     let step = model.steps.get(initial.step)?;
     let dynamic = step.dynamic.as_ref().filter(|_| !step.is_explicit())?;
-    let mut light = light(model, dynamic);
+    let mut light = light(model, scene.contact, dynamic);
     for body in &model.bodies {
         let points = &mut light[body.points.clone()];
         if body.rigid.is_some() || points.iter().all(|l| *l) {

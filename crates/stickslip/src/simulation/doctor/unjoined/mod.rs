@@ -12,7 +12,7 @@ use super::note;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, distance};
 use crate::simulation::model::{Model, Support};
-use crate::simulation::run::Simulation;
+use crate::simulation::scene::Scene;
 use crate::system::Motion;
 
 /// Part of the motion of two bodies against each other by which they have to overlap more than at the start.
@@ -54,14 +54,16 @@ pub(in crate::simulation) struct Unjoined {
 
 impl Unjoined {
     /// Pairs of a model, displaced by `u` at the start.
-    pub fn new(model: &Model, u: &[f64]) -> Self {
+    pub fn new(scene: &Scene) -> Self {
+        let model = scene.model;
+        let u = &scene.frame.state.u;
         let mut out = Unjoined::default();
         let end = model.steps.last().map_or(0.0, |s| s.end);
         for body in 0..model.bodies.len() {
             let bodies = (0..body).map(Other::Body);
-            let obstacles = (0..model.interfaces.len()).filter(|&i| first(model, i));
+            let obstacles = (0..scene.contact.interfaces.len()).filter(|&i| first(scene, i));
             for other in bodies.chain(obstacles.map(Other::Obstacle)) {
-                let until = until(model, body, other);
+                let until = until(scene, body, other);
                 if until < end {
                     out.pairs.push(Pair {
                         body,
@@ -78,7 +80,7 @@ impl Unjoined {
         }
         out.boundaries = boundaries(model);
         let t = model.steps.first().map_or(0.0, |s| s.start);
-        let place = Placed { model, u, t };
+        let place = Placed { scene, u, t };
         for i in 0..out.pairs.len() {
             out.pairs[i].start = out.overlap(&place, &out.pairs[i]);
         }
@@ -88,7 +90,7 @@ impl Unjoined {
     fn overlap(&self, placed: &Placed, pair: &Pair) -> Overlap {
         let ours = &self.boundaries[pair.body];
         match pair.other {
-            Other::Obstacle(i) => placed.behind(ours, &placed.model.interfaces[i]),
+            Other::Obstacle(i) => placed.behind(ours, &placed.scene.contact.interfaces[i]),
             Other::Body(other) => {
                 let theirs = &self.boundaries[other];
                 let one = placed.inside(ours, theirs);
@@ -98,12 +100,14 @@ impl Unjoined {
     }
 
     /// What the model shows before it runs.
-    pub fn check(&self, model: &Model, u: &[f64]) -> Vec<Finding> {
+    pub fn check(&self, scene: &Scene) -> Vec<Finding> {
+        let model = scene.model;
+        let u = &scene.frame.state.u;
         let start = model.steps.first().map_or(0.0, |s| s.start);
         let mut out = Vec::new();
         for pair in self.pairs.iter().filter(|p| p.until < start) {
-            let placed = Placed { model, u, t: start };
-            let names = names(model, pair);
+            let placed = Placed { scene, u, t: start };
+            let names = names(scene, pair);
             let deep = pair.start.depth > NEAR * pair.start.facet;
             let driven = model
                 .steps
@@ -127,7 +131,7 @@ impl Unjoined {
                 }),
             };
             out.extend(found.map(|(severity, message, at)| {
-                finding(model, pair, severity, message).blame_at(at)
+                finding(scene, pair, severity, message).blame_at(at)
             }));
         }
         out
@@ -135,7 +139,7 @@ impl Unjoined {
 
     /// The overlap at `t` of bodies that supports move as wholes, where it is more than at the start.
     fn driven(&self, start: &Placed, pair: &Pair, t: f64) -> Option<Overlap> {
-        let model = start.model;
+        let model = start.scene.model;
         let mut u = start.u.to_vec();
         let mut bodies = vec![pair.body];
         if let Other::Body(other) = pair.other {
@@ -152,9 +156,13 @@ impl Unjoined {
             }
         }
         if let Other::Obstacle(i) = pair.other {
-            moved = moved.max(model.interfaces[i].obstacle_way(start.t, t));
+            moved = moved.max(start.scene.contact.interfaces[i].obstacle_way(start.t, t));
         }
-        let placed = Placed { model, u: &u, t };
+        let placed = Placed {
+            scene: start.scene,
+            u: &u,
+            t,
+        };
         (moved > 0.0 && pair.was_apart())
             .then(|| self.overlap(&placed, pair))
             .filter(|found| placed.worse(found, pair, moved))
@@ -169,12 +177,14 @@ impl Unjoined {
                 let found = placed.facing(ours, theirs);
                 found.or_else(|| placed.facing(theirs, ours))
             }
-            Other::Obstacle(i) => placed.standing(ours, &placed.model.interfaces[i]),
+            Other::Obstacle(i) => placed.standing(ours, &placed.scene.contact.interfaces[i]),
         }
     }
 
     /// Looks at the last accepted state: pairs that have come to overlap, once each.
-    pub fn look(&mut self, model: &Model, u: &[f64], t: f64) -> Vec<Finding> {
+    pub fn look(&mut self, scene: &Scene) -> Vec<Finding> {
+        let model = scene.model;
+        let (u, t) = (&scene.frame.state.u, scene.frame.state.t);
         let start = model.steps.first().map_or(0.0, |s| s.start);
         let mut out = Vec::new();
         for i in 0..self.pairs.len() {
@@ -182,22 +192,22 @@ impl Unjoined {
             if pair.said || t <= pair.until || !pair.was_apart() {
                 continue;
             }
-            let placed = Placed { model, u, t };
+            let placed = Placed { scene, u, t };
             let found = self.overlap(&placed, pair);
             if found.depth <= pair.start.depth {
                 continue;
             }
             let mut moved = placed.spread(pair);
             if let Other::Obstacle(i) = pair.other {
-                moved += model.interfaces[i].obstacle_way(start, t);
+                moved += scene.contact.interfaces[i].obstacle_way(start, t);
             }
             if placed.worse(&found, pair, moved) {
                 let message = format!(
                     "{} have come to overlap by {:.3e}, and no interface joins them: they pass through each other",
-                    names(model, pair),
+                    names(scene, pair),
                     found.depth
                 );
-                out.push(finding(model, pair, Severity::Warning, message).blame_at(found.at));
+                out.push(finding(scene, pair, Severity::Warning, message).blame_at(found.at));
                 self.pairs[i].said = true;
             }
         }
@@ -213,13 +223,14 @@ impl Pair {
 }
 
 /// Whether an interface is the first one with its obstacle.
-fn first(model: &Model, i: usize) -> bool {
-    let rigid = matches!(model.interfaces[i].primary, Primary::Rigid(..));
+fn first(scene: &Scene, i: usize) -> bool {
+    let model = scene.model;
+    let rigid = matches!(scene.contact.interfaces[i].primary, Primary::Rigid(..));
     rigid
         && (0..i).all(|k| {
-            let other = &model.interfaces[k];
+            let other = &scene.contact.interfaces[k];
             let obstacle = matches!(other.primary, Primary::Rigid(..));
-            !(obstacle && same(model, other, &model.interfaces[i]))
+            !(obstacle && same(model, other, &scene.contact.interfaces[i]))
         })
 }
 
@@ -244,13 +255,14 @@ fn same(model: &Model, a: &Interface, b: &Interface) -> bool {
 }
 
 /// End of the last step in which an interface or a coupling joins the two.
-fn until(model: &Model, body: usize, other: Other) -> f64 {
+fn until(scene: &Scene, body: usize, other: Other) -> f64 {
+    let model = scene.model;
     let mut last = f64::NEG_INFINITY;
     let mut acting = |schedule: &crate::system::Schedule| {
         let steps = model.steps.iter().filter(|s| schedule.active(s.end));
         last = steps.fold(last, |m, s| m.max(s.end));
     };
-    for interface in &model.interfaces {
+    for interface in &scene.contact.interfaces {
         let (primary, secondary) = interface.nodes.split_at(interface.primary_nodes);
         let (ours, theirs) = (owners(model, secondary), owners(model, primary));
         let joins = match other {
@@ -260,7 +272,9 @@ fn until(model: &Model, body: usize, other: Other) -> f64 {
             }
             Other::Obstacle(i) => {
                 let rigid = matches!(interface.primary, Primary::Rigid(..));
-                rigid && ours.contains(&body) && same(model, interface, &model.interfaces[i])
+                rigid
+                    && ours.contains(&body)
+                    && same(model, interface, &scene.contact.interfaces[i])
             }
         };
         if joins {
@@ -270,7 +284,7 @@ fn until(model: &Model, body: usize, other: Other) -> f64 {
     let Other::Body(other) = other else {
         return last;
     };
-    for coupling in model.couplings.all() {
+    for coupling in scene.contact.couplings.all() {
         let points: Vec<usize> = (coupling.rows.iter())
             .flat_map(|r| &r.dofs)
             .map(|&dof| model.dofs.locate(dof).0)
@@ -326,18 +340,20 @@ fn prescribed(model: &Model, body: usize, t: f64) -> Option<Vec3> {
 }
 
 /// The two in words.
-fn names(model: &Model, pair: &Pair) -> String {
+fn names(scene: &Scene, pair: &Pair) -> String {
+    let model = scene.model;
     let body = &model.bodies[pair.body].name;
     match pair.other {
         Other::Body(other) => format!("bodies {} and {body}", model.bodies[other].name),
         Other::Obstacle(i) => format!(
             "body {body} and the obstacle of interface {}",
-            model.interfaces[i].name
+            scene.contact.interfaces[i].name
         ),
     }
 }
 
-fn finding(model: &Model, pair: &Pair, severity: Severity, message: String) -> Blamed {
+fn finding(scene: &Scene, pair: &Pair, severity: Severity, message: String) -> Blamed {
+    let model = scene.model;
     let body = &model.bodies[pair.body].name;
     let finding = Finding::new(DoctorCause::MissingInterface, severity, message);
     let (finding, primary) = match pair.other {
@@ -349,7 +365,7 @@ fn finding(model: &Model, pair: &Pair, severity: Severity, message: String) -> B
             )
         }
         Other::Obstacle(i) => {
-            let name = &model.interfaces[i].name;
+            let name = &scene.contact.interfaces[i].name;
             (
                 finding.blame(Guilty::interface(name, "its obstacle")),
                 format!("the obstacle of {name}"),
@@ -370,14 +386,12 @@ impl Blamed {
     }
 }
 
-impl Simulation {
+impl Unjoined {
     /// Takes note of bodies that pass through others.
-    pub(in crate::simulation) fn judge_unjoined(&mut self) {
-        let (u, t) = (&self.state.u, self.state.t);
-        let found = self.unjoined.look(&self.model, u, t);
-        for mut finding in found {
+    pub fn judge(&mut self, scene: &Scene, findings: &mut Vec<Finding>) {
+        for mut finding in self.look(scene) {
             let both: Vec<&str> = finding.guilty.iter().map(|g| g.name.as_str()).collect();
-            let known = self.summary.findings.iter().any(|f| {
+            let known = findings.iter().any(|f| {
                 let same = |g: &Guilty| both.contains(&g.name.as_str());
                 let warned = f.severity >= Severity::Warning;
                 warned && f.cause == finding.cause && f.guilty.iter().all(same)
@@ -385,9 +399,9 @@ impl Simulation {
             if known {
                 continue;
             }
-            finding.step = Some(self.step_name().to_string());
-            finding.time = Some(t);
-            note(&mut self.summary.findings, finding);
+            finding.step = Some(scene.step_name().to_string());
+            finding.time = Some(scene.frame.state.t);
+            note(findings, finding);
         }
     }
 }
@@ -395,25 +409,25 @@ impl Simulation {
 impl Placed<'_> {
     /// Whether an overlap is more than at the start, and more than rounding, of two that have moved so far against each other.
     fn worse(&self, found: &Overlap, pair: &Pair, moved: f64) -> bool {
-        let least = (DEEPER * moved).max(ROUNDING * self.model.mesh.diameter());
+        let least = (DEEPER * moved).max(ROUNDING * self.scene.model.mesh.diameter());
         found.depth - pair.start.depth > least
     }
 
     /// By how much displacements of the two differ `[m]`.
     fn spread(&self, pair: &Pair) -> f64 {
-        let mut points = self.model.bodies[pair.body]
+        let mut points = self.scene.model.bodies[pair.body]
             .points
             .clone()
             .collect::<Vec<_>>();
         let mut moves: Vec<Vec3> = Vec::new();
         match pair.other {
-            Other::Body(other) => points.extend(self.model.bodies[other].points.clone()),
+            Other::Body(other) => points.extend(self.scene.model.bodies[other].points.clone()),
             Other::Obstacle(_) => moves.push([0.0; 3]),
         }
         moves.extend(
             points
                 .into_iter()
-                .map(|p| self.model.dofs.vector(self.u, p)),
+                .map(|p| self.scene.model.dofs.vector(self.u, p)),
         );
         let (low, high) = bounds(&moves);
         distance(low, high)

@@ -10,6 +10,7 @@ use crate::math::{Vec3, add, distance, dot, sub};
 use crate::shape::ElementKind;
 use crate::simulation::doctor::check::bounds;
 use crate::simulation::model::Model;
+use crate::simulation::scene::Scene;
 
 /// Part of a facet within which surfaces touch, and that curved ones may overlap by as they are meshed.
 pub(super) const NEAR: f64 = 0.05;
@@ -46,14 +47,17 @@ impl Overlap {
 
 /// A model with its displacements at a time.
 pub(super) struct Placed<'a> {
-    pub(super) model: &'a Model,
+    pub(super) scene: &'a Scene<'a>,
     pub(super) u: &'a [f64],
     pub(super) t: f64,
 }
 
 impl Placed<'_> {
     fn x(&self, p: usize) -> Vec3 {
-        add(self.model.mesh.points[p], self.model.dofs.vector(self.u, p))
+        add(
+            self.scene.model.mesh.points[p],
+            self.scene.model.dofs.vector(self.u, p),
+        )
     }
 
     fn nodes(&self, facet: &(ElementKind, Vec<usize>)) -> Vec<Vec3> {
@@ -74,8 +78,8 @@ impl Placed<'_> {
     /// The deepest of the points of one boundary within another body.
     pub(super) fn inside(&self, points: &Boundary, body: &Boundary) -> Overlap {
         let (low, high) = self.bounds(body);
-        let rounding = ROUNDING * self.model.mesh.diameter();
-        let flat = self.model.mesh.dim;
+        let rounding = ROUNDING * self.scene.model.mesh.diameter();
+        let flat = self.scene.model.mesh.dim;
         let within =
             |x: &Vec3| (0..flat).all(|c| x[c] > low[c] + rounding && x[c] < high[c] - rounding);
         let places: Vec<Vec3> = self

@@ -4,9 +4,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::accepted::{Accepted, Flow};
+use super::accepted::Accepted;
+use super::contact::Contact;
 use super::explicit::{Explicit, unstable};
-use super::run::Simulation;
+use super::frame::Frame;
+use super::integrator::Integrator;
+use super::ledger::Flow;
+use super::model::Model;
+use super::solver::Solver;
 use crate::system::{Cause, Force, Stage, State, StepFailure};
 use crate::time::Trial;
 
@@ -25,20 +30,20 @@ struct Sums {
     finite: bool,
 }
 
-impl Simulation {
-    /// Tries one explicit increment.
-    pub(super) fn attempt_explicit(&mut self, trial: Trial) -> Result<Accepted, StepFailure> {
-        let mut explicit = (self.explicit.take()).expect("an explicit step has begun its motion");
-        let outcome = self.leap(&mut explicit, trial);
-        self.explicit = Some(explicit);
-        outcome
-    }
-
-    fn leap(&mut self, explicit: &mut Explicit, trial: Trial) -> Result<Accepted, StepFailure> {
+impl Integrator for Explicit {
+    fn attempt(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        _solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let explicit = self;
         let dt = trial.to - trial.from;
-        let step = &self.model.steps[self.step];
+        let step = &model.steps[frame.step];
         if step.fixed {
-            let stable = explicit.stable(self.contact_frequency(explicit));
+            let stable = explicit.stable(explicit.contact_frequency(model, frame, contact));
             if dt > stable * (1.0 + 1e-9) {
                 let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
                 return Err(StepFailure {
@@ -49,9 +54,9 @@ impl Simulation {
         }
         let constraints = match &explicit.still {
             Some(still) => Arc::clone(still),
-            None => Arc::new(self.constraints(trial.to)),
+            None => Arc::new(frame.constraints(model, trial.to)),
         };
-        let from = &self.state;
+        let from = &frame.state;
         let n = from.u.len();
         let mut at = State {
             t: trial.to,
@@ -75,13 +80,13 @@ impl Simulation {
                     }
                 }
             });
-        self.model.links.impose(&mut at.u);
-        self.model.links.impose(&mut at.v);
+        model.links.impose(&mut at.u);
+        model.links.impose(&mut at.v);
         explicit.internal.apply(&at.u, &mut explicit.force);
         for &(dof, k) in &explicit.springs {
             explicit.force[dof] += k * at.u[dof];
         }
-        self.model.links.transfer(&mut explicit.force);
+        model.links.transfer(&mut explicit.force);
         explicit.damp(&at.v);
         explicit.out.reset(false);
         let stage = Stage {
@@ -90,19 +95,19 @@ impl Simulation {
             dt,
             rate: None,
         };
-        for interface in &mut self.model.interfaces {
+        for interface in &mut contact.interfaces {
             interface.begin();
             interface.prepare(&stage);
             interface.assemble(&stage, &mut explicit.out)?;
         }
-        self.model.couplings.assemble(&stage, &mut explicit.out)?;
-        self.model.links.transfer(&mut explicit.out.residual);
+        contact.couplings.assemble(&stage, &mut explicit.out)?;
+        model.links.transfer(&mut explicit.out.residual);
         let external = if explicit.loaded {
-            self.external(trial.to)
+            frame.external(model, trial.to)
         } else {
-            self.load.clone()
+            frame.load.clone()
         };
-        let load_before = &self.load;
+        let load_before = &frame.load;
         let mut forces = vec![0.0; n];
         let State { u, v, a, .. } = &mut at;
         let u: &[f64] = u;
@@ -187,8 +192,8 @@ impl Simulation {
             total.kinetic += spin.square(spin.of(v));
         }
         total.finite &= total.kinetic.is_finite();
-        self.model.links.impose(v);
-        self.model.links.impose(a);
+        model.links.impose(v);
+        model.links.impose(a);
         if !total.finite {
             return Err(StepFailure::new(
                 Cause::NotFinite,
@@ -199,7 +204,7 @@ impl Simulation {
         // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
         std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
         Ok(Accepted {
-            tally: self.model.interfaces.iter().filter_map(Force::tally).sum(),
+            tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
             forces,
             external,
             flow: Flow {
@@ -208,10 +213,15 @@ impl Simulation {
                 // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
                 numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
             },
-            kinetic: Some(0.5 * total.kinetic),
-            strain: Some(0.5 * total.strain),
+            kinetic: 0.5 * total.kinetic,
+            strain: 0.5 * total.strain,
             state: at,
             ..Accepted::default()
         })
+    }
+
+    fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
+        let fixed = model.steps[frame.step].fixed;
+        (!fixed).then(|| self.stable_increment(model, frame, contact))
     }
 }

@@ -1,0 +1,44 @@
+//! Where an analysis stands.
+
+use std::collections::BTreeMap;
+
+use super::ledger::EnergyLedger;
+use crate::system::State;
+
+/// Where an analysis stands after an accepted increment: all that follows, follows from this, the model, and what interfaces and couplings remember.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// Index of the step.
+    pub step: usize,
+    /// Displacements, velocities and accelerations at their time.
+    pub state: State,
+    /// Internal minus external forces `[N]`: reactions where supported.
+    pub forces: Vec<f64>,
+    /// What interfaces and couplings add to the residual `[N]`.
+    pub contact: Vec<f64>,
+    /// External forces `[N]`.
+    pub load: Vec<f64>,
+    /// Energy in couplings `[J]`.
+    pub coupled: f64,
+    /// Displacements from which supports started `[m]`, by the name of the support.
+    pub starts: BTreeMap<String, Vec<f64>>,
+    /// Forces of supports and equations that let go when the step began, by dof `[N]`: they fade over the step.
+    pub released: Vec<(usize, f64)>,
+    /// The length of the increment before `[s]` and the displacements at its start: the direction in which the next is expected to go.
+    pub previous: Option<(f64, Vec<f64>)>,
+    /// What an implicit step knows beside the state.
+    pub motion: Motion,
+    /// Energies: what there is, and where it came from and went.
+    pub ledger: EnergyLedger,
+}
+
+/// What an implicit step knows beside the state; empty in other steps.
+#[derive(Debug, Clone, Default)]
+pub struct Motion {
+    /// Elastic forces `K u` `[N]`.
+    pub internal: Vec<f64>,
+    /// Displacements at the start of the step `[m]`.
+    pub start: Vec<f64>,
+    /// The farthest the bodies have been from there, in the norm of the mass `[m √kg]`.
+    pub travel: f64,
+}
