@@ -5,11 +5,12 @@
 //! | surface | `surface.rs`, `crossing.rs` | points of the secondary with their areas, facets of the primary; whether they run through themselves |
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
 //! | search | `search.rs` | which facets a point may meet |
-//! | pairing | `pairing.rs` | the projection of a point on a facet |
+//! | projection | `projection.rs` | the projection of a point on a facet |
+//! | pairing | `pairing/` | which facet a point belongs to |
 //! | mortar | `mortar/` | integrals over what two surfaces have in common: gaps weighted over faces |
 //! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
 //! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
-//! | response | `response.rs` | traction and its derivatives in the frame of the stencil |
+//! | response | `response/` | traction and its derivatives in the frame of the stencil |
 //! | interface | `interface/` | the only place that scatters into residual and tangent |
 
 pub mod crossing;
@@ -21,6 +22,7 @@ pub mod law;
 pub mod mortar;
 pub mod obstacle;
 pub mod pairing;
+pub mod projection;
 pub mod response;
 pub mod search;
 pub mod surface;

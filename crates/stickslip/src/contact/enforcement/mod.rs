@@ -12,11 +12,13 @@
 //! neither the units nor the mesh change how stiff it is.
 
 mod augmented;
+mod eliminate;
 mod penalty;
 mod perturbed;
 mod rule;
 
 pub use augmented::AugmentedLagrangian;
+pub use eliminate::{condensed_slope, inverse_of_rows, residual};
 pub use penalty::Penalty;
 pub use perturbed::PerturbedLagrangian;
 pub use rule::{Enforcement, Multipliers, Stiffness, pressure};

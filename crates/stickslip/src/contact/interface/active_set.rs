@@ -56,7 +56,7 @@ impl Interface {
     /// What the laws want of a point instead of what it is held in, after it has been closed so many times; `None` if nothing else.
     fn wanted(&self, i: usize, choice: Choice, closed: u32, e: &Evaluation) -> Option<Choice> {
         let r = &e.response;
-        let shear = e.along(&e.frame_before);
+        let shear = e.along(&e.frames.before);
         let size = norm(shear);
         match choice {
             Choice::Open => {

@@ -80,13 +80,13 @@ impl Interface {
                 let change = (r.traction[0] - m.centre_pressure).abs();
                 worst = worst.max(change / e.normal_stiffness);
             }
-            let shear = e.along(&e.frame_before);
+            let shear = e.along(&e.frames.before);
             if r.status == Status::Stick && e.tangential_stiffness.is_finite() {
                 worst = worst.max(distance(shear, m.centre_shear) / e.tangential_stiffness);
             }
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;
-            m.centre_normal = e.normal_before;
+            m.centre_normal = e.frames.normal_before;
         }
         worst
     }

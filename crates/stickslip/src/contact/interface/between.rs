@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
-use crate::contact::pairing::{beyond, evaluate, facet_distance, project};
+use crate::contact::projection::{beyond, evaluate, facet_distance, project};
 use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};

@@ -3,7 +3,8 @@
 use super::evaluation::Evaluations;
 use super::search::{FaceSearch, Search};
 use crate::contact::mortar::FaceIntegral;
-use crate::contact::pairing::{Anchor, FacetPoint};
+use crate::contact::pairing::Anchor;
+use crate::contact::projection::FacetPoint;
 use crate::contact::search::Box3;
 use crate::math::Vec3;
 

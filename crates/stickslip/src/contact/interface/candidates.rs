@@ -3,8 +3,9 @@
 use super::cache::Cache;
 use super::definition::{Interface, Primary};
 use super::search::Search;
-use super::turning;
-use crate::contact::pairing::{Choice, FacetPoint, Previous};
+use crate::contact::kinematics::{Part, rotation_of};
+use crate::contact::pairing::{Choice, Previous};
+use crate::contact::projection::FacetPoint;
 use crate::contact::search::Box3;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, dot, mat_vec};
@@ -32,9 +33,9 @@ impl Interface {
                 around[p].push((corners, 1.0));
             }
         }
-        let turned = |(point, around): (&ContactPoint, &Vec<turning::Part>)| {
+        let turned = |(point, around): (&ContactPoint, &Vec<Part>)| {
             let parts = around.iter().copied();
-            let turn = turning::rotation_of(parts, (x, &self.reference), self.dofs.dim);
+            let turn = rotation_of(parts, (x, &self.reference), self.dofs.dim);
             mat_vec(&turn, point.normal)
         };
         let normals: Vec<Vec3> = self.points.iter().zip(&around).map(turned).collect();

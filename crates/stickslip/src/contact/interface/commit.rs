@@ -3,7 +3,7 @@
 use super::definition::{Interface, Primary};
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
-use super::pass::Wants;
+use super::scene::Wants;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -131,7 +131,7 @@ impl Interface {
     fn pass(&self, h: &PointHistory, e: &Evaluation, gap: f64, resolved: bool) -> Passed {
         let r = &e.response;
         let frictional = self.laws.friction_law().frictional();
-        let shear = e.along(&e.frame);
+        let shear = e.along(&e.frames.now);
         // At the edge of a mortar a point stands for less and less: forces at the start are those on the area then.
         let part = match resolved && h.area > 0.0 && e.area > 0.0 {
             true => h.area / e.area,
@@ -148,12 +148,12 @@ impl Interface {
         let so_far = e.forward(h.slip, h.normal, dim);
         let slid = match r.status {
             Status::Open => [0.0; 3],
-            _ => e.forward(e.moved, e.normal_before, dim),
+            _ => e.forward(e.moved, e.frames.normal_before, dim),
         };
         // The shear of both ends in the directions at the start.
         let [a, b] = e.carried.map(|t| part * t);
-        let [e1, e2] = e.frame_before;
-        let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frame_before));
+        let [e1, e2] = e.frames.before;
+        let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frames.before));
         // Without damping, which is no part of what is stored.
         let pressures = part * (h.pressure - h.damping) + (r.traction[0] - r.damping);
         let opened = match gap.is_finite() && e.gap.is_finite() {
@@ -172,7 +172,7 @@ impl Interface {
                 slip: add(so_far, slid),
                 moved: norm(e.moved),
                 gap: e.gap,
-                normal: e.normal,
+                normal: e.frames.normal,
                 status: r.status,
                 facet: e.facet,
                 area: e.area,
@@ -293,7 +293,7 @@ impl Evaluation {
             (Status::Open, _) => 0.0,
             (_, true) => {
                 let [a, b] = r.sliding_path;
-                let [e, f] = self.frame_before;
+                let [e, f] = self.frames.before;
                 crate::math::norm(add_scaled(scale(a, e), b, f))
             }
             (_, false) => crate::math::norm(self.moved),

@@ -30,7 +30,7 @@ impl Interface {
             if e.response.status == Status::Open || pressure <= 0.0 {
                 continue;
             }
-            let shear = e.along(&e.frame);
+            let shear = e.along(&e.frames.now);
             let size = norm(shear);
             let (moved, unsure) = self.moved_over(i, e, stage);
             let speed = norm(moved) / stage.dt;
@@ -56,7 +56,7 @@ impl Interface {
                 true => (size - limit).abs(),
                 false => size - limit,
             };
-            wrong = wrong.max(dot(shear, e.normal).abs());
+            wrong = wrong.max(dot(shear, e.frames.normal).abs());
             let given = (size + norm(before.shear)) * self.yielding(i, e);
             if slips && norm(moved) > unsure + given {
                 wrong = wrong.max(dot(shear, moved) / norm(moved));
@@ -94,7 +94,7 @@ impl Interface {
             }
         }
         moved = add_scaled(moved, -stage.dt, self.belt_velocity(stage.at.t));
-        let mut unsure = dot(apart, e.normal).abs();
+        let mut unsure = dot(apart, e.frames.normal).abs();
         if let Primary::Rigid(_, motion) = &self.primary {
             let t = stage.at.t;
             let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
@@ -104,6 +104,9 @@ impl Interface {
             // The point has seen other velocities on its way.
             unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
         }
-        (add_scaled(moved, -dot(moved, e.normal), e.normal), unsure)
+        (
+            add_scaled(moved, -dot(moved, e.frames.normal), e.frames.normal),
+            unsure,
+        )
     }
 }

@@ -6,7 +6,7 @@ use super::definition::{Interface, Primary};
 use super::evaluation::{Evaluation, Evaluations};
 use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
 use crate::contact::mortar::FACE_NODES;
-use crate::contact::pairing::{evaluate, invert2};
+use crate::contact::projection::{evaluate, invert2};
 use crate::math::{Vec3, add_scaled, dot};
 use crate::system::{Assembler, Tangent};
 
@@ -87,9 +87,9 @@ impl Interface {
             };
             (t != [0.0; 3]).then(|| {
                 let shear = add_scaled(
-                    e.frame[0].map(|x| self.share * t[1] * x),
+                    e.frames.now[0].map(|x| self.share * t[1] * x),
                     self.share * t[2],
-                    e.frame[1],
+                    e.frames.now[1],
                 );
                 (self.share * t[0], shear)
             })

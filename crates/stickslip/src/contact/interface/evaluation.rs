@@ -34,26 +34,18 @@ pub(super) struct Question {
 /// The outcome at one point. What has a size of its own lies in a [`Batch`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Evaluation {
-    /// Number of dofs, zero where there is no force, and where they start.
-    pub n: usize,
-    pub dofs: usize,
-    /// Where force, `3 × n` gradients and changes, and matrices start, where there are such.
-    pub force: Option<usize>,
-    pub rows: Option<usize>,
-    pub hessian: Option<usize>,
-    pub surrogate: Option<usize>,
+    pub slots: Slots,
+    pub response: Response,
     /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
     pub saddle: Option<([f64; 3], [f64; 3])>,
+    /// Multipliers as components in the frame, where they are unknowns.
+    pub multiplier: [f64; 3],
+    /// Shear traction at the last accepted state, in the frame.
+    pub carried: [f64; 2],
     /// Force that rounding may leave.
     pub rounding: f64,
-    pub response: Response,
     pub gap: f64,
-    pub normal: Vec3,
-    /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
-    pub frame: [Vec3; 2],
-    pub frame_before: [Vec3; 2],
-    /// Unit normal to the directions at the last accepted state.
-    pub normal_before: Vec3,
+    pub frames: Frames,
     /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,
     pub facet: Option<usize>,
@@ -63,15 +55,35 @@ pub(super) struct Evaluation {
     pub over: bool,
     /// Area that the point stands for.
     pub area: f64,
+    pub normal_stiffness: f64,
+    pub tangential_stiffness: f64,
+}
+
+/// Where the numbers of a point lie in its [`Batch`].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Slots {
+    /// Number of dofs, zero where there is no force, and where they start.
+    pub n: usize,
+    pub dofs: usize,
     /// Number of nodes that take part, and where their weights start.
     pub nodes: usize,
     pub sides: usize,
-    pub normal_stiffness: f64,
-    pub tangential_stiffness: f64,
-    /// Shear traction at the last accepted state, in the frame.
-    pub carried: [f64; 2],
-    /// Multipliers as components in the frame, where they are unknowns.
-    pub multiplier: [f64; 3],
+    /// Where force, `3 × n` gradients and changes, and matrices start, where there are such.
+    pub force: Option<usize>,
+    pub rows: Option<usize>,
+    pub hessian: Option<usize>,
+    pub surrogate: Option<usize>,
+}
+
+/// Directions at a point.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Frames {
+    pub normal: Vec3,
+    /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
+    pub now: [Vec3; 2],
+    pub before: [Vec3; 2],
+    /// Unit normal to the directions at the last accepted state.
+    pub normal_before: Vec3,
 }
 
 impl Evaluation {
@@ -119,31 +131,33 @@ impl Batch {
 
     /// Dofs of a point; none where there is no force.
     pub fn dofs(&self, e: &Evaluation) -> &[usize] {
-        &self.dofs[e.dofs..e.dofs + e.n]
+        &self.dofs[e.slots.dofs..e.slots.dofs + e.slots.n]
     }
 
     /// Nodes that take part and their weights: positive on the secondary, negative on the primary.
     pub fn sides(&self, e: &Evaluation) -> &[(usize, f64)] {
-        &self.sides[e.sides..e.sides + e.nodes]
+        &self.sides[e.slots.sides..e.slots.sides + e.slots.nodes]
     }
 
     /// Force on them; `None` where a point carries nothing.
     pub fn force(&self, e: &Evaluation) -> Option<&[f64]> {
-        e.force.map(|start| &self.force[start..start + e.n])
+        e.slots
+            .force
+            .map(|start| &self.force[start..start + e.slots.n])
     }
 
     /// What a tangent evaluation leaves for the assembler.
     pub fn tangent(&self, e: &Evaluation) -> Option<Tangent<'_>> {
-        let start = e.rows?;
+        let start = e.slots.rows?;
         let matrix = |all: &'_ [f64], start: Option<usize>| -> std::ops::Range<usize> {
-            start.map_or(all.len()..all.len(), |s| s..s + e.n * e.n)
+            start.map_or(all.len()..all.len(), |s| s..s + e.slots.n * e.slots.n)
         };
         Some(Tangent {
-            rows: &self.rows[start..start + 3 * e.n],
-            change: &self.change[start..start + 3 * e.n],
+            rows: &self.rows[start..start + 3 * e.slots.n],
+            change: &self.change[start..start + 3 * e.slots.n],
             area: e.area,
-            hessian: &self.hessian[matrix(&self.hessian, e.hessian)],
-            surrogate: &self.surrogate[matrix(&self.surrogate, e.surrogate)],
+            hessian: &self.hessian[matrix(&self.hessian, e.slots.hessian)],
+            surrogate: &self.surrogate[matrix(&self.surrogate, e.slots.surrogate)],
         })
     }
 }
@@ -172,11 +186,11 @@ impl Evaluation {
 
     /// A tangent vector of the last accepted state, where the normal was `normal`, as it is carried into the tangent plane of now.
     pub fn forward(&self, v: Vec3, normal: Vec3, dim: usize) -> Vec3 {
-        if normal == [0.0; 3] || self.normal_before == [0.0; 3] {
+        if normal == [0.0; 3] || self.frames.normal_before == [0.0; 3] {
             return v;
         }
-        let there = carried_over(v, normal, self.normal_before);
-        let [a, b] = components(there, &self.frame_before, dim);
-        add_scaled(scale(a, self.frame[0]), b, self.frame[1])
+        let there = carried_over(v, normal, self.frames.normal_before);
+        let [a, b] = components(there, &self.frames.before, dim);
+        add_scaled(scale(a, self.frames.now[0]), b, self.frames.now[1])
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::cache::Cache;
 use super::definition::{Interface, Primary};
 use super::initial::GLUE;
-use super::turning::{self, Part};
+use crate::contact::kinematics::{Part, of_points};
 use crate::contact::mortar::{FaceIntegral, Scratch, Sides, correct, integrate};
 use crate::contact::surface::ContactPoint;
 use crate::math::identity;
@@ -62,7 +62,7 @@ impl Interface {
             true => (reference, identity()),
             false => {
                 let at = (turned.as_slice(), reference.as_slice());
-                let turn = turning::of_points(self.own_nodes(), at, self.dofs.dim);
+                let turn = of_points(self.own_nodes(), at, self.dofs.dim);
                 (&cache.x, turn)
             }
         };

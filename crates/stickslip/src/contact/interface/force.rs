@@ -2,7 +2,7 @@
 
 use super::definition::Interface;
 use super::evaluation::Evaluations;
-use super::pass::Wants;
+use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::{add_scaled, scale};
 use crate::system::{
@@ -177,7 +177,7 @@ impl Interface {
                 let met = sides.filter(|(n, _)| *n < self.primary_nodes);
                 met.map(|&(n, w)| (self.nodes[n], -w)).collect()
             });
-            let normal = e.map_or([0.0; 3], |e| e.normal);
+            let normal = e.map_or([0.0; 3], |e| e.frames.normal);
             out.pairs.push(ContactPair {
                 point: self.nodes[node],
                 facet,
@@ -207,8 +207,8 @@ impl Interface {
         if unknown {
             for (m, e) in attempt.multipliers.iter_mut().zip(last) {
                 m.base = e.multiplier;
-                m.frame = e.frame_before;
-                m.frame_normal = e.normal_before;
+                m.frame = e.frames.before;
+                m.frame_normal = e.frames.normal_before;
             }
         }
     }

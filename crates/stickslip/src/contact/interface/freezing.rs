@@ -6,7 +6,7 @@
 //! and exchanged where they refuse it. At the end nothing is held: what comes out obeys the laws.
 
 use super::evaluation::{Evaluation, components};
-use crate::contact::response::{Held, Status};
+use crate::contact::response::{Frozen, Status};
 use crate::math::{Vec3, dot};
 
 /// Changes of status or reversals of slip after which a point is held.
@@ -65,7 +65,7 @@ impl Freezing {
         for (p, e) in self.points.iter_mut().zip(iterate) {
             let status = e.response.status;
             let shear = match status {
-                Status::Slip => e.along(&e.frame_before),
+                Status::Slip => e.along(&e.frames.before),
                 _ => [0.0; 3],
             };
             let turned = dot(p.shear, shear) < 0.0;
@@ -78,13 +78,13 @@ impl Freezing {
         }
     }
 
-    /// What a point is held in, in this frame.
-    pub fn held(&self, i: usize, frame: &[Vec3; 2], dim: usize) -> Option<Held> {
+    /// What a point is frozen in, in this frame.
+    pub fn frozen(&self, i: usize, frame: &[Vec3; 2], dim: usize) -> Option<Frozen> {
         let held = self.points.get(i)?.held?;
         Some(match held {
-            Choice::Open => Held::Open,
-            Choice::Stick => Held::Stick,
-            Choice::Slip(direction) => Held::Slip(components(direction, frame, dim)),
+            Choice::Open => Frozen::Open,
+            Choice::Stick => Frozen::Stick,
+            Choice::Slip(direction) => Frozen::Slip(components(direction, frame, dim)),
         })
     }
 

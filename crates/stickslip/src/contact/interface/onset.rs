@@ -2,7 +2,7 @@
 
 use super::definition::Interface;
 use super::initial::TOUCHING;
-use super::pass::Wants;
+use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::Vec3;
 use crate::system::{Force, Stage, StepFailure};
@@ -41,7 +41,7 @@ impl Interface {
         let points = self.cache.last.points.iter();
         let traction = points.map(|e| {
             let r = &e.response;
-            (r.status, r.traction[0], e.along(&e.frame))
+            (r.status, r.traction[0], e.along(&e.frames.now))
         });
         Tried(traction.collect())
     }

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use super::definition::Interface;
-use super::evaluate::{Asking, Scene};
 use super::evaluation::{Evaluations, Question};
-use super::pass::Wants;
+use super::scene::{LawQuery, Scene, Wants};
 use crate::contact::law::own::{LimitFunction, OwnFriction, OwnNormal, PressureFunction};
 use crate::contact::pairing::Anchor;
-use crate::contact::response::Told;
+use crate::contact::response::Answers;
 
 /// Negative limit relative to the pressure that is none.
 const ROUNDING: f64 = 1e-12;
@@ -36,21 +35,21 @@ impl Interface {
         scene: &Scene,
         out: &mut Evaluations,
         anchors: &mut [Option<Anchor>],
-    ) -> Vec<Told> {
+    ) -> Vec<Answers> {
         let own = &self.laws.own;
         if !own.any() || self.laws.tied {
             return Vec::new();
         }
-        let mut told = vec![Told::default(); self.points.len()];
+        let mut answers = vec![Answers::default(); self.points.len()];
         if let Some(normal) = &own.normal {
-            let questions = self.questions(scene, &told, Asking::Gaps, out, anchors);
+            let questions = self.questions(scene, &answers, LawQuery::Gaps, out, anchors);
             let gaps: Vec<f64> = questions.iter().map(|q| q.gap).collect();
             for (q, answer) in questions.iter().zip(normal.pressures(&gaps)) {
-                told[q.point].pressure = Some(answer);
+                answers[q.point].pressure = Some(answer);
             }
         }
         if let Some(friction) = &own.friction {
-            let questions = self.questions(scene, &told, Asking::Friction, out, anchors);
+            let questions = self.questions(scene, &answers, LawQuery::Friction, out, anchors);
             let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
             for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
                 // A negative limit would push where friction resists: the iteration stops instead.
@@ -61,23 +60,23 @@ impl Interface {
                     true => 0.0,
                     false => answer.value,
                 };
-                told[q.point].limit = Some(answer);
+                answers[q.point].limit = Some(answer);
             }
         }
-        told
+        answers
     }
 
     fn questions(
         &self,
         scene: &Scene,
-        told: &[Told],
-        asking: Asking,
+        answers: &[Answers],
+        query: LawQuery,
         out: &mut Evaluations,
         anchors: &mut [Option<Anchor>],
     ) -> Vec<Question> {
         let scene = Scene {
-            told,
-            asking,
+            answers,
+            query,
             wants: Wants {
                 tangent: false,
                 surrogate: false,

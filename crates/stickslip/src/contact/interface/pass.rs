@@ -4,22 +4,11 @@ use rayon::prelude::*;
 
 use super::cache::Cache;
 use super::definition::Interface;
-use super::evaluate::{Asking, Scene};
 use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::scene::{LawQuery, Scene, Wants};
 use crate::contact::pairing::Anchor;
 use crate::math::scale;
 use crate::system::{Force, Stage};
-
-/// What is asked of an evaluation.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Wants {
-    pub tangent: bool,
-    pub surrogate: bool,
-    /// See [`Assembler`](crate::system::Assembler).
-    pub holds_turns: bool,
-    /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
-    pub initial: bool,
-}
 
 impl Interface {
     /// Evaluates all points, in the memory of `trial`: whoever asks puts that back.
@@ -52,12 +41,12 @@ impl Interface {
             dt: stage.dt,
             t: stage.at.t,
             wants,
-            told: &[],
-            asking: Asking::Nothing,
+            answers: &[],
+            query: LawQuery::Nothing,
         };
-        let told = self.ask(&scene, &mut out, &mut anchors);
+        let answers = self.ask(&scene, &mut out, &mut anchors);
         let scene = Scene {
-            told: &told,
+            answers: &answers,
             ..scene
         };
         self.evaluate_points(&scene, &mut out, &mut anchors);

@@ -52,8 +52,8 @@ impl Interface {
         let Some(e) = cache.last.points.get(i) else {
             return evidence;
         };
-        if e.normal != [0.0; 3] {
-            evidence.normal = e.normal;
+        if e.frames.normal != [0.0; 3] {
+            evidence.normal = e.frames.normal;
         }
         evidence.gap = e.gap;
         evidence.pressure = e.response.traction[0];

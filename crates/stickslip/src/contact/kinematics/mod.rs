@@ -13,20 +13,26 @@ mod convective;
 mod dual;
 mod facet;
 mod frame;
+mod mortar;
 mod pop;
+mod rate;
 mod rigid;
 mod small_sliding;
 mod stencil;
+mod turning;
 
 #[cfg(test)]
 mod tests;
 
 pub use average::{add_average_hessian, average, mean_gap};
 pub use convective::Convective;
+pub use mortar::{Carried, Gathered, MeanPoint, gather};
 pub use pop::Pop1995;
+pub use rate::{Moving, rate_slip};
 pub use rigid::{RigidFoot, add_rigid_hessian, carried_over, rigid_stencil, tangents};
 pub use small_sliding::SmallSliding;
 pub use stencil::{Kinematics, Pair, Stencil};
+pub use turning::{Part, of_points, rotation_of};
 
 crate::family! {
     /// How gap and slip are measured.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::contact::obstacle::{Motion, ObstacleShape};
-use crate::contact::pairing::project;
+use crate::contact::projection::project;
 use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, add, add_scaled, cross, dot, mat_vec, norm, rotation, scale, sub};
 use crate::registry::Family;

@@ -1,6 +1,6 @@
 //! The projection that a way over the surface is counted from.
 
-use super::project::{FACET_NODES, FacetPoint, project};
+use crate::contact::projection::{FACET_NODES, FacetPoint, project};
 use crate::contact::surface::Facet;
 use crate::math::Vec3;
 

@@ -1,6 +1,8 @@
 //! Which facet a point belongs to.
 
-use super::project::{FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near};
+use crate::contact::projection::{
+    FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
+};
 use crate::contact::search::Box3;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add, cross, dot, norm, scale, sub};

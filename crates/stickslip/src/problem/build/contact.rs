@@ -14,7 +14,7 @@ use crate::contact::interface::{
     Attempt, Cache, Directives, History, Initial, Interface, Primary, Start, neighbours,
 };
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
-use crate::contact::pairing::evaluate;
+use crate::contact::projection::evaluate;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};

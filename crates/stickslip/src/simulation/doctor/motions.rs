@@ -2,7 +2,7 @@
 
 use super::surfaces::Opposite;
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::pairing::evaluate;
+use crate::contact::projection::evaluate;
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
 use crate::simulation::unheld::{self, Mode};

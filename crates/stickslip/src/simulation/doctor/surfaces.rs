@@ -1,7 +1,7 @@
 //! How the two sides of an interface lie to each other, apart from any law.
 
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::pairing::{beyond, facet_distance, project};
+use crate::contact::projection::{beyond, facet_distance, project};
 use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, distance, dot, sub};

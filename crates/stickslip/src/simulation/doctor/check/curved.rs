@@ -6,7 +6,7 @@ use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
 use super::super::surfaces::{Opposite, coordinates, spacing};
 use super::{median, roles, sides};
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::pairing::evaluate;
+use crate::contact::projection::evaluate;
 use crate::contact::surface::{Facet, edges};
 use crate::math::{Vec3, add, dot, norm, normalize, scale, sub};
 use crate::simulation::model::Model;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
 use super::{roles, sides};
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::pairing::evaluate;
+use crate::contact::projection::evaluate;
 use crate::math::Vec3;
 use crate::simulation::model::{Body, Model};
 use crate::simulation::scene::Scene;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::ROUNDING;
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::pairing::{beyond, evaluate, facet_distance, project};
+use crate::contact::projection::{beyond, evaluate, facet_distance, project};
 use crate::contact::search::Tree;
 use crate::math::{Vec3, add, distance, dot, sub};
 use crate::shape::ElementKind;

@@ -1,17 +1,17 @@
 //! How a patch of a surface has turned since the last accepted state, and the slip of what lies on it.
 
-use crate::contact::kinematics::{carried_over, tangents};
+use super::rigid::{carried_over, tangents};
 use crate::math::{
     Mat3, Vec3, add, add_scaled, cross, dot, identity, mat_vec, norm, normalize, rotation, scale,
     sub, symmetric_eigen, transpose_vec,
 };
 
 /// A facet of a patch: its corners, in order, and its weight.
-pub(super) type Part<'a> = (&'a [usize], f64);
+pub type Part<'a> = (&'a [usize], f64);
 
 /// The rotation of a patch from `before` to `x`: that of its mean normal, and the spin about it that turns its edges best. Exact if the
 /// patch moves as a rigid one, whatever the angle, and the same for any numbering.
-pub(super) fn rotation_of<'a>(
+pub fn rotation_of<'a>(
     parts: impl Iterator<Item = Part<'a>> + Clone,
     (x, before): (&[Vec3], &[Vec3]),
     dim: usize,
@@ -44,7 +44,7 @@ pub(super) fn rotation_of<'a>(
 ///
 /// In the plane its tangent is known; in space it is the quaternion that belongs to the largest eigenvalue of a symmetric matrix
 /// ([`horn_1987`](crate::references::horn_1987)), which is one for nodes in a plane too, and whatever the angle.
-pub(super) fn of_points(
+pub fn of_points(
     nodes: impl Iterator<Item = usize> + Clone,
     (x, before): (&[Vec3], &[Vec3]),
     dim: usize,

@@ -1,0 +1,128 @@
+//! A contact point over a facet.
+
+use super::definition::Interface;
+use super::evaluate::Met;
+use super::evaluation::{Batch, Evaluation};
+use super::scene::Scene;
+use crate::contact::kinematics::Pair;
+use crate::contact::pairing::{Anchor, Previous};
+use crate::contact::projection::{FACET_NODES, FacetPoint};
+use crate::contact::surface::Facet;
+use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
+
+/// How often a point may slide off an outer edge before it stays off.
+const MOST_LEFT: usize = 2;
+
+/// The place on a facet that moves with it.
+fn material(foot: &FacetPoint, nodes: &[Vec3]) -> Vec3 {
+    let weighted = nodes.iter().zip(&foot.n);
+    weighted.fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x))
+}
+
+impl Interface {
+    pub(super) fn evaluate_facet(
+        &self,
+        i: usize,
+        facets: &[Facet],
+        scene: &Scene,
+        last: Option<&Evaluation>,
+        anchor: &mut Option<Anchor>,
+        batch: &mut Batch,
+    ) -> Evaluation {
+        let (point, cache) = (&self.points[i], scene.cache);
+        let kinematics = self.kinematics.as_dyn();
+        let mut position = point.position(&cache.x);
+        let mut position_before = point.position(&cache.before);
+        let (f, foot) = match self.facet_of(i, facets, scene, last, anchor) {
+            Ok(found) => found,
+            Err(open) => return open,
+        };
+        let facet = &facets[f];
+        let mut now = [[0.0; 3]; FACET_NODES];
+        let now = facet.gather(&cache.x, &mut now);
+        let anchor = if kinematics.frozen() {
+            // relative to the material place of the frozen foot
+            let mut then = [[0.0; 3]; FACET_NODES];
+            let then = facet.gather(&cache.before, &mut then);
+            position = add(foot.x, sub(position, material(&foot, now)));
+            position_before = add(foot.x, sub(position_before, material(&foot, then)));
+            &foot
+        } else {
+            match Anchor::at(anchor, f, facet, &cache.before, position_before) {
+                Some(anchor) => anchor,
+                None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
+            }
+        };
+        let pair = Pair {
+            dim: self.dofs.dim,
+            weights: &point.weights,
+            point: position,
+            kind: facet.kind,
+            facet: now,
+            foot: &foot,
+            anchor,
+            point_before: position_before,
+            belt: scene.belt_seen(),
+        };
+        kinematics.stencil(&pair, &mut batch.stencil);
+        let reach = now.iter().map(|&x| dot(x, x));
+        batch.stencil.reach = reach.fold(dot(position, position), f64::max).sqrt();
+        let met = Met {
+            i,
+            area: point.area,
+            sides: batch.sides.len(),
+        };
+        batch.sides.extend(self.own_weights(i));
+        let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
+        batch.sides.extend(theirs);
+        let mut e = self.respond(met, scene, batch);
+        e.facet = Some(f);
+        self.finish(scene, &mut e, batch, |stencil, weights, out| {
+            let curved = kinematics.curved();
+            if curved {
+                kinematics.add_hessian(&pair, stencil, weights, out);
+            }
+            curved
+        });
+        e
+    }
+
+    /// The facet of a point and its projection there; as an error the point, open, if it has none.
+    fn facet_of(
+        &self,
+        i: usize,
+        facets: &[Facet],
+        scene: &Scene,
+        last: Option<&Evaluation>,
+        anchor: &mut Option<Anchor>,
+    ) -> Result<(usize, FacetPoint), Evaluation> {
+        let cache = scene.cache;
+        let found = if self.kinematics.as_dyn().frozen() {
+            cache.frozen[i].ok_or(f64::INFINITY)
+        } else {
+            let facet = last.and_then(|e| e.facet);
+            let facet = facet.or(self.history.points[i].facet);
+            // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
+            // depend on the way to it.
+            let near = facet.and_then(|f| {
+                let before = self.points[i].position(&cache.before);
+                let foot = Anchor::at(anchor, f, &facets[f], &cache.before, before);
+                foot.map(|foot| foot.xi)
+            });
+            let previous = Previous { facet, near };
+            self.closest(i, (&cache.x, &cache.boxes), &cache.search, previous)
+        };
+        match found {
+            // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
+            // off until the rest has settled, and if it leaves twice again until the next increment.
+            Ok((_, p)) if self.attempt.flips[i].left >= MOST_LEFT => {
+                let away = sub(self.points[i].position(&cache.x), p.x);
+                Err(Evaluation {
+                    stranded: dot(away, p.normal) < 0.0,
+                    ..Evaluation::open(norm(away))
+                })
+            }
+            found => found.map_err(Evaluation::open),
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! What the laws answer at a point.
+
+use super::definition::Interface;
+use super::evaluate::Met;
+use super::evaluation::{Batch, Evaluation, Frames, Question, Slots, components};
+use super::initial::TOUCHING;
+use super::scene::{LawQuery, Scene};
+use crate::contact::enforcement::Multipliers;
+use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
+use crate::contact::law::friction::FrictionPoint;
+use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
+use crate::math::{Vec3, add_scaled, dot, scale};
+
+/// By how much the first trial traction of an attempt may exceed the limit and count as stick.
+const FIRST_SLACK: f64 = 1e-2;
+
+impl Interface {
+    /// Laws at the stencil of the batch.
+    pub(super) fn respond(&self, met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation {
+        let i = met.i;
+        if let Some(glued) = self.history.start.glued.get(i) {
+            batch.stencil.gap -= glued;
+        }
+        batch.stencil.gap -= self.offset(i, scene.t);
+        let slots = self.claim(met, batch);
+        let stencil = &batch.stencil;
+        let belt = stencil.frame.map(|e| dot(e, scene.belt));
+        let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
+        let (stiffness, softness) = self.stiffnesses(i, stencil, scene);
+        let before = &self.history.points[i];
+        let mut at = LawInput {
+            dt: scene.dt,
+            stiffness,
+            kept: self.kept(i, stencil),
+            slip: Sliding {
+                seen: slid,
+                path: None,
+                softness,
+                slack: match scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
+                    true => FIRST_SLACK,
+                    false => 0.0,
+                },
+            },
+            rest: self.rest(i),
+            closing: self.closing(i, stencil.gap, scene.dt),
+            sticking: before.status != Status::Slip,
+            frozen: (self.attempt.freezing).frozen(i, &stencil.frame_before, self.dofs.dim),
+            mobilised: self.directives.mobilised.unwrap_or(1.0),
+            answers: scene.answers.get(i).copied().unwrap_or_default(),
+        };
+        self.see_rate(scene, &slots, batch, &mut at);
+        let stencil = &batch.stencil;
+        if scene.query != LawQuery::Nothing {
+            let friction = match scene.query {
+                LawQuery::Friction => self.laws.question(stencil, &at),
+                _ => Some(FrictionPoint::default()),
+            };
+            batch.questions.extend(friction.map(|friction| Question {
+                point: i,
+                gap: stencil.gap - at.rest,
+                friction,
+            }));
+            return Evaluation::default();
+        }
+        Evaluation {
+            slots,
+            response: self.laws.respond(stencil, &at),
+            gap: stencil.gap,
+            frames: Frames {
+                normal: stencil.normal,
+                now: stencil.frame,
+                before: stencil.frame_before,
+                normal_before: stencil.normal_before,
+            },
+            moved: add_scaled(
+                scale(slid[0], stencil.frame_before[0]),
+                slid[1],
+                stencil.frame_before[1],
+            ),
+            normal_stiffness: at.stiffness.normal,
+            tangential_stiffness: at.stiffness.tangential,
+            multiplier: at.kept.multiplier,
+            carried: at.kept.shear,
+            over: true,
+            area: met.area,
+            ..Evaluation::default()
+        }
+    }
+
+    /// Enters the dofs of the nodes of a point into the batch.
+    fn claim(&self, met: Met, batch: &mut Batch) -> Slots {
+        let first = batch.dofs.len();
+        for &(node, _) in &batch.sides[met.sides..] {
+            for c in 0..self.dofs.dim {
+                batch.dofs.push(self.dofs.of(self.nodes[node], c));
+            }
+        }
+        Slots {
+            n: batch.dofs.len() - first,
+            dofs: first,
+            nodes: batch.sides.len() - met.sides,
+            sides: met.sides,
+            ..Slots::default()
+        }
+    }
+
+    /// How stiffly a point is held, and the slip per limit over which friction is smoothed.
+    fn stiffnesses(&self, i: usize, stencil: &Stencil, scene: &Scene) -> (Stiffnesses, f64) {
+        let point = &self.points[i];
+        let enforcement = self.laws.enforcement.as_dyn();
+        // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
+        // must not depend on the increment.
+        let own = match enforcement.multipliers() {
+            Multipliers::Augmented { .. } => self.own_stiffness(i, scene.rate.map(|_| scene.dt)),
+            _ => point.stiffness,
+        };
+        let normal = match self.laws.needs_normal_stiffness() {
+            true => self.spring(enforcement.normal(), own),
+            false => f64::INFINITY,
+        };
+        let tangential = match self.laws.needs_tangential_stiffness() {
+            true => self.spring(enforcement.tangential(), own),
+            false => f64::INFINITY,
+        };
+        // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
+        let soft = self.directives.softening.map(|factor| factor * own);
+        let tangential = tangential.min(soft.unwrap_or(f64::INFINITY));
+        let touches = self.attempt.untouched && stencil.gap <= TOUCHING * point.size;
+        let stiffnesses = Stiffnesses {
+            normal,
+            tangential,
+            weight: own.min(normal).min(tangential),
+            first_contact: if touches { point.stiffness } else { 0.0 },
+        };
+        (stiffnesses, soft.map_or(0.0, |soft| 1.0 / soft))
+    }
+
+    /// Multipliers and tractions of before, in the frame of the stencil.
+    fn kept(&self, i: usize, stencil: &Stencil) -> Kept {
+        // Where the surface was met before it may have had another normal.
+        let in_frame = |shear: Vec3, normal: Vec3| {
+            let there = match normal == [0.0; 3] {
+                true => shear,
+                false => carried_over(shear, normal, stencil.normal_before),
+            };
+            components(there, &stencil.frame_before, self.dofs.dim)
+        };
+        let (multiplier, before) = (&self.attempt.multipliers[i], &self.history.points[i]);
+        let shear = in_frame(multiplier.shear, multiplier.normal);
+        let carried = in_frame(before.shear, before.normal);
+        let centre = match self.laws.enforcement.as_dyn().multipliers() {
+            Multipliers::Augmented { .. } => {
+                let t = in_frame(multiplier.centre_shear, multiplier.centre_normal);
+                [multiplier.centre_pressure, t[0], t[1]]
+            }
+            _ => [0.0, carried[0], carried[1]],
+        };
+        Kept {
+            unknown: self.unknown(),
+            multiplier: [multiplier.pressure, shear[0], shear[1]],
+            centre,
+            shear: carried,
+        }
+    }
+
+    /// Gap that counts as none.
+    ///
+    /// A constraint that is met to a tolerance leaves a gap, which multipliers would go on to correct in every increment to come. Where supports hold the
+    /// point in it, that has no end: pressure would grow without anything that asks for it. What the tolerance has accepted is accepted for
+    /// as long as the point is in contact.
+    fn rest(&self, i: usize) -> f64 {
+        if !self.unknown() {
+            return self.history.rest.get(i).copied().unwrap_or(0.0);
+        }
+        let (before, accepted) = (&self.history.points[i], self.attempt.accepted);
+        match before.status {
+            Status::Open => 0.0,
+            _ => before.gap.clamp(-accepted, accepted),
+        }
+    }
+
+    /// Closing velocity over the increment; zero for a point that had no gap before.
+    fn closing(&self, i: usize, gap: f64, dt: f64) -> f64 {
+        let before = &self.history.points[i];
+        if before.normal == [0.0; 3] || !before.gap.is_finite() {
+            return 0.0;
+        }
+        (before.gap - gap) / dt
+    }
+
+    /// In motion friction sees the velocity at the end of the increment.
+    fn see_rate(&self, scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
+        for row in &mut batch.rated {
+            row.clear();
+        }
+        let Some(rate) = scene.rate else {
+            return;
+        };
+        let stencil = &batch.stencil;
+        let nodes = batch.sides[slots.sides..].iter().map(|(node, _)| node);
+        let moving = Moving {
+            x: &scene.cache.x,
+            before: &scene.cache.before,
+            rate,
+            dim: self.dofs.dim,
+        };
+        let dofs = &batch.dofs[slots.dofs..];
+        let seen = rate_slip(stencil, nodes, dofs, &moving, &mut batch.rated);
+        let belt = stencil.frame.map(|e| dot(e, scene.belt_end));
+        at.slip.path = Some(at.slip.seen);
+        at.slip.seen = [seen[0] - belt[0], seen[1] - belt[1]];
+    }
+}

@@ -1,0 +1,56 @@
+//! What all points of one evaluation share.
+
+use super::cache::Cache;
+use crate::contact::obstacle::Pose;
+use crate::contact::response::Answers;
+use crate::math::Vec3;
+use crate::system::Rate;
+
+/// What is asked of an evaluation.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Wants {
+    pub tangent: bool,
+    pub surrogate: bool,
+    /// See [`Assembler`](crate::system::Assembler).
+    pub holds_turns: bool,
+    /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
+    pub initial: bool,
+}
+
+/// What is wanted of laws that are asked for all points at once, instead of a response.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LawQuery {
+    Nothing,
+    Gaps,
+    Friction,
+}
+
+/// What all points of one evaluation share.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    /// Coordinates, boxes, integrals and the iterate before.
+    pub cache: &'a Cache,
+    /// Pose of the obstacle now and at the last accepted state.
+    pub poses: Option<&'a (Pose, Pose)>,
+    /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
+    pub belt: Vec3,
+    pub belt_end: Vec3,
+    pub rate: Option<Rate<'a>>,
+    pub dt: f64,
+    /// Time at the end of the increment.
+    pub t: f64,
+    pub wants: Wants,
+    /// What laws that are asked for all points at once have said, by point; empty where none is asked so.
+    pub answers: &'a [Answers],
+    pub query: LawQuery,
+}
+
+impl Scene<'_> {
+    /// Way of the belt as friction sees it.
+    pub fn belt_seen(&self) -> Vec3 {
+        match self.rate {
+            Some(_) => self.belt_end,
+            None => self.belt,
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Gap and slip of a point of a mortar: means over the faces around it.
+
+use super::rigid::{carried_over, tangents};
+use super::stencil::Stencil;
+use super::turning;
+use crate::contact::mortar::{FaceIntegral, Mortar};
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, dot, identity, mat_vec, norm, normalize, scale, sub,
+};
+
+/// Part of the weights around a point below which one that is left of a sum is rounding.
+const NOTHING: f64 = 1e-13;
+
+/// Roundings of the largest coordinate that a gap may be off.
+const ROUNDING: f64 = 32.0;
+
+/// Sums over the faces around a point, which are means once they are divided by the area.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Gathered {
+    /// Area that has something opposite `[m²]`.
+    pub area: f64,
+    /// Gap times area.
+    pub gap: f64,
+    /// Sum of the gradients of the gap on the side of the secondary.
+    pub normal: Vec3,
+}
+
+/// Adds up what faces have integrated for point `i`, which hangs on `own` nodes: `nodes` and their weights, its own first, and the `gradients` of the gap with
+/// respect to them.
+pub fn gather(
+    (mortar, integrals): (&Mortar, &[FaceIntegral]),
+    (i, own): (usize, &[usize]),
+    nodes: &mut Vec<(usize, f64)>,
+    gradients: &mut Vec<Vec3>,
+) -> Gathered {
+    let mut sums = Gathered::default();
+    let first = nodes.len();
+    gradients.clear();
+    for &node in own {
+        gradients.push([0.0; 3]);
+        nodes.push((node, 0.0));
+    }
+    let around = &mortar.around[i];
+    let whole: f64 = around.iter().map(|&(f, a)| integrals[f].area[a]).sum();
+    let least = NOTHING * whole;
+    for &(f, a) in around {
+        let face = &integrals[f];
+        sums.area += face.area[a];
+        sums.gap += face.gap[a];
+        let own = &mortar.faces[f].nodes;
+        let secondary = face.secondary.chunks_exact(own.len()).nth(a).unwrap_or(&[]);
+        let primary = match face.nodes.len() {
+            0 => &[],
+            n => &face.primary[a * n..(a + 1) * n],
+        };
+        let entries = (own.iter().zip(secondary).map(|(n, e)| (n, e, 1.0)))
+            .chain(face.nodes.iter().zip(primary).map(|(n, e)| (n, e, -1.0)));
+        for (&node, entry, sign) in entries {
+            if entry.weight.abs() <= least && norm(entry.gradient) <= least {
+                continue;
+            }
+            // So few that looking through them is faster than a map.
+            let known = nodes[first..].iter().position(|s| s.0 == node);
+            let k = known.unwrap_or_else(|| {
+                gradients.push([0.0; 3]);
+                nodes.push((node, 0.0));
+                gradients.len() - 1
+            });
+            nodes[first + k].1 += sign * entry.weight;
+            gradients[k] = add_scaled(gradients[k], sign, entry.gradient);
+            if sign > 0.0 {
+                sums.normal = add(sums.normal, entry.gradient);
+            }
+        }
+    }
+    sums
+}
+
+impl Gathered {
+    /// Length of the mean gradient. Facets seen at an angle make it longer than a unit vector: the gap is measured along the mean normal, and a pressure acts on
+    /// the area along it. `None` where there is none.
+    pub fn length(&self) -> Option<f64> {
+        let length = norm(self.normal) * (1.0 / self.area);
+        (length > 0.0).then_some(length)
+    }
+}
+
+/// What was at the last accepted state, and how the surfaces have turned since.
+#[derive(Debug, Clone, Copy)]
+pub struct Carried {
+    /// Rotation of the faces around the point, and of what lies opposite.
+    pub turns: [Mat3; 2],
+    /// The normal; zero where there was none.
+    pub normal: Vec3,
+    /// Distance of the two sides that is no gap `[m]`.
+    pub apart: f64,
+}
+
+/// A point whose sums are known.
+#[derive(Debug, Clone, Copy)]
+pub struct MeanPoint<'a> {
+    /// 2 or 3.
+    pub dim: usize,
+    /// Coordinates of all nodes now, at the last accepted state and in the reference configuration.
+    pub x: &'a [Vec3],
+    /// At the last accepted state.
+    pub before: &'a [Vec3],
+    /// In the reference configuration.
+    pub reference: &'a [Vec3],
+    /// Size of what coordinates were taken off, which rounding knows of `[m]`.
+    pub origin: f64,
+    /// What was; `None` if pairs and normals are those of the reference configuration.
+    pub carried: Option<Carried>,
+    /// Nothing has been in contact yet: surfaces that just touch must not be in contact or apart by the rounding of the integrals.
+    pub untouched: bool,
+}
+
+impl MeanPoint<'_> {
+    /// Makes means of sums whose gradient has this mean `length`, and of these the stencil.
+    pub fn stencil(
+        &self,
+        sums: &Gathered,
+        length: f64,
+        nodes: &mut [(usize, f64)],
+        gradients: &mut [Vec3],
+        out: &mut Stencil,
+    ) {
+        let per_area = 1.0 / sums.area;
+        for ((_, weight), gradient) in nodes.iter_mut().zip(gradients.iter_mut()) {
+            *weight *= per_area;
+            *gradient = scale(per_area / length, *gradient);
+        }
+        let dim = self.dim;
+        out.reset(gradients.len() * dim);
+        let normal = normalize(sums.normal).unwrap_or(sums.normal);
+        let frame = tangents(normal, dim);
+        // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
+        let [own, other] = self.carried.map_or([identity(), identity()], |c| c.turns);
+        let normal_before = match self.carried {
+            Some(c) if c.normal != [0.0; 3] => c.normal,
+            _ => turning::back(&own, normal),
+        };
+        let turned = mat_vec(&own, normal_before);
+        let mut gap = sums.gap * (per_area / length);
+        let mut reach: f64 = 0.0;
+        let (mut moved, mut arm) = ([0.0; 3], [0.0; 3]);
+        for (k, (&(node, w), gradient)) in nodes.iter().zip(gradients.iter()).enumerate() {
+            let x = self.x[node];
+            moved = add_scaled(moved, w, sub(x, self.before[node]));
+            arm = add_scaled(arm, w, self.before[node]);
+            reach = reach.max(dot(x, x));
+            if self.carried.is_none() {
+                gap += dot(*gradient, sub(x, self.reference[node]));
+            }
+            for c in 0..dim {
+                out.rows[0][k * dim + c] = gradient[c];
+                for (t, e) in frame.iter().enumerate().take(dim - 1) {
+                    out.rows[t + 1][k * dim + c] = w * e[c];
+                }
+            }
+        }
+        if let Some(carried) = &self.carried {
+            // The distance of the two sides turns with them, but for that which is no gap.
+            let arm = add_scaled(arm, -carried.apart, normal_before);
+            moved = turning::slid(sub(moved, turning::swung(&own, arm)), &own, &other);
+        }
+        out.slip = frame.map(|e| dot(e, moved));
+        if dim == 2 {
+            out.slip[1] = 0.0;
+        }
+        let rounding = ROUNDING * f64::EPSILON * (reach.sqrt() + self.origin);
+        if self.untouched && gap.abs() <= rounding {
+            gap = 0.0;
+        }
+        out.gap = gap;
+        out.normal = normal;
+        out.frame = frame;
+        out.frame_before = frame.map(|e| turning::back(&own, carried_over(e, normal, turned)));
+        out.normal_before = normal_before;
+        out.reach = reach.sqrt();
+    }
+}

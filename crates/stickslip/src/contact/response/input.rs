@@ -1,0 +1,92 @@
+//! What laws are told of a point and an increment, beside gap and slip.
+
+use crate::contact::law::friction::Limit;
+use crate::math::Slope;
+
+/// What one evaluation of the laws needs beside the stencil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawInput {
+    /// Time since the last accepted state.
+    pub dt: f64,
+    /// How stiffly contact and stick are enforced.
+    pub stiffness: Stiffnesses,
+    /// Tractions that are known before anything is asked.
+    pub kept: Kept,
+    /// What friction sees of the motion.
+    pub slip: Sliding,
+    /// Gap from which springs count `[m]`; zero but for springs that took over from multipliers.
+    pub rest: f64,
+    /// Closing velocity over the increment `[m/s]`.
+    pub closing: f64,
+    /// Whether the point did not slide at the last accepted state.
+    pub sticking: bool,
+    /// What the point does whatever the laws say; `None` but where it chatters.
+    pub frozen: Option<Frozen>,
+    /// Part of the limit of friction that acts `[-]`; one but in a continuation.
+    pub mobilised: f64,
+    /// What laws that are asked for all points at once have said.
+    pub answers: Answers,
+}
+
+/// How stiffly a point is held `[Pa/m]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stiffnesses {
+    /// Against penetration; infinite where the normal law itself is followed.
+    pub normal: f64,
+    /// Of sticking.
+    pub tangential: f64,
+    /// That by which a perturbed Lagrangian weighs gaps against multipliers when it decides on status.
+    pub weight: f64,
+    /// Slope of the pressure that a point which just touches is given although it carries nothing yet; zero but in the first iteration of a first contact,
+    /// when nothing else may hold a body.
+    pub first_contact: f64,
+}
+
+/// Tractions from before the evaluation, in the frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kept {
+    /// Whether the multipliers are unknowns.
+    pub unknown: bool,
+    /// Multipliers where they are unknowns: pressure, and shear traction.
+    pub multiplier: [f64; 3],
+    /// What the enforcement pulls the multipliers to: zero pressure and the shear carried over in a perturbed Lagrangian, the last estimate in an augmented
+    /// one.
+    pub centre: [f64; 3],
+    /// Shear traction carried over from the last accepted state.
+    pub shear: [f64; 2],
+}
+
+/// Motion along the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sliding {
+    /// What friction sees as slip over the increment, along the frame, belt included `[m]`: velocity at its end times its length in dynamics, the slip itself
+    /// in statics.
+    pub seen: [f64; 2],
+    /// The slip itself, belt included `[m]`, where it is not what friction sees.
+    pub path: Option<[f64; 2]>,
+    /// Slip per limit `[m/Pa]` over which a regularised rule is smoothed at least; zero but in a continuation.
+    pub softness: f64,
+    /// Slack of the slip rule, see [`Tangential::slack`](crate::contact::law::slip::Tangential::slack).
+    pub slack: f64,
+}
+
+/// Answers of laws that are asked for all points at once.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Answers {
+    /// Pressure at the gap.
+    pub pressure: Option<Slope>,
+    /// Limit of the shear traction.
+    pub limit: Option<Limit>,
+}
+
+/// A status that a point is frozen in until the rest has settled. The branch of the laws that belongs to it goes on where they would leave it, so
+/// that what is solved is smooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Frozen {
+    /// Nothing acts, even if the point penetrates.
+    Open,
+    /// In contact even if that takes tension, sticking even beyond the limit.
+    Stick,
+    /// In contact even if that takes tension, and sliding: shear traction in this direction, given in the frame, with length one.
+    Slip([f64; 2]),
+}

@@ -1,0 +1,91 @@
+//! The laws that act together at an interface.
+
+use crate::contact::enforcement::{EnforcementModel, Multipliers};
+use crate::contact::law::Wear;
+use crate::contact::law::damping::DampingModel;
+use crate::contact::law::friction::{FrictionLaw, FrictionModel};
+use crate::contact::law::normal::{NormalLaw, NormalModel};
+use crate::contact::law::own::Own;
+use crate::contact::law::slip::SlipModel;
+
+/// The laws of an interface.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Laws {
+    /// Pressure against gap.
+    pub normal: NormalModel,
+    /// Pressure while surfaces approach or part.
+    pub damping: DampingModel,
+    /// Limit of the shear traction.
+    pub friction: FrictionModel,
+    /// Stick and slip.
+    pub slip: SlipModel,
+    /// How contact and stick are enforced.
+    pub enforcement: EnforcementModel,
+    /// The surfaces are glued: neither gap nor slip changes, and the laws have no meaning.
+    pub tied: bool,
+    /// What sliding wears off, if that is followed.
+    pub wear: Option<Wear>,
+    /// Laws of the program that take the place of `normal` and `friction`.
+    pub own: Own,
+}
+
+impl Laws {
+    /// The laws in a few words, for reports.
+    pub fn describe(&self) -> String {
+        use crate::registry::Family;
+        if self.tied {
+            return format!("tied, {}", self.enforcement.kind());
+        }
+        format!(
+            "normal {}, friction {}, slip {}, {}",
+            self.own
+                .normal
+                .as_ref()
+                .map_or(self.normal.kind(), |_| "own"),
+            self.own
+                .friction
+                .as_ref()
+                .map_or(self.friction.kind(), |_| "own"),
+            self.slip.kind(),
+            self.enforcement.kind()
+        )
+    }
+
+    /// The normal law that counts.
+    pub fn normal_law(&self) -> &dyn NormalLaw {
+        match &self.own.normal {
+            Some(own) => own,
+            None => self.normal.as_dyn(),
+        }
+    }
+
+    /// The friction law that counts.
+    pub fn friction_law(&self) -> &dyn FrictionLaw {
+        match &self.own.friction {
+            Some(own) => own,
+            None => self.friction.as_dyn(),
+        }
+    }
+
+    /// Whether the normal law has no pressure of its own at a gap. A law of the program is not asked: it has one.
+    pub fn set_valued(&self) -> bool {
+        self.own.normal.is_none() && self.normal.as_dyn().pressure(0.0).is_none()
+    }
+
+    /// Whether the multipliers are unknowns of Newton's iteration.
+    pub fn unknown_multipliers(&self) -> bool {
+        // Where the laws themselves say pressure and shear there is nothing to enforce.
+        self.enforcement.as_dyn().multipliers() != Multipliers::None
+            && (self.needs_normal_stiffness() || self.needs_tangential_stiffness())
+    }
+
+    /// Whether a normal stiffness is needed: set-valued laws have no pressure of their own.
+    pub fn needs_normal_stiffness(&self) -> bool {
+        self.tied || self.set_valued()
+    }
+
+    /// Whether shear traction needs a stiffness of sticking.
+    pub fn needs_tangential_stiffness(&self) -> bool {
+        self.tied || (self.friction_law().frictional() && self.slip.as_dyn().sticks())
+    }
+}

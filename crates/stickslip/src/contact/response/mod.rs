@@ -1,0 +1,11 @@
+//! From gap and slip to traction.
+
+mod input;
+mod laws;
+mod outcome;
+mod respond;
+mod shear;
+
+pub use input::{Answers, Frozen, Kept, LawInput, Sliding, Stiffnesses};
+pub use laws::Laws;
+pub use outcome::{Response, Status};

@@ -1,0 +1,34 @@
+//! What laws answer: traction with its derivatives, and status.
+
+/// Status of a contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+pub enum Status {
+    /// Not in contact.
+    #[default]
+    Open,
+    /// In contact without slip.
+    Stick,
+    /// In contact and sliding.
+    Slip,
+}
+
+/// Traction on the secondary in the frame `(normal, 1, 2)` and its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Response {
+    /// Pressure and shear `[Pa]`.
+    pub traction: [f64; 3],
+    /// Derivatives with respect to gap and slips (as friction sees them) `[Pa/m]`.
+    pub d_gap: [[f64; 3]; 3],
+    /// Derivatives with respect to the skew `[Pa]`.
+    pub d_skew: [f64; 3],
+    /// Derivatives with respect to the multipliers, for a perturbed Lagrangian `[-]`.
+    pub d_multiplier: [[f64; 3]; 3],
+    /// Largest shear `[Pa]`.
+    pub limit: f64,
+    /// Open, stick or slip.
+    pub status: Status,
+    /// Irreversible slip since the last accepted state `[m]`.
+    pub sliding_path: [f64; 2],
+    /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
+    pub damping: f64,
+}

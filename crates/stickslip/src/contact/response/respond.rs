@@ -1,0 +1,144 @@
+//! From gap and slip to traction, in the frame of a stencil: normal law × friction law × slip rule × enforcement.
+
+use super::input::{Frozen, LawInput};
+use super::laws::Laws;
+use super::outcome::{Response, Status};
+use crate::contact::enforcement::pressure;
+use crate::contact::kinematics::Stencil;
+use crate::contact::law::friction::FrictionPoint;
+use crate::contact::law::slip::Tangential;
+
+/// Gap and slip tied to zero, in tension too.
+fn tie(stencil: &Stencil, at: &LawInput) -> Response {
+    let mut response = Response {
+        status: Status::Stick,
+        limit: f64::INFINITY,
+        ..Response::default()
+    };
+    let moved = [stencil.gap - at.rest, at.slip.seen[0], at.slip.seen[1]];
+    let carried = [0.0, at.kept.shear[0], at.kept.shear[1]];
+    for q in 0..3 {
+        let stiffness = match q {
+            0 => at.stiffness.normal,
+            _ => at.stiffness.tangential,
+        };
+        let (stiffness, base) = if at.kept.unknown {
+            let keep = 1.0 - at.stiffness.weight / stiffness;
+            response.d_multiplier[q][q] = keep;
+            let base = keep * at.kept.multiplier[q] + (1.0 - keep) * at.kept.centre[q];
+            (at.stiffness.weight, base)
+        } else {
+            (stiffness, carried[q])
+        };
+        response.traction[q] = base - stiffness * moved[q];
+        response.d_gap[q][q] = -stiffness;
+    }
+    response
+}
+
+impl Laws {
+    /// Evaluates the laws at a stencil.
+    ///
+    /// Where multipliers are unknowns the traction returned is what the multipliers `Σ` have to equal,
+    /// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + (Σ_n - λ_n)/ω` (with λ = 0 the paper's
+    /// `G - Σ/ω`, whose `Σ_n` is negative in compression) and `C_t = s + (Σ_t - λ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
+    /// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
+    /// send points from slip in one direction to slip in the other.
+    pub fn respond(&self, stencil: &Stencil, at: &LawInput) -> Response {
+        let unknown = at.kept.unknown;
+        if self.tied {
+            return tie(stencil, at);
+        }
+        if at.frozen == Some(Frozen::Open) {
+            return Response::default();
+        }
+        let mut response = self.press(stencil.gap - at.rest, at, unknown);
+        let pressure = response.traction[0];
+        let friction = self.friction_law();
+        let pressed = pressure > 0.0 || at.frozen.is_some();
+        if pressed {
+            response.status = if friction.frictional() {
+                Status::Stick
+            } else {
+                Status::Slip
+            };
+        } else if at.stiffness.first_contact > 0.0 {
+            let sides = if friction.frictional() { 3 } else { 1 };
+            for i in 0..sides {
+                response.d_gap[i][i] = -at.stiffness.first_contact;
+            }
+        }
+        if !friction.frictional() || !pressed {
+            return response;
+        }
+        self.shear(stencil, at, &mut response);
+        response
+    }
+
+    /// The normal part: pressure and its derivatives.
+    fn press(&self, gap: f64, at: &LawInput, unknown: bool) -> Response {
+        let normal = self.normal_law();
+        let set_valued = || at.answers.pressure.is_none() && normal.pressure(gap).is_none();
+        let mut response = Response::default();
+        if unknown && set_valued() {
+            let keep = 1.0 - at.stiffness.weight / at.stiffness.normal;
+            let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
+                - at.stiffness.weight * gap;
+            if p > 0.0 || at.frozen.is_some() {
+                response.traction[0] = p;
+                response.d_gap[0][0] = -at.stiffness.weight;
+                response.d_multiplier[0][0] = keep;
+            }
+            return response;
+        }
+        if at.frozen.is_some() && set_valued() {
+            response.traction[0] = -at.stiffness.normal * gap;
+            response.d_gap[0][0] = -at.stiffness.normal;
+            return response;
+        }
+        let asked = || pressure(normal, gap, at.stiffness.normal);
+        let p = at.answers.pressure.unwrap_or_else(asked);
+        response.traction[0] = p.value;
+        response.d_gap[0][0] = p.slope;
+        self.damp(at, &mut response);
+        response
+    }
+
+    /// Adds what damping does to a pressure that follows from the gap. Surfaces do not pull: what would is cut off.
+    fn damp(&self, at: &LawInput, response: &mut Response) {
+        let damping = self.damping.as_dyn();
+        let elastic = response.traction[0];
+        if !damping.active() || elastic <= 0.0 {
+            return;
+        }
+        let extra = damping.extra(elastic, at.closing);
+        if elastic + extra.value <= 0.0 {
+            response.damping = -elastic;
+            response.traction[0] = 0.0;
+            response.d_gap[0][0] = 0.0;
+            return;
+        }
+        response.damping = extra.value;
+        response.traction[0] += extra.value;
+        // the closing velocity falls with the gap
+        response.d_gap[0][0] =
+            response.d_gap[0][0] * (1.0 + extra.d_pressure) - extra.d_rate / at.dt;
+    }
+
+    /// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.
+    pub fn question(&self, stencil: &Stencil, at: &LawInput) -> Option<FrictionPoint> {
+        if self.tied || at.frozen == Some(Frozen::Open) || !self.friction_law().frictional() {
+            return None;
+        }
+        let pressure = self
+            .press(stencil.gap - at.rest, at, at.kept.unknown)
+            .traction[0];
+        let motion = Tangential {
+            skew: stencil.skew,
+            ..Tangential::default()
+        };
+        let path = motion.length(at.slip.seen);
+        (pressure > 0.0 || at.frozen.is_some())
+            .then(|| Self::friction_point(stencil, at, pressure, path))
+    }
+}

@@ -1,0 +1,130 @@
+//! The tangential part of a response.
+
+use super::input::{Frozen, LawInput};
+use super::laws::Laws;
+use super::outcome::{Response, Status};
+use crate::contact::kinematics::Stencil;
+use crate::contact::law::friction::{FrictionPoint, Limit};
+use crate::contact::law::slip::{SlipRule, SlipState, Tangential};
+
+/// The part of the multiplier that its row keeps; zero where multipliers are no unknowns.
+fn kept(at: &LawInput) -> f64 {
+    if at.kept.unknown && at.stiffness.tangential.is_finite() {
+        1.0 - at.stiffness.weight / at.stiffness.tangential
+    } else {
+        0.0
+    }
+}
+
+/// The motion as the slip rule sees it.
+fn tangential(stencil: &Stencil, at: &LawInput, keep: f64) -> Tangential {
+    let (stiffness, base) = match at.kept.unknown {
+        true => (
+            at.stiffness.weight,
+            [1, 2].map(|i| keep * at.kept.multiplier[i] + (1.0 - keep) * at.kept.centre[i]),
+        ),
+        false => (at.stiffness.tangential, at.kept.shear),
+    };
+    Tangential {
+        slip: at.slip.seen,
+        dt: at.dt,
+        stiffness,
+        base,
+        skew: stencil.skew,
+        smoothing: 0.0,
+        slack: at.slip.slack,
+    }
+}
+
+impl Laws {
+    /// What a friction law is asked, of a point that has come this way.
+    pub(super) fn friction_point(
+        stencil: &Stencil,
+        at: &LawInput,
+        pressure: f64,
+        path: f64,
+    ) -> FrictionPoint {
+        FrictionPoint {
+            pressure: pressure.max(0.0),
+            penetration: (-stencil.gap).max(0.0),
+            speed: path / at.dt,
+            sticking: at.sticking,
+        }
+    }
+
+    /// The largest shear that may be carried.
+    fn limit(&self, stencil: &Stencil, at: &LawInput, pressure: f64, path: f64) -> Limit {
+        let asked = || {
+            let point = Self::friction_point(stencil, at, pressure, path);
+            self.friction_law().limit(&point)
+        };
+        let mut limit = at.answers.limit.unwrap_or_else(asked);
+        limit.value *= at.mobilised;
+        limit.d_pressure *= at.mobilised;
+        limit.d_penetration *= at.mobilised;
+        limit.d_speed *= at.mobilised;
+        if pressure < 0.0 {
+            limit.d_pressure = 0.0;
+        }
+        limit
+    }
+
+    /// The tangential part, added to a response with pressure.
+    pub(super) fn shear(&self, stencil: &Stencil, at: &LawInput, response: &mut Response) {
+        let keep = kept(at);
+        let motion = tangential(stencil, at, keep);
+        let path = motion.length(motion.slip);
+        let limit = self.limit(stencil, at, response.traction[0], path);
+        let motion = Tangential {
+            smoothing: at.slip.softness * limit.value / at.dt,
+            ..motion
+        };
+        let rule: &dyn SlipRule = self.slip.as_dyn();
+        let shear = match at.frozen {
+            None | Some(Frozen::Open) => rule.traction(limit.value, &motion),
+            Some(Frozen::Stick) => rule.stuck(limit.value, &motion),
+            Some(Frozen::Slip(direction)) => SlipState {
+                traction: direction.map(|d| limit.value * d),
+                d_limit: direction,
+                sliding: true,
+                sliding_path: motion.slip,
+                ..SlipState::default()
+            },
+        };
+        response.limit = limit.value;
+        response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
+        if shear.sliding {
+            response.status = Status::Slip;
+        }
+        // penetration = -gap where closed
+        let d_penetration = if stencil.gap < 0.0 {
+            limit.d_penetration
+        } else {
+            0.0
+        };
+        let d_limit_gap = limit.d_pressure * response.d_gap[0][0] - d_penetration;
+        let toward = if path > 0.0 && limit.d_speed != 0.0 {
+            motion.length_slope(motion.slip, path)
+        } else {
+            [0.0; 2]
+        };
+        for i in 0..2 {
+            // the smoothing follows the limit
+            let d_limit = shear.d_limit[i] + shear.d_smoothing[i] * at.slip.softness / at.dt;
+            response.traction[i + 1] = shear.traction[i];
+            response.d_gap[i + 1][0] = d_limit * d_limit_gap;
+            response.d_skew[i + 1] = shear.d_skew[i];
+            response.d_multiplier[i + 1][0] =
+                d_limit * limit.d_pressure * response.d_multiplier[0][0];
+            for (j, toward) in toward.iter().enumerate() {
+                response.d_gap[i + 1][j + 1] =
+                    shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
+                if keep != 0.0 && rule.sticks() {
+                    // the trial traction is keep Σ_t + … - r s
+                    response.d_multiplier[i + 1][j + 1] =
+                        -keep * shear.d_slip[i][j] / at.stiffness.weight;
+                }
+            }
+        }
+    }
+}
