@@ -5,8 +5,9 @@
 //! integral over the facet itself. The error is taken away, shared by the pieces according to their areas. It has no resultant and no
 //! moment, so that neither force nor gap of a flat surface changes.
 
-use super::integrate::{Entry, FaceIntegral, Sides};
-use super::{FACE_NODES, Face};
+use super::face::{FACE_NODES, Face};
+use super::integral::{Entry, FaceIntegral};
+use super::sides::Sides;
 use crate::math::{Vec3, add_scaled, cross, distance, norm, scale};
 use crate::shape::{ElementKind, mass_rule};
 

@@ -1,6 +1,6 @@
 //! Functions of the multipliers.
 
-use super::FACE_NODES;
+use super::face::FACE_NODES;
 use crate::math::{Vec3, add_scaled, cross, norm};
 use crate::shape::{ElementKind, mass_rule};
 

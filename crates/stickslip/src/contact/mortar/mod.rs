@@ -13,55 +13,24 @@
 //! The gradient of the gap is that of the integral at fixed places of the secondary. What moves with the cuts drops out, as the integrand is
 //! continuous across them. The change of the gradient itself, of the size of pressure over modulus, is left out of the tangent.
 
+mod cells;
 mod clip;
 mod correct;
 mod dual;
+mod face;
+mod integral;
 mod integrate;
+mod interval;
+mod plane;
 mod rules;
+mod sides;
+mod sum;
+mod view;
+mod window;
 
 pub use correct::correct;
 pub use dual::{mean_weights, positive_areas};
-pub use integrate::{FaceIntegral, Scratch, Sides, integrate};
-
-use crate::math::Vec3;
-use crate::shape::ElementKind;
-
-/// Most nodes of a face.
-pub const FACE_NODES: usize = 8;
-
-/// A face of the secondary.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Face {
-    /// Line, triangle or quadrilateral, linear or quadratic.
-    pub kind: ElementKind,
-    /// Its nodes, oriented so that the normal points out of the body.
-    pub nodes: Vec<usize>,
-    /// The contact point of each node.
-    pub points: Vec<usize>,
-    /// Unit normal at each node out of the body, averaged where the surface is smooth, in the reference configuration.
-    pub normals: Vec<Vec3>,
-    /// Extent out of the plane at each node: thickness or `2πr` `[m]`; one in 3D.
-    pub extents: Vec<f64>,
-}
-
-/// The secondary as faces.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Mortar {
-    /// The faces.
-    pub faces: Vec<Face>,
-    /// Faces around each contact point, and its position among their nodes.
-    pub around: Vec<Vec<(usize, usize)>>,
-}
-
-impl Mortar {
-    /// From faces, for this many contact points.
-    pub fn new(faces: Vec<Face>, points: usize) -> Self {
-        let mut around = vec![Vec::new(); points];
-        for (f, face) in faces.iter().enumerate() {
-            for (a, &point) in face.points.iter().enumerate() {
-                around[point].push((f, a));
-            }
-        }
-        Mortar { faces, around }
-    }
-}
+pub use face::{FACE_NODES, Face, Mortar};
+pub use integral::FaceIntegral;
+pub use integrate::{Scratch, integrate};
+pub use sides::Sides;

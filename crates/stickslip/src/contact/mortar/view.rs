@@ -1,0 +1,178 @@
+//! A face as it lies now, and what a ray from it meets.
+
+use super::clip::Point;
+use super::dual::positive;
+use super::face::{FACE_NODES, Face};
+use crate::math::{Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, sub};
+use crate::shape::ElementKind;
+
+/// Cosine of the angle by which a facet has to look back at a face.
+const FACING: f64 = 0.1;
+
+/// The same at a single place of a curved one.
+const LEAST_FACING: f64 = 0.5 * FACING;
+
+/// Steps of Newton's method for the place where a ray meets a facet; a step in reference coordinates after which it is there, and one that leads nowhere.
+const ITERATIONS: usize = 20;
+const SETTLED: f64 = 1e-8;
+const FAR: f64 = 1e3;
+
+/// A quadrature point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// Weight and reference area.
+    pub w: f64,
+    /// Shape functions of the face, and those with positive integrals.
+    pub n: [f64; FACE_NODES],
+    pub positive: [f64; FACE_NODES],
+    /// Index of the piece, and the shape functions of its facet.
+    pub piece: usize,
+    pub opposite: [f64; FACE_NODES],
+    pub place: Point,
+    pub gap: f64,
+    /// Gradient of the gap with respect to the place on the secondary.
+    pub direction: Vec3,
+}
+
+/// Position, base vectors and shape functions of a facet.
+pub(super) struct Place {
+    pub n: [f64; FACE_NODES],
+    pub x: Vec3,
+    pub a: [Vec3; 2],
+}
+
+/// Coordinates of the nodes of a face or facet.
+pub(super) fn gather(nodes: &[usize], x: &[Vec3]) -> [Vec3; FACE_NODES] {
+    let mut out = [[0.0; 3]; FACE_NODES];
+    for (o, &n) in out.iter_mut().zip(nodes) {
+        *o = x[n];
+    }
+    out
+}
+
+/// A place on a face or facet.
+pub(super) fn place(kind: ElementKind, x: &[Vec3], xi: Point) -> Place {
+    let count = kind.node_count();
+    let at = [xi[0], xi[1], 0.0];
+    let mut n = [0.0; FACE_NODES];
+    let mut d = [[0.0; 3]; FACE_NODES];
+    kind.reference().values(at, &mut n[..count]);
+    kind.reference().gradients(at, &mut d[..count]);
+    let mut p = Place {
+        n,
+        x: [0.0; 3],
+        a: [[0.0; 3]; 2],
+    };
+    for (k, &c) in x.iter().enumerate().take(count) {
+        p.x = add_scaled(p.x, n[k], c);
+        p.a[0] = add_scaled(p.a[0], d[k][0], c);
+        p.a[1] = add_scaled(p.a[1], d[k][1], c);
+    }
+    if kind.dim() == 1 {
+        p.a[1] = [0.0, 0.0, 1.0];
+    }
+    p
+}
+
+/// Where a ray from `from` along `n` meets a facet: the facet there and the signed distance.
+fn hit(kind: ElementKind, x: &[Vec3], from: Vec3, n: Vec3, xi: &mut Point) -> Option<(Place, f64)> {
+    let affine = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
+    for _ in 0..ITERATIONS {
+        let p = place(kind, x, *xi);
+        // a1 Δξ + a2 Δη - n s = from - x
+        let matrix: Mat3 = std::array::from_fn(|i| [p.a[0][i], p.a[1][i], -n[i]]);
+        let (inverse, _) = inverse(&matrix)?;
+        let step = mat_vec(&inverse, sub(from, p.x));
+        let longest = step[0].abs().max(step[1].abs());
+        if !longest.is_finite() || longest > FAR {
+            return None;
+        }
+        xi[0] += step[0];
+        xi[1] += step[1];
+        if affine || longest < SETTLED {
+            let p = place(kind, x, *xi);
+            let away = sub(p.x, from);
+            return Some((p, dot(away, n)));
+        }
+    }
+    None
+}
+
+/// The face as its nodes see it now.
+pub(super) struct View<'a> {
+    pub face: &'a Face,
+    pub x: [Vec3; FACE_NODES],
+    pub reference: [Vec3; FACE_NODES],
+    pub normals: [Vec3; FACE_NODES],
+}
+
+impl View<'_> {
+    /// Unit normal at a place with these shape functions.
+    fn normal(&self, n: &[f64; FACE_NODES]) -> Vec3 {
+        let mut sum = [0.0; 3];
+        for (normal, &n) in self.normals.iter().zip(n) {
+            sum = add_scaled(sum, n, *normal);
+        }
+        normalize(sum).unwrap_or(sum)
+    }
+
+    /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there.
+    pub fn sample(
+        &self,
+        xi: Point,
+        w: f64,
+        facet: (usize, ElementKind, &[Vec3]),
+        start: &mut Point,
+        out: &mut Vec<Sample>,
+    ) {
+        let kind = self.face.kind;
+        let there = place(kind, &self.reference, xi);
+        let area = match kind.dim() {
+            1 => norm(there.a[0]),
+            _ => norm(cross(there.a[0], there.a[1])),
+        };
+        let n = there.n;
+        let extent: f64 = self.face.extents.iter().zip(&n).map(|(e, n)| e * n).sum();
+        let mut from = [0.0; 3];
+        for (x, &n) in self.x.iter().zip(&n).take(kind.node_count()) {
+            from = add_scaled(from, n, *x);
+        }
+        let normal = self.normal(&n);
+        let (piece, facet_kind, facet) = facet;
+        let Some((p, gap)) = hit(facet_kind, facet, from, normal, start) else {
+            return;
+        };
+        let Some(m) = normalize(cross(p.a[0], p.a[1])) else {
+            return;
+        };
+        let facing = -dot(normal, m);
+        if facing < LEAST_FACING {
+            return;
+        }
+        let mut positives = n;
+        positive(kind, &mut positives);
+        out.push(Sample {
+            w: w * area * extent,
+            n,
+            positive: positives,
+            piece,
+            opposite: p.n,
+            place: *start,
+            gap,
+            direction: m.map(|m| m / facing),
+        });
+    }
+
+    /// Normal of a straight cell of the face.
+    pub fn cell_normal(&self, cell: &[usize]) -> Vec3 {
+        let sum = (cell.iter()).fold([0.0; 3], |s, &k| add_scaled(s, 1.0, self.normals[k]));
+        normalize(sum).unwrap_or(sum)
+    }
+}
+
+/// Whether a facet looks back along `normal`.
+pub(super) fn looks_back(kind: ElementKind, x: &[Vec3], normal: Vec3) -> bool {
+    let centre = kind.centre();
+    let p = place(kind, x, [centre[0], centre[1]]);
+    normalize(cross(p.a[0], p.a[1])).is_some_and(|m| dot(m, normal) < -FACING)
+}
