@@ -266,6 +266,26 @@ impl Interface {
         gaps
     }
 
+    /// Forces on the nodes in the last evaluation: those that the bodies resist, gradients of gap and slip and all. Pressure and shear times the
+    /// weights of the nodes have the same sum, but where the gradient of a gap or slip turns from node to node they are other forces.
+    fn nodal_forces(&self, active: bool) -> Vec<Vec3> {
+        let mut forces = vec![[0.0; 3]; self.nodes.len()];
+        let last = &self.cache.last;
+        for (i, e) in last.points.iter().enumerate().filter(|_| active) {
+            let batch = last.batch(i);
+            let Some(force) = batch.force(e) else {
+                continue;
+            };
+            // Residuals are internal less external forces.
+            for (&(node, _), part) in batch.sides(e).iter().zip(force.chunks(self.dofs.dim)) {
+                for (total, f) in forces[node].iter_mut().zip(part) {
+                    *total -= f;
+                }
+            }
+        }
+        forces
+    }
+
     /// Enters the work of a moving obstacle: force times shift and moment times angle, by the trapezoidal rule.
     fn push(&mut self, stage: &Stage) {
         let Primary::Rigid(_, motion) = &self.primary else {

@@ -3,12 +3,13 @@
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
-use super::evaluation::{Evaluation, Evaluations};
+use super::evaluation::Evaluations;
 use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
-use crate::contact::mortar::FACE_NODES;
-use crate::contact::projection::{evaluate, invert2};
+use crate::contact::mortar::{Face, FaceIntegral, Piece};
+use crate::contact::projection::{FACET_NODES, evaluate, invert2};
+use crate::contact::surface::Facet;
 use crate::math::{Vec3, add_scaled, dot};
-use crate::system::{Assembler, Tangent};
+use crate::system::{Assembler, Dofs, Tangent};
 
 /// Faces handled by one task.
 const CHUNK: usize = 8;
@@ -66,7 +67,137 @@ fn add_shear(pair: &Pair, t: Vec3, out: &mut [f64]) {
     }
 }
 
+/// Pressure and shear in space of a point, over its share of the area.
+type Carried = (f64, Vec3);
+
+/// Faces of a mortar and where they are.
+struct Curvature<'a> {
+    dim: usize,
+    dofs: Dofs,
+    /// Points of the mesh by node of the interface.
+    nodes: &'a [usize],
+    x: &'a [Vec3],
+    facets: &'a [Facet],
+}
+
+impl Curvature<'_> {
+    /// The block of a face whose nodes carry something; `None` if they do not.
+    fn block(
+        &self,
+        face: &Face,
+        integral: &FaceIntegral,
+        own: &[Option<Carried>],
+        room: &mut Vec<f64>,
+    ) -> Option<Block> {
+        if own.iter().all(Option::is_none) || integral.pieces.is_empty() {
+            return None;
+        }
+        let nodes = face.nodes.iter().chain(&integral.nodes);
+        let dofs: Vec<usize> = nodes
+            .flat_map(|&node| (0..self.dim).map(move |c| (node, c)))
+            .map(|(node, c)| self.dofs.of(self.nodes[node], c))
+            .collect();
+        let n = dofs.len();
+        let mut block = Block {
+            dofs,
+            hessian: vec![0.0; n * n],
+        };
+        for piece in &integral.pieces {
+            let (mut pressure, mut shear) = (0.0, [0.0; 3]);
+            for (own, share) in own.iter().zip(piece.shares) {
+                if let Some((p, t)) = own {
+                    pressure += share * p;
+                    shear = add_scaled(shear, share, *t);
+                }
+            }
+            if piece.area > 0.0 && (pressure != 0.0 || shear != [0.0; 3]) {
+                self.element(face, piece, (pressure, shear), room);
+                self.put(face, integral, piece, room, &mut block.hessian);
+            }
+        }
+        Some(block)
+    }
+
+    /// The second derivatives of the contact element of a piece at its middle, in `room`.
+    fn element(&self, face: &Face, piece: &Piece, carried: Carried, room: &mut Vec<f64>) {
+        let (pressure, shear) = carried;
+        let facet = &self.facets[piece.facet];
+        let mut corners = [[0.0; 3]; FACET_NODES];
+        let corners = facet.gather(self.x, &mut corners);
+        let place = piece.place.map(|p| p / piece.area);
+        let foot = evaluate(facet.kind, corners, place);
+        let weights = piece.own.map(|w| w / piece.area);
+        let weights = &weights[..face.nodes.len()];
+        let point = (face.nodes.iter().zip(weights))
+            .fold([0.0; 3], |s, (&node, &w)| add_scaled(s, w, self.x[node]));
+        let pair = Pair {
+            dim: self.dim,
+            weights,
+            point,
+            kind: facet.kind,
+            facet: corners,
+            foot: &foot,
+            anchor: &foot,
+            point_before: point,
+            belt: [0.0; 3],
+        };
+        room.clear();
+        room.resize(pair.dofs() * pair.dofs(), 0.0);
+        // The second derivatives of the gap do not ask for the stencil.
+        let unused = Stencil::default();
+        Convective {}.add_hessian(&pair, &unused, [-pressure, 0.0, 0.0], room);
+        add_shear(&pair, shear, room);
+    }
+
+    /// Adds those of a piece to the block of its face.
+    fn put(
+        &self,
+        face: &Face,
+        integral: &FaceIntegral,
+        piece: &Piece,
+        room: &[f64],
+        hessian: &mut [f64],
+    ) {
+        let (dim, facet) = (self.dim, &self.facets[piece.facet]);
+        let n = (face.nodes.len() + integral.nodes.len()) * dim;
+        let m = (face.nodes.len() + facet.nodes.len()) * dim;
+        // where the nodes of the pair stand in the block
+        let theirs = facet.nodes.iter().filter_map(|node| {
+            let k = integral.nodes.iter().position(|n| n == node)?;
+            Some(face.nodes.len() + k)
+        });
+        let at: Vec<usize> = (0..face.nodes.len()).chain(theirs).collect();
+        for (i, &a) in at.iter().enumerate() {
+            for (j, &b) in at.iter().enumerate() {
+                for c in 0..dim {
+                    for d in 0..dim {
+                        hessian[(a * dim + c) * n + b * dim + d] +=
+                            room[(i * dim + c) * m + j * dim + d];
+                    }
+                }
+            }
+        }
+    }
+}
+
 impl Interface {
+    /// Pressure and shear of a point at the node of a face; `None` if it carries nothing.
+    fn carried(&self, evaluations: &Evaluations, point: usize) -> Option<Carried> {
+        let e = evaluations.points.get(point)?;
+        let t = match self.unknown() {
+            true => e.multiplier,
+            false => e.response.traction,
+        };
+        (t != [0.0; 3]).then(|| {
+            let [first, second] = e.frames.now;
+            let along = first.map(|x| self.share * t[1] * x);
+            (
+                self.share * t[0],
+                add_scaled(along, self.share * t[2], second),
+            )
+        })
+    }
+
     /// Adds the curvature of the gaps and slips that carry something, face by face: of the contact element of each piece at its middle, weighted by what
     /// the piece carries.
     pub(super) fn add_curvature(&self, evaluations: &Evaluations, out: &mut Assembler) {
@@ -76,111 +207,24 @@ impl Interface {
         if !out.wants_tangent || !out.wants_curvature || self.kinematics.as_dyn().frozen() {
             return;
         }
-        let unknown = self.unknown();
-        // Pressure and shear in space of the point at a node of a face, over its share of the area.
-        let carried = |point: usize| -> Option<(f64, Vec3)> {
-            let e: &Evaluation = evaluations.points.get(point)?;
-            let t = if unknown {
-                e.multiplier
-            } else {
-                e.response.traction
-            };
-            (t != [0.0; 3]).then(|| {
-                let shear = add_scaled(
-                    e.frames.now[0].map(|x| self.share * t[1] * x),
-                    self.share * t[2],
-                    e.frames.now[1],
-                );
-                (self.share * t[0], shear)
-            })
+        let curvature = Curvature {
+            dim: self.dofs.dim,
+            dofs: self.dofs,
+            nodes: &self.nodes,
+            x: &self.cache.x,
+            facets,
         };
-        let x = &self.cache.x;
-        let dim = self.dofs.dim;
         let faces = mortar.faces.par_chunks(CHUNK);
         let blocks: Vec<Vec<Block>> = faces
             .zip(self.cache.integrals.par_chunks(CHUNK))
             .map(|(faces, integrals)| {
                 let mut room = Vec::new();
-                // The second derivatives of the gap do not ask for it.
-                let unused = Stencil::default();
-                let mut made = Vec::new();
-                for (face, integral) in faces.iter().zip(integrals) {
-                    let own: Vec<_> = face.points.iter().map(|&p| carried(p)).collect();
-                    if own.iter().all(Option::is_none) || integral.pieces.is_empty() {
-                        continue;
-                    }
-                    let nodes: Vec<usize> = (face.nodes.iter())
-                        .chain(&integral.nodes)
-                        .copied()
-                        .collect();
-                    let n = nodes.len() * dim;
-                    let mut block = Block {
-                        dofs: (nodes.iter())
-                            .flat_map(|&node| (0..dim).map(move |c| (node, c)))
-                            .map(|(node, c)| self.dofs.of(self.nodes[node], c))
-                            .collect(),
-                        hessian: vec![0.0; n * n],
-                    };
-                    for piece in &integral.pieces {
-                        let (mut pressure, mut shear) = (0.0, [0.0; 3]);
-                        for (own, share) in own.iter().zip(piece.shares) {
-                            if let Some((p, t)) = own {
-                                pressure += share * p;
-                                shear = add_scaled(shear, share, *t);
-                            }
-                        }
-                        if piece.area <= 0.0 || (pressure == 0.0 && shear == [0.0; 3]) {
-                            continue;
-                        }
-                        let facet = &facets[piece.facet];
-                        let mut corners = [[0.0; 3]; FACE_NODES];
-                        for (c, &node) in corners.iter_mut().zip(&facet.nodes) {
-                            *c = x[node];
-                        }
-                        let corners = &corners[..facet.nodes.len()];
-                        let place = piece.place.map(|p| p / piece.area);
-                        let foot = evaluate(facet.kind, corners, place);
-                        let weights = piece.own.map(|w| w / piece.area);
-                        let weights = &weights[..face.nodes.len()];
-                        let point = (face.nodes.iter().zip(weights))
-                            .fold([0.0; 3], |s, (&node, &w)| add_scaled(s, w, x[node]));
-                        let pair = Pair {
-                            dim,
-                            weights,
-                            point,
-                            kind: facet.kind,
-                            facet: corners,
-                            foot: &foot,
-                            anchor: &foot,
-                            point_before: point,
-                            belt: [0.0; 3],
-                        };
-                        room.clear();
-                        room.resize(pair.dofs() * pair.dofs(), 0.0);
-                        let weights = [-pressure, 0.0, 0.0];
-                        Convective {}.add_hessian(&pair, &unused, weights, &mut room);
-                        add_shear(&pair, shear, &mut room);
-                        // where the nodes of the pair stand in the block
-                        let theirs = facet.nodes.iter().filter_map(|node| {
-                            let k = integral.nodes.iter().position(|n| n == node)?;
-                            Some(face.nodes.len() + k)
-                        });
-                        let at: Vec<usize> = (0..face.nodes.len()).chain(theirs).collect();
-                        let m = pair.dofs();
-                        for (i, &a) in at.iter().enumerate() {
-                            for (j, &b) in at.iter().enumerate() {
-                                for c in 0..dim {
-                                    for d in 0..dim {
-                                        block.hessian[(a * dim + c) * n + b * dim + d] +=
-                                            room[(i * dim + c) * m + j * dim + d];
-                                    }
-                                }
-                            }
-                        }
-                    }
-                    made.push(block);
-                }
-                made
+                let block = |(face, integral): (&Face, &FaceIntegral)| {
+                    let points = face.points.iter();
+                    let own: Vec<_> = points.map(|&p| self.carried(evaluations, p)).collect();
+                    curvature.block(face, integral, &own, &mut room)
+                };
+                faces.iter().zip(integrals).filter_map(block).collect()
             })
             .collect();
         let mut zeros = Vec::new();

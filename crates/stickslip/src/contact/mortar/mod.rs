@@ -31,6 +31,6 @@ mod window;
 pub use correct::correct;
 pub use dual::{mean_weights, positive_areas};
 pub use face::{FACE_NODES, Face, Mortar};
-pub use integral::FaceIntegral;
+pub use integral::{FaceIntegral, Piece};
 pub use integrate::{Scratch, integrate};
 pub use sides::Sides;

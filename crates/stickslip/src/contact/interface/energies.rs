@@ -1,0 +1,57 @@
+//! Energies of an interface.
+
+use super::definition::Interface;
+use crate::system::Energy;
+
+impl Interface {
+    /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield, in both directions.
+    pub(super) fn stored_energy(&self) -> f64 {
+        if !self.history.acting {
+            return 0.0;
+        }
+        let own = self.law_energies();
+        (self.history.points.iter().enumerate())
+            .map(|(i, h)| {
+                let spring = if h.stiffness[0].is_finite() && self.laws.needs_normal_stiffness() {
+                    // what is left of the constraint's violation, a spring from λ to p
+                    let rest = self.history.rest.get(i).copied().unwrap_or(0.0);
+                    let left = rest - h.gap;
+                    // Tied surfaces pull as well, where something is opposite.
+                    let pulls = self.laws.tied && h.gap.is_finite();
+                    let left = if pulls { left } else { left.max(0.0) };
+                    0.5 * (h.pressure - h.damping) * left
+                } else {
+                    0.0
+                };
+                self.area_of(i) * (own[i] + spring + h.sheared)
+            })
+            .sum()
+    }
+
+    /// Energies at the last committed state.
+    pub fn energy(&self) -> Energy {
+        Energy {
+            stored: self.stored_energy(),
+            ..self.history.energy
+        }
+    }
+
+    /// Recoverable energy of the normal law alone `[J]`.
+    pub fn law_energy(&self) -> f64 {
+        let energies = self.law_energies();
+        let energies = energies.iter().enumerate();
+        energies.map(|(i, own)| self.area_of(i) * own).sum()
+    }
+
+    /// The same by point and per area `[J/m²]`.
+    fn law_energies(&self) -> Vec<f64> {
+        let gaps = self.history.points.iter().map(|h| h.gap);
+        match &self.laws.own.normal {
+            Some(own) => own.energies(&gaps.collect::<Vec<_>>()),
+            None => {
+                let law = self.laws.normal_law();
+                gaps.map(|gap| law.energy(gap)).collect()
+            }
+        }
+    }
+}

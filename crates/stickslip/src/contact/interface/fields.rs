@@ -1,0 +1,116 @@
+//! Output fields of an interface.
+
+use super::definition::Interface;
+use super::values::MEANS;
+use crate::system::{Fields, Location};
+
+/// Sums at a node: of values times shares, and of shares; the largest share, and the status of the point that has it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    values: [f64; MEANS.len()],
+    share: f64,
+    largest: f64,
+    status: f64,
+}
+
+impl Interface {
+    /// Adds the fields of the last committed state: CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
+    /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
+    /// their areas there; where both surfaces are secondary only of those that hang on it, as slip and shear of the other half have the other sign. Where no
+    /// interface is the values are NaN, except for forces, which are zero.
+    pub fn fields(&self, out: &mut Fields) {
+        let (points, dim) = (self.dofs.points, self.dofs.dim);
+        let sums = self.sums();
+        for (k, (name, _)) in MEANS.into_iter().enumerate() {
+            if dim == 2 && name.ends_with('2') {
+                continue;
+            }
+            let field = out.shared(name, Location::Point, 1, points, f64::NAN);
+            for (sum, &node) in sums.iter().zip(&self.nodes) {
+                if sum.share > 0.0 {
+                    field.values[node] = sum.values[k] / sum.share;
+                }
+            }
+        }
+        let field = out.shared("CSTATUS", Location::Point, 1, points, f64::NAN);
+        for (sum, &node) in sums.iter().zip(&self.nodes) {
+            if sum.share > 0.0 {
+                field.values[node] = sum.status;
+            }
+        }
+        let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);
+        for (&force, &node) in self.history.nodal.iter().zip(&self.nodes) {
+            for (total, f) in field.values[3 * node..].iter_mut().zip(force) {
+                *total += f;
+            }
+        }
+        self.add_traces(out);
+    }
+
+    /// What points give to the nodes that they hang on or lie over.
+    fn sums(&self) -> Vec<Sums> {
+        let half = self.share < 1.0;
+        let mut sums = vec![Sums::default(); self.nodes.len()];
+        for i in 0..self.history.points.len() {
+            let values = self.values(i);
+            if !values.gap.is_finite() {
+                continue;
+            }
+            let opposite = self.history.opposite.of(i).iter().filter(|_| !half);
+            for (node, w) in self.own_weights(i).chain(opposite.copied()) {
+                let share = values.area * w.max(0.0);
+                if share <= 0.0 {
+                    continue;
+                }
+                let at = &mut sums[node];
+                for (sum, (_, value)) in at.values.iter_mut().zip(MEANS) {
+                    *sum += share * value(&values);
+                }
+                at.share += share;
+                if share > at.largest {
+                    (at.largest, at.status) = (share, values.status);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Adds what sliding has left: CDISS, the energy dissipated per area `[J/m²]`, where there is friction, and CWEAR, the depth worn off
+    /// `[m]`, where wear is followed.
+    fn add_traces(&self, out: &mut Fields) {
+        let points = self.dofs.points;
+        let mut sums = vec![[0.0; 3]; self.nodes.len()];
+        for (i, h) in self.history.points.iter().enumerate() {
+            let area = self.area_of(i);
+            for (node, w) in self.own_weights(i) {
+                let share = area * w.max(0.0);
+                sums[node][0] += share * h.dissipated;
+                sums[node][1] += share * h.rubbed;
+                sums[node][2] += share;
+            }
+        }
+        // energy and depth: factors of the two accumulated numbers on the secondary and on the primary
+        let friction = self.laws.friction_law().frictional();
+        let wear = self.laws.wear;
+        let wear = wear.map(|w| [w.coefficient, w.primary_coefficient]);
+        let kinds = [
+            ("CDISS", 0, friction.then_some([1.0; 2])),
+            ("CWEAR", 1, wear),
+        ];
+        for (name, k, factors) in kinds {
+            let Some([own, other]) = factors else {
+                continue;
+            };
+            let field = out.shared(name, Location::Point, 1, points, f64::NAN);
+            for (sum, &node) in sums.iter().zip(&self.nodes) {
+                if sum[2] > 0.0 {
+                    field.values[node] = own * sum[k] / sum[2];
+                }
+            }
+            for local in self.primary_nodes() {
+                let trace = self.history.traces.get(local).map_or(0.0, |t| t[k]);
+                field.values[self.nodes[local]] = other * trace;
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What an interface carries, and where.
+
+use super::definition::{Interface, Primary};
+use crate::contact::response::Status;
+use crate::math::{Vec3, add, add_scaled, cross, norm, normalize, scale, sub};
+
+/// Forces of an interface on what the problem calls its secondary.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Resultant {
+    /// Sum of pressure forces `[N]`.
+    pub normal: Vec3,
+    /// Sum of shear forces `[N]`.
+    pub shear: Vec3,
+    /// Centre of pressure `[m]`; the origin where there is none.
+    pub centre: Vec3,
+    /// Moment of all forces about the origin `[N m]`.
+    pub moment: Vec3,
+    /// The part of it that shear has `[N m]`.
+    pub moment_of_shear: Vec3,
+    /// Area in contact `[m²]`.
+    pub area: f64,
+    /// Largest pressure `[Pa]`.
+    pub peak: f64,
+    /// Sum of the magnitudes of pressure forces, whatever their directions `[N]`.
+    pub total: f64,
+    /// The same of all forces, shear included `[N]`.
+    pub carried: f64,
+}
+
+/// What pressure and pull leave of their sum, relative to the sum of their magnitudes, where they have no centre.
+const CANCELLED: f64 = 1e-9;
+
+impl Interface {
+    /// Forces on the secondary, as it is named, at the last committed state `u`.
+    pub fn resultant(&self, u: &[f64]) -> Resultant {
+        let x = self.coordinates(u);
+        let mut r = Resultant::default();
+        // Tied surfaces pull as well as they press.
+        let mut signed = 0.0;
+        for (i, (p, h)) in self.points.iter().zip(&self.history.points).enumerate() {
+            if h.status == Status::Open {
+                continue;
+            }
+            let area = self.area_of(i);
+            let place = p.position(&x);
+            let normal = scale(h.pressure * area, h.normal);
+            let shear = scale(area, h.shear);
+            r.normal = add(r.normal, normal);
+            r.shear = add(r.shear, shear);
+            r.moment = add(r.moment, cross(place, add(normal, shear)));
+            r.moment_of_shear = add(r.moment_of_shear, cross(place, shear));
+            r.centre = add_scaled(r.centre, h.pressure * area, place);
+            signed += h.pressure * area;
+            r.total += h.pressure.abs() * area;
+            r.carried += h.pressure.hypot(norm(h.shear)) * area;
+            r.area += area;
+            r.peak = r.peak.max(h.pressure);
+        }
+        let averaged = self.points.iter().any(|p| p.nodes.len() > 1);
+        if matches!(self.primary, Primary::Rigid(..)) && averaged {
+            // The mean of normals around a point is shorter than one: what nodes are given is the force.
+            let all = self.history.nodal.iter().fold([0.0; 3], |s, &f| add(s, f));
+            r.normal = sub(all, r.shear);
+        }
+        r.centre = match signed.abs() > CANCELLED * r.total {
+            true => add(scale(1.0 / signed, r.centre), self.origin),
+            false => [0.0; 3],
+        };
+        // As the user counts.
+        r.moment = add(r.moment, cross(self.origin, add(r.normal, r.shear)));
+        for v in [&mut r.normal, &mut r.shear, &mut r.moment] {
+            *v = scale(self.named(), *v);
+        }
+        r
+    }
+
+    /// Centre of the area in contact at the displacements `u` `[m]`, and the mean outward normal of the secondary there; zero where nothing touches.
+    pub fn centre_and_normal(&self, u: &[f64]) -> (Vec3, Vec3) {
+        let x = self.coordinates(u);
+        let (mut centre, mut normal, mut area) = ([0.0; 3], [0.0; 3], 0.0);
+        for (i, (p, h)) in self.points.iter().zip(&self.history.points).enumerate() {
+            if h.status != Status::Open {
+                centre = add_scaled(centre, self.area_of(i), p.position(&x));
+                // Pressure pushes the secondary along the normal of the primary.
+                normal = add_scaled(normal, -self.area_of(i), h.normal);
+                area += self.area_of(i);
+            }
+        }
+        if area > 0.0 {
+            centre = add(scale(1.0 / area, centre), self.origin);
+        }
+        let normal = normalize(normal).unwrap_or_default();
+        (centre, scale(self.named(), normal))
+    }
+}

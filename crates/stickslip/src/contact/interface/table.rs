@@ -1,0 +1,86 @@
+//! The table of the contact points.
+
+use super::definition::Interface;
+use super::values::{MEANS, PointValues};
+use crate::math::{Vec3, add, sub};
+
+/// A point as the table shows it.
+struct Row {
+    /// Number of its node; NaN of a place within a face.
+    node: f64,
+    /// Where it lies in the reference configuration, and by how much it has moved.
+    x: Vec3,
+    moved: Vec3,
+    values: PointValues,
+    dissipated: f64,
+    worn: f64,
+}
+
+/// A column: its name, and its value of a row.
+type Column = (&'static str, fn(&Row) -> f64);
+
+/// Columns before those that are shown as fields too.
+const FIRST: [Column; 4] = [
+    ("node", |r| r.node),
+    ("x", |r| r.x[0]),
+    ("y", |r| r.x[1]),
+    ("z", |r| r.x[2]),
+];
+
+/// And behind them.
+const LAST: [Column; 9] = [
+    ("CSTATUS", |r| r.values.status),
+    ("CNORMF", |r| r.values.pressure * r.values.area),
+    ("CSHEARF1", |r| r.values.shear[0] * r.values.area),
+    ("CSHEARF2", |r| r.values.shear[1] * r.values.area),
+    ("U1", |r| r.moved[0]),
+    ("U2", |r| r.moved[1]),
+    ("U3", |r| r.moved[2]),
+    ("CDISS", |r| r.dissipated),
+    ("CWEAR", |r| r.worn),
+];
+
+impl Interface {
+    /// The table of the contact points: names of columns and the columns, one entry a point, for `interfaces/<name>.csv`.
+    pub fn table(&self, u: &[f64]) -> (Vec<String>, Vec<Vec<f64>>) {
+        let rows = self.rows(u);
+        let column = |(name, value): Column| {
+            let values: Vec<f64> = rows.iter().map(value).collect();
+            (name.to_string(), values)
+        };
+        let means = MEANS.into_iter().map(|(name, value)| {
+            let values: Vec<f64> = rows.iter().map(|r| value(&r.values)).collect();
+            (name.to_string(), values)
+        });
+        let first = FIRST.into_iter().map(column);
+        first
+            .chain(means)
+            .chain(LAST.into_iter().map(column))
+            .unzip()
+    }
+
+    fn rows(&self, u: &[f64]) -> Vec<Row> {
+        let wear = self.laws.wear.map_or(0.0, |w| w.coefficient);
+        let now = self.coordinates(u);
+        let points = self.points.iter().zip(&self.history.points);
+        points
+            .enumerate()
+            .map(|(i, (p, h))| {
+                let x = p.place(&self.reference);
+                Row {
+                    node: p.node().map_or(f64::NAN, |n| self.node_ids[n] as f64),
+                    x: add(x, self.origin),
+                    moved: sub(p.place(&now), x),
+                    values: self.values(i),
+                    dissipated: h.dissipated,
+                    worn: wear * h.rubbed,
+                }
+            })
+            .collect()
+    }
+
+    /// Gaps of all points at the last accepted state; NaN or infinite where there is nothing opposite.
+    pub fn initial_gaps(&self) -> Vec<f64> {
+        self.history.points.iter().map(|h| h.gap).collect()
+    }
+}

@@ -1,0 +1,66 @@
+//! What is shown of a contact point, in fields and in the table: one list of names and values.
+
+use super::definition::Interface;
+use crate::contact::response::Status;
+use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale};
+
+/// Values at a point at the last committed state, of the sides as they are named.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PointValues {
+    pub pressure: f64,
+    /// Shear on the secondary and slip of it along the two output directions.
+    pub shear: [f64; 2],
+    pub slip: [f64; 2],
+    pub gap: f64,
+    /// 0 open, 1 stick, 2 slip.
+    pub status: f64,
+    pub area: f64,
+}
+
+/// What is shown as a mean at nodes, with its name.
+pub(super) const MEANS: [(&str, fn(&PointValues) -> f64); 6] = [
+    ("CPRESS", |v| v.pressure),
+    ("CSHEAR1", |v| v.shear[0]),
+    ("CSHEAR2", |v| v.shear[1]),
+    ("COPEN", |v| v.gap),
+    ("CSLIP1", |v| v.slip[0]),
+    ("CSLIP2", |v| v.slip[1]),
+];
+
+/// Two output directions in a surface: the x axis (or y, z where the normal is along it) laid into it, and the one across.
+fn output_frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
+    let along = if normal[0].abs() < 0.99 {
+        [1.0, 0.0, 0.0]
+    } else if dim == 2 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let t = normalize(add_scaled(along, -dot(along, normal), normal)).unwrap_or(along);
+    [t, cross(normal, t)]
+}
+
+impl Interface {
+    /// What is shown of a point.
+    pub(super) fn values(&self, i: usize) -> PointValues {
+        let h = &self.history.points[i];
+        let normal = match h.normal == [0.0; 3] {
+            true => scale(-1.0, self.points[i].normal),
+            false => h.normal,
+        };
+        let [normal, shear, slip] = [normal, h.shear, h.slip].map(|v| scale(self.named(), v));
+        let frame = output_frame(normal, self.dofs.dim);
+        PointValues {
+            pressure: h.pressure,
+            shear: frame.map(|e| dot(shear, e)),
+            slip: frame.map(|e| dot(slip, e)),
+            gap: h.gap,
+            status: match h.status {
+                Status::Open => 0.0,
+                Status::Stick => 1.0,
+                Status::Slip => 2.0,
+            },
+            area: self.area_of(i),
+        }
+    }
+}
