@@ -60,23 +60,21 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn elements(&mut self, card: &Card) {
-        let Some(kind) = self.required(card, "TYPE") else {
-            return;
-        };
-        let count = match (other_nodes(&kind), abaqus::element_type(&kind)) {
-            (Some(n), _) => n,
+    /// How many nodes elements of a type have; says what is to be said of the type.
+    fn node_count(&mut self, kind: &str, card: &Card) -> Option<usize> {
+        match (other_nodes(kind), abaqus::element_type(kind)) {
+            (Some(n), _) => Some(n),
             (None, Ok(t)) => {
                 for note in &t.notes {
                     self.note(card.place, format!("{kind}: {note}"));
                 }
-                t.kind.node_count()
+                Some(t.kind.node_count())
             }
-            (None, Err(_)) if bounding(&kind).is_some() => {
+            (None, Err(_)) if bounding(kind).is_some() => {
                 if !self.bounding.iter().any(|(k, _)| *k == kind) {
-                    self.bounding.push((kind.clone(), card.place));
+                    self.bounding.push((kind.to_string(), card.place));
                 }
-                bounding(&kind).unwrap_or_default()
+                bounding(kind)
             }
             (None, Err(why)) => {
                 let message = format!("elements of type {kind} ({}) are not supported", why.what);
@@ -85,8 +83,39 @@ impl Reader<'_> {
                 self.skipped.extend(ids);
                 self.skipped_sets
                     .extend(card.get("ELSET").map(str::to_string));
-                return;
+                None
             }
+        }
+    }
+
+    /// Keeps an element; `false` if its nodes do not exist.
+    fn keep(&mut self, id: u64, element: Element) -> bool {
+        let place = element.place;
+        let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
+        if let Some(n) = element.nodes.iter().find(absent) {
+            self.error(
+                place,
+                format!("element {id} uses node {n}, which does not exist"),
+                "*NODE must stand before *ELEMENT",
+            );
+            return false;
+        }
+        if self.deck.elements.insert(id, element).is_some() {
+            self.error(
+                place,
+                format!("element {id} is given twice"),
+                "numbers of elements are unique in the whole deck",
+            );
+        }
+        true
+    }
+
+    pub(super) fn elements(&mut self, card: &Card) {
+        let Some(kind) = self.required(card, "TYPE") else {
+            return;
+        };
+        let Some(count) = self.node_count(&kind, card) else {
+            return;
         };
         let mut set = Vec::new();
         let mut forgiven = false;
@@ -122,31 +151,14 @@ impl Reader<'_> {
                 );
                 continue;
             }
-            let missing = nodes
-                .iter()
-                .find(|n| !self.deck.nodes.contains_key(n))
-                .copied();
-            if let Some(n) = missing {
-                self.error(
-                    data.place,
-                    format!("element {id} uses node {n}, which does not exist"),
-                    "*NODE must stand before *ELEMENT",
-                );
-                continue;
-            }
             let element = Element {
                 kind: kind.clone(),
                 nodes,
                 place: data.place,
             };
-            if self.deck.elements.insert(id, element).is_some() {
-                self.error(
-                    data.place,
-                    format!("element {id} is given twice"),
-                    "numbers of elements are unique in the whole deck",
-                );
+            if self.keep(id, element) {
+                set.push(id);
             }
-            set.push(id);
         }
         if let Some(name) = card.get("ELSET") {
             add(

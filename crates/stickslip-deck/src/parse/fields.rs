@@ -5,6 +5,18 @@ use crate::card::{Card, Data, Place};
 use crate::deck::Target;
 use crate::text::{clip, label, number, squeeze, whole};
 
+/// Nodes by number or set.
+pub(super) enum Nodes {
+    /// A node that exists.
+    One(u64),
+    /// A number that no node has.
+    Absent(u64),
+    /// A set that exists, by its label.
+    Set(String),
+    /// The name of no set.
+    NoSet,
+}
+
 impl Reader<'_> {
     /// A parameter that must have a value.
     pub(super) fn required(&mut self, card: &Card, name: &str) -> Option<String> {
@@ -108,6 +120,16 @@ impl Reader<'_> {
             return None;
         }
         Some(d as usize - 1)
+    }
+
+    /// What is meant by a text that is the number of a node or, as a label, the name of a set.
+    pub(super) fn named_nodes(&self, text: &str, name: String) -> Nodes {
+        match whole(text) {
+            Some(n) if self.deck.nodes.contains_key(&n) => Nodes::One(n),
+            Some(n) => Nodes::Absent(n),
+            None if self.deck.node_sets.contains_key(&name) => Nodes::Set(name),
+            None => Nodes::NoSet,
+        }
     }
 
     /// Elements by number or set.

@@ -43,94 +43,16 @@ impl Reader<'_> {
     }
 
     pub(super) fn behavior(&mut self, card: &Card) {
-        let behavior = match card.get("PRESSURE-OVERCLOSURE").unwrap_or("HARD") {
-            "HARD" | "" => {
-                if card.data.iter().any(|d| !d.fields.is_empty()) {
-                    self.note(card.place, "the data of hard contact are left out: it is exact here, without a penalty");
-                }
-                Behavior::Hard
-            }
-            "LINEAR" => {
-                let Some(data) = self.line(card) else { return };
-                // Where CalculiX begins to look for contact is nothing that the pressure depends on.
-                self.only(card, 1, &["slope", "tension", "clearance"]);
-                let slope = self.number(data, 0, 0.0);
-                if slope <= 0.0 {
-                    self.error(data.place, "the slope of the pressure over the overclosure must be above 0", "write it in the first field; in CalculiX 5 to 50 times Young's modulus is customary");
-                    return;
-                }
-                Behavior::Linear {
-                    slope,
-                    tension: self.number(data, 1, 0.0),
-                }
-            }
-            "EXPONENTIAL" => {
-                let Some(data) = self.line(card) else { return };
-                self.only(card, 1, &["c0", "p0"]);
-                let (c0, p0) = (self.number(data, 0, 0.0), self.number(data, 1, 0.0));
-                if c0 <= 0.0 || p0 <= 0.0 {
-                    self.error(
-                        data.place,
-                        "the clearance c0 and the pressure p0 must be above 0",
-                        "write c0, p0",
-                    );
-                    return;
-                }
-                Behavior::Exponential { c0, p0 }
-            }
-            "TABULAR" => {
-                let mut rows: Vec<[f64; 2]> = Vec::new();
-                self.only(card, usize::MAX, &["pressure", "overclosure"]);
-                for data in &card.data {
-                    let row = [self.number(data, 1, 0.0), self.number(data, 0, 0.0)];
-                    if rows
-                        .last()
-                        .is_some_and(|last| last[0] >= row[0] || last[1] > row[1])
-                    {
-                        self.error(
-                            data.place,
-                            "overclosures must increase and pressures must not fall",
-                            "write pressure, overclosure",
-                        );
-                        return;
-                    }
-                    rows.push(row);
-                }
-                if rows.len() < 2 {
-                    self.error(
-                        card.place,
-                        "the table needs two rows or more",
-                        "write pressure, overclosure",
-                    );
-                    return;
-                }
-                if rows[0][1] > 0.0 {
-                    self.error(
-                        card.data[0].place,
-                        format!(
-                            "the table begins with a pressure of {}: it would act at any distance",
-                            rows[0][1]
-                        ),
-                        "let the first row have no pressure: 0., overclosure at which contact begins",
-                    );
-                    return;
-                }
-                if let Some(last) = rows.last() {
-                    self.warn(
-                        card.place,
-                        format!(
-                            "beyond an overclosure of {} the pressure goes on with the slope of the last two rows; CalculiX keeps it at {}",
-                            last[0], last[1]
-                        ),
-                        "let the table reach as far as the surfaces may penetrate",
-                    );
-                }
-                Behavior::Tabular(rows)
-            }
+        let kind = card.get("PRESSURE-OVERCLOSURE").unwrap_or("HARD");
+        let behavior = match kind {
+            "HARD" | "" => Some(self.hard(card)),
+            "LINEAR" => self.linear(card),
+            "EXPONENTIAL" => self.exponential(card),
+            "TABULAR" => self.tabular(card),
             "TIED" => {
                 self.only(card, 1, &["stiffness"]);
                 let stiffness = card.data.first().map(|d| self.number(d, 0, 0.0));
-                Behavior::Tied(stiffness.filter(|k| *k > 0.0))
+                Some(Behavior::Tied(stiffness.filter(|k| *k > 0.0)))
             }
             other => {
                 let message = format!("PRESSURE-OVERCLOSURE={} is not supported", clip(other));
@@ -139,9 +61,10 @@ impl Reader<'_> {
                     message,
                     "HARD, LINEAR, EXPONENTIAL, TABULAR and TIED are",
                 );
-                return;
+                None
             }
         };
+        let Some(behavior) = behavior else { return };
         match self.context.clone() {
             Context::Interaction(name) => {
                 if let Some(i) = self.deck.interactions.get_mut(&name) {
@@ -158,6 +81,116 @@ impl Reader<'_> {
                 card.place,
                 "*SURFACE BEHAVIOR belongs to no interaction",
                 "write it beneath *SURFACE INTERACTION",
+            ),
+        }
+    }
+
+    fn hard(&mut self, card: &Card) -> Behavior {
+        if card.data.iter().any(|d| !d.fields.is_empty()) {
+            self.note(
+                card.place,
+                "the data of hard contact are left out: it is exact here, without a penalty",
+            );
+        }
+        Behavior::Hard
+    }
+
+    fn linear(&mut self, card: &Card) -> Option<Behavior> {
+        let data = self.line(card)?;
+        // Where CalculiX begins to look for contact is nothing that the pressure depends on.
+        self.only(card, 1, &["slope", "tension", "clearance"]);
+        let slope = self.number(data, 0, 0.0);
+        if slope <= 0.0 {
+            self.error(data.place, "the slope of the pressure over the overclosure must be above 0", "write it in the first field; in CalculiX 5 to 50 times Young's modulus is customary");
+            return None;
+        }
+        Some(Behavior::Linear {
+            slope,
+            tension: self.number(data, 1, 0.0),
+        })
+    }
+
+    fn exponential(&mut self, card: &Card) -> Option<Behavior> {
+        let data = self.line(card)?;
+        self.only(card, 1, &["c0", "p0"]);
+        let (c0, p0) = (self.number(data, 0, 0.0), self.number(data, 1, 0.0));
+        if c0 <= 0.0 || p0 <= 0.0 {
+            self.error(
+                data.place,
+                "the clearance c0 and the pressure p0 must be above 0",
+                "write c0, p0",
+            );
+            return None;
+        }
+        Some(Behavior::Exponential { c0, p0 })
+    }
+
+    fn tabular(&mut self, card: &Card) -> Option<Behavior> {
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        self.only(card, usize::MAX, &["pressure", "overclosure"]);
+        for data in &card.data {
+            let row = [self.number(data, 1, 0.0), self.number(data, 0, 0.0)];
+            if rows
+                .last()
+                .is_some_and(|last| last[0] >= row[0] || last[1] > row[1])
+            {
+                self.error(
+                    data.place,
+                    "overclosures must increase and pressures must not fall",
+                    "write pressure, overclosure",
+                );
+                return None;
+            }
+            rows.push(row);
+        }
+        let [first, .., last] = rows.as_slice() else {
+            self.error(
+                card.place,
+                "the table needs two rows or more",
+                "write pressure, overclosure",
+            );
+            return None;
+        };
+        if first[1] > 0.0 {
+            self.error(
+                card.data[0].place,
+                format!(
+                    "the table begins with a pressure of {}: it would act at any distance",
+                    first[1]
+                ),
+                "let the first row have no pressure: 0., overclosure at which contact begins",
+            );
+            return None;
+        }
+        self.warn(
+            card.place,
+            format!(
+                "beyond an overclosure of {} the pressure goes on with the slope of the last two rows; CalculiX keeps it at {}",
+                last[0], last[1]
+            ),
+            "let the table reach as far as the surfaces may penetrate",
+        );
+        Some(Behavior::Tabular(rows))
+    }
+
+    /// Friction belongs to the interaction or change above it.
+    fn give_friction(&mut self, card: &Card, friction: Friction) {
+        match self.context.clone() {
+            Context::Interaction(name) => {
+                if let Some(i) = self.deck.interactions.get_mut(&name) {
+                    i.friction = Some(friction);
+                }
+            }
+            Context::ChangeFriction(name) => {
+                if let Some(step) = self.deck.steps.last_mut() {
+                    step.actions
+                        .push(Action::ChangeFriction(name, friction, card.place));
+                }
+            }
+            _ => self.error(
+                card.place,
+                "*FRICTION belongs to no interaction",
+                "write it beneath *SURFACE INTERACTION or *CHANGE FRICTION",
             ),
         }
     }
@@ -206,24 +239,7 @@ impl Reader<'_> {
                 "let the coefficients of the table fall with the pressure as the limit does",
             );
         }
-        match self.context.clone() {
-            Context::Interaction(name) => {
-                if let Some(i) = self.deck.interactions.get_mut(&name) {
-                    i.friction = Some(friction);
-                }
-            }
-            Context::ChangeFriction(name) => {
-                if let Some(step) = self.deck.steps.last_mut() {
-                    step.actions
-                        .push(Action::ChangeFriction(name, friction, card.place));
-                }
-            }
-            _ => self.error(
-                card.place,
-                "*FRICTION belongs to no interaction",
-                "write it beneath *SURFACE INTERACTION or *CHANGE FRICTION",
-            ),
-        }
+        self.give_friction(card, friction);
     }
 
     /// The rows of a coefficient that depends on slip rate or pressure; empty if it does not.

@@ -59,6 +59,43 @@ impl Reader<'_> {
         Some(later)
     }
 
+    /// The directions that a line of `*BOUNDARY` prescribes, from 0.
+    fn components(&mut self, data: &Data) -> Option<Vec<usize>> {
+        match data.fields.get(1).map(|f| squeeze(f)).as_deref() {
+            Some("ENCASTRE") => Some((0..6).collect()),
+            Some("PINNED") => Some((0..3).collect()),
+            Some("XSYMM") => Some(vec![0, 4, 5]),
+            Some("YSYMM") => Some(vec![1, 3, 5]),
+            Some("ZSYMM") => Some(vec![2, 3, 4]),
+            _ => {
+                if data.fields.get(1).and_then(|f| whole(f)) == Some(11)
+                    || data.fields.get(1).is_some_and(|f| f == "0")
+                {
+                    self.error(
+                        data.place,
+                        "temperatures are not computed",
+                        "take the thermal part out",
+                    );
+                    return None;
+                }
+                let first = self.direction(data, 1, 6)?;
+                let last = match data.fields.get(2).filter(|f| !f.is_empty()) {
+                    Some(_) => self.direction(data, 2, 6).unwrap_or(first),
+                    None => first,
+                };
+                if last < first {
+                    self.error(
+                        data.place,
+                        "the last direction is below the first",
+                        "write node, first direction, last direction, value",
+                    );
+                    return None;
+                }
+                Some((first..=last).collect())
+            }
+        }
+    }
+
     pub(super) fn boundary(&mut self, card: &Card) {
         if card.get("TYPE").is_some_and(|t| t != "DISPLACEMENT") {
             self.error(
@@ -76,40 +113,8 @@ impl Reader<'_> {
             let Some(target) = self.target(data, 0) else {
                 continue;
             };
-            let components: Vec<usize> = match data.fields.get(1).map(|f| squeeze(f)).as_deref() {
-                Some("ENCASTRE") => (0..6).collect(),
-                Some("PINNED") => (0..3).collect(),
-                Some("XSYMM") => vec![0, 4, 5],
-                Some("YSYMM") => vec![1, 3, 5],
-                Some("ZSYMM") => vec![2, 3, 4],
-                _ => {
-                    if data.fields.get(1).and_then(|f| whole(f)) == Some(11)
-                        || data.fields.get(1).is_some_and(|f| f == "0")
-                    {
-                        self.error(
-                            data.place,
-                            "temperatures are not computed",
-                            "take the thermal part out",
-                        );
-                        continue;
-                    }
-                    let Some(first) = self.direction(data, 1, 6) else {
-                        continue;
-                    };
-                    let last = match data.fields.get(2).filter(|f| !f.is_empty()) {
-                        Some(_) => self.direction(data, 2, 6).unwrap_or(first),
-                        None => first,
-                    };
-                    if last < first {
-                        self.error(
-                            data.place,
-                            "the last direction is below the first",
-                            "write node, first direction, last direction, value",
-                        );
-                        continue;
-                    }
-                    (first..=last).collect()
-                }
+            let Some(components) = self.components(data) else {
+                continue;
             };
             let value = self.number(data, 3, 0.0);
             if !self.in_step && value != 0.0 {
@@ -230,63 +235,73 @@ impl Reader<'_> {
                 _ => 3,
             };
             self.no_more(data, count, &what);
-            let load = match what.as_str() {
-                "GRAV" => {
-                    let d = [3, 4, 5].map(|i| self.number(data, i, 0.0));
-                    let Some(d) = stickslip::math::normalize(d) else {
-                        self.error(
-                            data.place,
-                            "GRAV needs a direction",
-                            "write set, GRAV, acceleration, x, y, z",
-                        );
-                        continue;
-                    };
-                    Distributed::Gravity(elements, label(&first), value, d)
-                }
-                "CENTRIF" => {
-                    let p = [3, 4, 5].map(|i| self.number(data, i, 0.0));
-                    let d = [6, 7, 8].map(|i| self.number(data, i, 0.0));
-                    if value < 0.0 || d == [0.0; 3] {
-                        self.error(data.place, "CENTRIF needs the square of the angular speed, a point and a direction of the axis", "write set, CENTRIF, omega squared, px, py, pz, dx, dy, dz");
-                        continue;
-                    }
-                    Distributed::Centrifugal(elements, label(&first), value, p, d)
-                }
-                "BX" => Distributed::Body(elements, 0, value),
-                "BY" => Distributed::Body(elements, 1, value),
-                "BZ" => Distributed::Body(elements, 2, value),
-                "P" => {
+            if let Some(load) = self.load(data, elements, &what, value) {
+                self.distribute(&amplitude, load, data.place);
+            }
+        }
+    }
+
+    /// A load on elements.
+    fn load(
+        &mut self,
+        data: &Data,
+        elements: Vec<u64>,
+        what: &str,
+        value: f64,
+    ) -> Option<Distributed> {
+        let set = data.fields.first().map(|f| label(f)).unwrap_or_default();
+        match what {
+            "GRAV" => {
+                let d = [3, 4, 5].map(|i| self.number(data, i, 0.0));
+                let Some(d) = stickslip::math::normalize(d) else {
                     self.error(
                         data.place,
-                        "the load `P` is a pressure on a shell or on a surface",
-                        "on solid elements name the face, P1 to P6; on a surface use *DSLOAD",
+                        "GRAV needs a direction",
+                        "write set, GRAV, acceleration, x, y, z",
                     );
-                    continue;
+                    return None;
+                };
+                Some(Distributed::Gravity(elements, set, value, d))
+            }
+            "CENTRIF" => {
+                let p = [3, 4, 5].map(|i| self.number(data, i, 0.0));
+                let d = [6, 7, 8].map(|i| self.number(data, i, 0.0));
+                if value < 0.0 || d == [0.0; 3] {
+                    self.error(data.place, "CENTRIF needs the square of the angular speed, a point and a direction of the axis", "write set, CENTRIF, omega squared, px, py, pz, dx, dy, dz");
+                    return None;
                 }
-                _ if what.starts_with('P') => {
-                    let Some(face) = self.face(&what, 'P', data.place) else {
-                        continue;
-                    };
-                    let mut faces = Vec::new();
-                    for e in elements {
-                        if self.has_face(e, face, data.place) {
-                            faces.push((e, face));
-                        }
+                Some(Distributed::Centrifugal(elements, set, value, p, d))
+            }
+            "BX" => Some(Distributed::Body(elements, 0, value)),
+            "BY" => Some(Distributed::Body(elements, 1, value)),
+            "BZ" => Some(Distributed::Body(elements, 2, value)),
+            "P" => {
+                self.error(
+                    data.place,
+                    "the load `P` is a pressure on a shell or on a surface",
+                    "on solid elements name the face, P1 to P6; on a surface use *DSLOAD",
+                );
+                None
+            }
+            _ if what.starts_with('P') => {
+                let face = self.face(what, 'P', data.place)?;
+                let mut faces = Vec::new();
+                for e in elements {
+                    if self.has_face(e, face, data.place) {
+                        faces.push((e, face));
                     }
-                    Distributed::Pressure(faces, value)
                 }
-                _ => {
-                    let message =
-                        format!("the distributed load `{}` is not supported", clip(&what));
-                    self.error(
-                        data.place,
-                        message,
-                        "P1 to P6 (pressure), GRAV, CENTRIF and BX, BY, BZ are",
-                    );
-                    continue;
-                }
-            };
-            self.distribute(&amplitude, load, data.place);
+                Some(Distributed::Pressure(faces, value))
+            }
+            _ => {
+                let message = format!("the distributed load `{}` is not supported", clip(what));
+                self.error(
+                    data.place,
+                    message,
+                    "P1 to P6 (pressure), GRAV, CENTRIF and BX, BY, BZ are",
+                );
+                None
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Cards to a [`Deck`].
 
+mod cards;
 mod elements;
 mod fields;
 mod initial;
@@ -28,7 +29,7 @@ use crate::card::{Card, Place};
 use crate::deck::Deck;
 use crate::finding::DeckError;
 use crate::source::Source;
-use crate::table::{self, Fate};
+use crate::table::{self, Fate, Row};
 
 impl Deck {
     /// Reads a deck and all it includes.
@@ -99,10 +100,8 @@ impl Reader<'_> {
         }
     }
 
-    fn card(&mut self, card: &Card) {
-        if self.stopped {
-            return;
-        }
+    /// The row of a card that is read; says what is to be said of others.
+    fn row(&mut self, card: &Card) -> Option<&'static Row> {
         let Some(row) = table::row(&card.keyword) else {
             let help = match table::nearest(&card.keyword) {
                 Some(name) => format!("did you mean *{name}? (blanks and case do not matter)"),
@@ -110,108 +109,45 @@ impl Reader<'_> {
             };
             let message = format!("unknown keyword {}", card.written);
             self.error(card.place, message, &help);
-            return;
+            return None;
         };
         match row.fate {
-            Fate::Read => {}
+            Fate::Read => return Some(row),
             Fate::Harmless(why) | Fate::Idle(why) => {
                 self.note(card.place, format!("{} is left out: {why}", card.written));
-                return;
             }
             Fate::Refused(help) => {
-                if matches!(
-                    card.keyword.as_str(),
-                    "COUPLEDTEMPERATURE-DISPLACEMENT" | "FREQUENCY" | "HEATTRANSFER" | "BUCKLE"
-                ) {
-                    // One finding a cause: the step has a procedure, if not one of ours.
-                    self.procedure = true;
-                }
+                // One finding a cause: the step has a procedure, if not one of ours.
+                self.procedure |= cards::OTHER_PROCEDURES.contains(&card.keyword.as_str());
                 self.error(
                     card.place,
                     format!("{} is not supported", card.written),
                     help,
                 );
-                return;
             }
         }
+        None
+    }
+
+    fn card(&mut self, card: &Card) {
+        if self.stopped {
+            return;
+        }
+        let Some(row) = self.row(card) else {
+            return;
+        };
         let sound = self.judge(card, row);
-        let beneath = matches!(
-            card.keyword.as_str(),
-            "ELASTIC" | "DENSITY" | "DAMPING" | "SURFACEBEHAVIOR" | "FRICTION" | "CONTACTDAMPING"
-        );
-        if !beneath {
+        if !cards::BENEATH.contains(&card.keyword.as_str()) {
             self.context = Context::None;
         }
-        // What is named is looked for later: a set that is missing as well would only be a second error.
-        let names = matches!(
-            card.keyword.as_str(),
-            "NODE"
-                | "ELEMENT"
-                | "NSET"
-                | "ELSET"
-                | "SURFACE"
-                | "MATERIAL"
-                | "SURFACEINTERACTION"
-                | "AMPLITUDE"
-                | "STEP"
-                | "STATIC"
-                | "DYNAMIC"
-        );
-        if !(sound || names) {
+        if !(sound || cards::NAMES.contains(&card.keyword.as_str())) {
             // What follows builds on what is not there.
             self.stopped = card.keyword == "RESTART";
             return;
         }
-        match card.keyword.as_str() {
-            "HEADING" => {
-                let first = card.data.first().map(|d| d.fields.join(", "));
-                self.deck.title = self.deck.title.take().or(first);
-            }
-            "NODE" => self.nodes(card),
-            "ELEMENT" => self.elements(card),
-            "NSET" => self.node_set(card),
-            "ELSET" => self.element_set(card),
-            "SURFACE" => self.surface(card),
-            "TRANSFORM" => self.transform(card),
-            "EQUATION" => self.equation(card),
-            "RIGIDBODY" => self.rigid_body(card),
-            "SPRING" => self.spring(card),
-            "MASS" => self.mass(card),
-            "INITIALCONDITIONS" => self.initial_conditions(card),
-            "MATERIAL" => self.material(card),
-            "ELASTIC" => self.elastic(card),
-            "DENSITY" => self.density(card),
-            "DAMPING" => self.damping(card),
-            "SOLIDSECTION" => self.solid_section(card),
-            "ORIENTATION" => self.orientation(card),
-            "AMPLITUDE" => self.amplitude(card),
-            "SURFACEINTERACTION" => self.interaction(card),
-            "SURFACEBEHAVIOR" => self.behavior(card),
-            "FRICTION" => self.friction(card),
-            "CONTACTDAMPING" => self.contact_damping(card),
-            "CHANGEFRICTION" => self.change(card, Context::ChangeFriction),
-            "CHANGESURFACEBEHAVIOR" => self.change(card, Context::ChangeBehavior),
-            "CONTACTPAIR" => self.contact_pair(card),
-            "CLEARANCE" => self.clearance(card),
-            "TIE" => self.tie(card),
-            "TIMEPOINTS" => self.time_points(card),
-            "STEP" => self.step(card),
-            "ENDSTEP" => self.end_step(card),
-            "STATIC" => self.statics(card),
-            "DYNAMIC" => self.dynamics(card),
-            "BOUNDARY" => self.boundary(card),
-            "CLOAD" => self.forces(card),
-            "DLOAD" => self.distributed(card),
-            "DSLOAD" => self.surface_loads(card),
-            "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" => self.print(card),
-            "NODEFILE" | "ELFILE" | "CONTACTFILE" | "NODEOUTPUT" | "ELEMENTOUTPUT"
-            | "CONTACTOUTPUT" | "OUTPUT" => {
-                self.output(card);
-            }
-            // What is refused of it has been said, and nothing else of it matters.
-            "RESTART" => {}
-            "NORMAL" => self.normal(card),
-            other => unreachable_row(other),
+        match cards::reader_of(&card.keyword) {
+            Some(read) => read(self, card),
+            None => unreachable_row(&card.keyword),
         }
     }
 }

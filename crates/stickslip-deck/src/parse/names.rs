@@ -1,103 +1,135 @@
 //! Names that may stand before what they name: they are looked up at the end.
 
+use std::collections::BTreeMap;
+
 use super::fields::listing;
 use super::reader::Reader;
 use crate::card::Place;
-use crate::deck::{Action, Adjust, Boundary, Distributed, Target};
+use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target};
+
+/// Names that are missing: where, what, and what there is.
+struct Missing<'a> {
+    deck: &'a Deck,
+    found: Vec<(Place, String, String)>,
+}
 
 impl Reader<'_> {
-    /// Names that may stand before what they name are looked up at the end.
+    /// Looks all names up.
     pub(super) fn check_names(&mut self) {
-        let mut findings: Vec<(Place, String, String)> = Vec::new();
-        let deck = &self.deck;
-        let mut nodes = |target: &Target, place: Place| match target {
-            Target::One(n) if !deck.nodes.contains_key(n) => {
-                findings.push((
-                    place,
-                    format!("there is no node {n}"),
-                    "nodes are given by *NODE".into(),
-                ));
-            }
-            Target::Set(s) if !deck.node_sets.contains_key(s) => {
-                findings.push((
-                    place,
-                    format!("there is no set of nodes {s}"),
-                    listing("sets of nodes", deck.node_sets.keys()),
-                ));
-            }
-            _ => {}
+        let mut missing = Missing {
+            deck: &self.deck,
+            found: Vec::new(),
         };
+        missing.nodes();
+        missing.surfaces();
+        missing.sections();
+        missing.actions();
+        for (place, message, help) in missing.found {
+            self.error(place, message, &help);
+        }
+        self.errors.sort_by_key(|f| {
+            self.source
+                .files
+                .iter()
+                .position(|p| *p == f.file)
+                .map(|p| (p, f.line))
+        });
+    }
+}
+
+impl Missing<'_> {
+    /// A node, or a set of nodes.
+    fn target(&mut self, target: &Target, place: Place) {
+        let (what, help) = match target {
+            Target::One(n) if !self.deck.nodes.contains_key(n) => {
+                (format!("node {n}"), "nodes are given by *NODE".into())
+            }
+            Target::Set(s) if !self.deck.node_sets.contains_key(s) => (
+                format!("set of nodes {s}"),
+                listing("sets of nodes", self.deck.node_sets.keys()),
+            ),
+            _ => return,
+        };
+        self.found
+            .push((place, format!("there is no {what}"), help));
+    }
+
+    /// Something with a name, of those that are known.
+    fn named<T>(&mut self, what: &str, name: &str, place: Place, known: &BTreeMap<String, T>) {
+        if !known.contains_key(name) {
+            self.found.push((
+                place,
+                format!("there is no {what} {name}"),
+                listing(&format!("known {what}s"), known.keys()),
+            ));
+        }
+    }
+
+    fn surface(&mut self, name: &str, place: Place) {
+        self.named("surface", name, place, &self.deck.surfaces);
+    }
+
+    fn interaction(&mut self, name: &str, place: Place) {
+        self.named("surface interaction", name, place, &self.deck.interactions);
+    }
+
+    /// Nodes of everything.
+    fn nodes(&mut self) {
+        let deck = self.deck;
         for b in &deck.supports {
-            nodes(&b.target, b.place);
+            self.target(&b.target, b.place);
         }
         for i in &deck.initial {
-            nodes(&i.target, i.place);
+            self.target(&i.target, i.place);
         }
         for t in &deck.temperatures {
-            nodes(&t.target, t.place);
+            self.target(&t.target, t.place);
         }
         for p in &deck.pairs {
             if let Some(Adjust::Set(name)) = &p.adjust {
-                nodes(&Target::Set(name.clone()), p.place);
+                self.target(&Target::Set(name.clone()), p.place);
             }
         }
         for e in &deck.equations {
-            e.terms.iter().for_each(|t| nodes(&t.target, e.place));
+            e.terms.iter().for_each(|t| self.target(&t.target, e.place));
         }
         for a in deck.steps.iter().flat_map(|s| &s.actions) {
             match a {
-                Action::Boundary(b) => nodes(&b.target, b.place),
-                Action::Force { target, place, .. } => nodes(target, *place),
+                Action::Boundary(b) => self.target(&b.target, b.place),
+                Action::Force { target, place, .. } => self.target(target, *place),
                 _ => {}
             }
         }
-        let mut named = |what: &str, name: &str, place: Place, known: Vec<&String>| {
-            if !known.iter().any(|k| *k == name) {
-                findings.push((
-                    place,
-                    format!("there is no {what} {name}"),
-                    listing(&format!("known {what}s"), known),
-                ));
-            }
-        };
-        let surfaces = || deck.surfaces.keys().collect::<Vec<_>>();
-        for p in &deck.pairs {
-            named("surface", &p.slave, p.place, surfaces());
-            named("surface", &p.master, p.place, surfaces());
-            named(
-                "surface interaction",
-                &p.interaction,
-                p.place,
-                deck.interactions.keys().collect(),
-            );
+    }
+
+    /// Surfaces and interactions of pairs and ties.
+    fn surfaces(&mut self) {
+        for p in &self.deck.pairs {
+            self.surface(&p.slave, p.place);
+            self.surface(&p.master, p.place);
+            self.interaction(&p.interaction, p.place);
         }
-        for t in &deck.ties {
-            named("surface", &t.slave, t.place, surfaces());
-            named("surface", &t.master, t.place, surfaces());
+        for t in &self.deck.ties {
+            self.surface(&t.slave, t.place);
+            self.surface(&t.master, t.place);
         }
+    }
+
+    /// Sets, materials and orientations of sections.
+    fn sections(&mut self) {
+        let deck = self.deck;
         for s in &deck.sections {
-            named(
-                "set of elements",
-                &s.set,
-                s.place,
-                deck.element_sets.keys().collect(),
-            );
-            named(
-                "material",
-                &s.material,
-                s.place,
-                deck.materials.keys().collect(),
-            );
+            self.named("set of elements", &s.set, s.place, &deck.element_sets);
+            self.named("material", &s.material, s.place, &deck.materials);
             if let Some(o) = &s.orientation {
-                named(
-                    "orientation",
-                    o,
-                    s.place,
-                    deck.orientations.keys().collect(),
-                );
+                self.named("orientation", o, s.place, &deck.orientations);
             }
         }
-        let amplitudes = || deck.amplitudes.keys().collect::<Vec<_>>();
+    }
+
+    /// Amplitudes, interactions and surfaces of what acts in steps.
+    fn actions(&mut self) {
+        let deck = self.deck;
         for a in deck.steps.iter().flat_map(|s| &s.actions) {
             match a {
                 Action::Boundary(Boundary {
@@ -114,14 +146,9 @@ impl Reader<'_> {
                     amplitude: Some(name),
                     place,
                     ..
-                } => named("amplitude", name, *place, amplitudes()),
+                } => self.named("amplitude", name, *place, &deck.amplitudes),
                 Action::ChangeFriction(name, _, place) | Action::ChangeBehavior(name, _, place) => {
-                    named(
-                        "surface interaction",
-                        name,
-                        *place,
-                        deck.interactions.keys().collect(),
-                    );
+                    self.interaction(name, *place);
                 }
                 _ => {}
             }
@@ -131,18 +158,8 @@ impl Reader<'_> {
                 ..
             } = a
             {
-                named("surface", name, *place, surfaces());
+                self.surface(name, *place);
             }
         }
-        for (place, message, help) in findings {
-            self.error(place, message, &help);
-        }
-        self.errors.sort_by_key(|f| {
-            self.source
-                .files
-                .iter()
-                .position(|p| *p == f.file)
-                .map(|p| (p, f.line))
-        });
     }
 }

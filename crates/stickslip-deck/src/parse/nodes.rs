@@ -1,10 +1,10 @@
 //! Nodes, their axes and normals.
 
+use super::fields::Nodes;
 use super::reader::Reader;
 use super::sets::add;
 use crate::card::Card;
 use crate::deck::Transform;
-use crate::text::whole;
 
 impl Reader<'_> {
     pub(super) fn nodes(&mut self, card: &Card) {
@@ -84,19 +84,17 @@ impl Reader<'_> {
             a: [v[0], v[1], v[2]],
             b: [v[3], v[4], v[5]],
         };
-        let nodes = match whole(&set) {
-            Some(n) => vec![n],
-            None => match self.deck.node_sets.get(&set) {
-                Some(nodes) => nodes.clone(),
-                None => {
-                    self.error(
-                        card.place,
-                        format!("there is no set of nodes {set}"),
-                        "*NSET must stand before *TRANSFORM",
-                    );
-                    return;
-                }
-            },
+        let nodes = match self.named_nodes(&set, set.clone()) {
+            Nodes::One(n) | Nodes::Absent(n) => vec![n],
+            Nodes::Set(name) => self.deck.node_sets[&name].clone(),
+            Nodes::NoSet => {
+                self.error(
+                    card.place,
+                    format!("there is no set of nodes {set}"),
+                    "*NSET must stand before *TRANSFORM",
+                );
+                return;
+            }
         };
         for n in nodes {
             self.deck.transforms.insert(n, transform);

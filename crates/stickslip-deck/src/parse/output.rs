@@ -3,7 +3,7 @@
 use super::fields::{keys, parameter};
 use super::reader::Reader;
 use crate::card::Card;
-use crate::deck::{Print, Totals, When};
+use crate::deck::{Deck, Print, Totals, When};
 use crate::text::clip;
 
 impl Reader<'_> {
@@ -23,6 +23,52 @@ impl Reader<'_> {
             .unwrap_or(1.0)
             .max(0.0);
         (every >= 1.0).then_some(When::Every(every.min(1e9) as usize))
+    }
+
+    /// The quantities of a card that are printed; notes on the others.
+    fn known_keys(&mut self, card: &Card) -> Vec<String> {
+        let known: &[&str] = match card.keyword.as_str() {
+            "NODEPRINT" => &["U", "RF", "V", "A"],
+            "ELPRINT" => &["S", "E", "ELSE", "EVOL"],
+            _ => &[
+                "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",
+            ],
+        };
+        let (printed, others): (Vec<String>, Vec<String>) = keys(card)
+            .into_iter()
+            .partition(|k| known.contains(&k.as_str()));
+        for key in others {
+            let message = format!(
+                "{}: {} is left out: it is not printed",
+                card.written,
+                clip(&key)
+            );
+            self.note(card.place, message);
+        }
+        printed
+    }
+
+    /// The set that is printed, of nodes or of elements.
+    fn printed_set(
+        &mut self,
+        card: &Card,
+        (parameter, what): (&str, &str),
+        known: impl Fn(&Deck, &str) -> bool,
+    ) -> Option<String> {
+        let Some(set) = card.get(parameter) else {
+            let message = format!("{} names no set: nothing is printed", card.written);
+            self.note(card.place, message);
+            return None;
+        };
+        if !known(&self.deck, set) {
+            self.error(
+                card.place,
+                format!("there is no set of {what} {set}"),
+                &format!("define it with *{parameter} before it is printed"),
+            );
+            return None;
+        }
+        Some(set.to_string())
     }
 
     pub(super) fn print(&mut self, card: &Card) {
@@ -45,28 +91,7 @@ impl Reader<'_> {
             _ => Totals::No,
         };
         let Some(when) = self.when(card) else { return };
-        let keys = keys(card);
-        let known: &[&str] = match card.keyword.as_str() {
-            "NODEPRINT" => &["U", "RF", "V", "A"],
-            "ELPRINT" => &["S", "E", "ELSE", "EVOL"],
-            _ => &[
-                "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",
-            ],
-        };
-        for key in &keys {
-            if !known.contains(&key.as_str()) {
-                let message = format!(
-                    "{}: {} is left out: it is not printed",
-                    card.written,
-                    clip(key)
-                );
-                self.note(card.place, message);
-            }
-        }
-        let keys: Vec<String> = keys
-            .into_iter()
-            .filter(|k| known.contains(&k.as_str()))
-            .collect();
+        let keys = self.known_keys(card);
         let sums = match card.keyword.as_str() {
             "NODEPRINT" => card.get("NSET").map(|s| (0, s.to_string())),
             "ELPRINT" => card.get("ELSET").map(|s| (1, s.to_string())),
@@ -75,62 +100,41 @@ impl Reader<'_> {
         if let (true, Some((kind, set))) = (totals != Totals::No, sums) {
             self.once(kind, &set, card.place);
         }
+        let global = || card.get("GLOBAL") == Some("YES");
         let print = match card.keyword.as_str() {
-            "NODEPRINT" => match card.get("NSET").map(str::to_string) {
-                Some(set) if !self.deck.node_sets.contains_key(&set) => {
-                    self.error(
-                        card.place,
-                        format!("there is no set of nodes {set}"),
-                        "define it with *NSET before it is printed",
-                    );
-                    return;
-                }
-                Some(set) => Print::Node {
+            "NODEPRINT" => self
+                .printed_set(card, ("NSET", "nodes"), |d, set| {
+                    d.node_sets.contains_key(set)
+                })
+                .map(|set| Print::Node {
                     set,
                     keys,
                     totals,
-                    global: card.get("GLOBAL") == Some("YES"),
+                    global: global(),
                     when,
-                },
-                None => {
-                    let message = format!("{} names no set: nothing is printed", card.written);
-                    self.note(card.place, message);
-                    return;
-                }
-            },
-            "ELPRINT" => match card.get("ELSET").map(str::to_string) {
-                Some(set) if !self.deck.element_sets.contains_key(&set) => {
-                    self.error(
-                        card.place,
-                        format!("there is no set of elements {set}"),
-                        "define it with *ELSET before it is printed",
-                    );
-                    return;
-                }
-                Some(set) => Print::Element {
+                }),
+            "ELPRINT" => self
+                .printed_set(card, ("ELSET", "elements"), |d, set| {
+                    d.element_sets.contains_key(set)
+                })
+                .map(|set| Print::Element {
                     set,
                     keys,
                     totals,
-                    global: card.get("GLOBAL") == Some("YES"),
+                    global: global(),
                     when,
-                },
-                None => {
-                    let message = format!("{} names no set: nothing is printed", card.written);
-                    self.note(card.place, message);
-                    return;
-                }
-            },
+                }),
             _ => {
                 let pair = card.get("SLAVE").zip(card.get("MASTER"));
-                Print::Contact {
+                Some(Print::Contact {
                     pair: pair.map(|(s, m)| (s.to_string(), m.to_string())),
                     keys,
                     totals,
                     when,
-                }
+                })
             }
         };
-        if let Some(step) = self.deck.steps.last_mut() {
+        if let (Some(print), Some(step)) = (print, self.deck.steps.last_mut()) {
             step.prints.push(print);
         }
     }

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::fields::Nodes;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
-use crate::text::{clip, label, whole};
+use crate::text::{clip, label};
 
 impl Reader<'_> {
     /// `start, end, step` as those of the numbers that exist.
@@ -51,25 +52,21 @@ impl Reader<'_> {
                 continue;
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
-                match whole(field) {
-                    Some(n) if self.deck.nodes.contains_key(&n) => out.push(n),
-                    Some(n) => {
+                match self.named_nodes(field, label(field)) {
+                    Nodes::One(n) => out.push(n),
+                    Nodes::Absent(n) => {
                         let absent = (name.clone(), format!("node {n}"), data.place);
                         self.absent.push(absent);
                     }
-                    None => match self.deck.node_sets.get(&label(field)) {
-                        Some(set) => {
-                            out.extend(set);
-                            self.inherit(0, &label(field), &name);
-                        }
-                        None => {
-                            self.error(
-                                data.place,
-                                format!("there is no set of nodes {}", clip(field)),
-                                "a set must stand before those it is part of",
-                            );
-                        }
-                    },
+                    Nodes::Set(part) => {
+                        out.extend(&self.deck.node_sets[&part]);
+                        self.inherit(0, &part, &name);
+                    }
+                    Nodes::NoSet => self.error(
+                        data.place,
+                        format!("there is no set of nodes {}", clip(field)),
+                        "a set must stand before those it is part of",
+                    ),
                 }
             }
         }

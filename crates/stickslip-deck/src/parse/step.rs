@@ -7,6 +7,11 @@ use crate::deck::{Action, Procedure, Step};
 use crate::text::clip;
 
 impl Reader<'_> {
+    pub(super) fn heading(&mut self, card: &Card) {
+        let first = card.data.first().map(|d| d.fields.join(", "));
+        self.deck.title = self.deck.title.take().or(first);
+    }
+
     pub(super) fn step(&mut self, card: &Card) {
         if self.in_step {
             self.step_without_procedure();

@@ -1,9 +1,10 @@
 //! Surfaces: faces of elements, or nodes.
 
+use super::fields::Nodes;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
 use crate::deck::{Surface, SurfaceParts};
-use crate::text::{clip, label, squeeze, whole};
+use crate::text::{clip, label, squeeze};
 
 impl Reader<'_> {
     /// `S3` or `P3` as 3.
@@ -27,6 +28,54 @@ impl Reader<'_> {
         n
     }
 
+    /// Faces of elements, of which those without a number are all that lie outside.
+    fn faces_of(&mut self, card: &Card) -> Vec<(u64, Option<usize>)> {
+        let mut faces = Vec::new();
+        for data in &card.data {
+            let Some(first) = data.fields.first() else {
+                continue;
+            };
+            let elements = self.elements_of(first, data.place);
+            let face = match data.fields.get(1).filter(|f| !f.is_empty()) {
+                Some(text) => match self.face(&text.clone(), 'S', data.place) {
+                    Some(n) => Some(n),
+                    None => continue,
+                },
+                None => None,
+            };
+            for e in elements {
+                if face.is_none_or(|f| self.has_face(e, f, data.place)) {
+                    faces.push((e, face));
+                }
+            }
+        }
+        faces
+    }
+
+    fn nodes_of(&mut self, card: &Card) -> Vec<u64> {
+        let mut nodes = Vec::new();
+        for data in &card.data {
+            let Some(field) = data.fields.first() else {
+                continue;
+            };
+            match self.named_nodes(field, label(field)) {
+                Nodes::One(n) => nodes.push(n),
+                Nodes::Absent(n) => self.error(
+                    data.place,
+                    format!("there is no node {n}"),
+                    "*NODE must stand before what refers to it",
+                ),
+                Nodes::Set(name) => nodes.extend(&self.deck.node_sets[&name]),
+                Nodes::NoSet => self.error(
+                    data.place,
+                    format!("there is no set of nodes {}", clip(field)),
+                    "define it with *NSET before",
+                ),
+            }
+        }
+        nodes
+    }
+
     pub(super) fn surface(&mut self, card: &Card) {
         let Some(name) = self.required(card, "NAME") else {
             return;
@@ -40,53 +89,8 @@ impl Reader<'_> {
             );
         }
         let parts = match card.get("TYPE").unwrap_or("ELEMENT") {
-            "" | "ELEMENT" => {
-                let mut faces = Vec::new();
-                for data in &card.data {
-                    let Some(first) = data.fields.first() else {
-                        continue;
-                    };
-                    let elements = self.elements_of(first, data.place);
-                    let face = match data.fields.get(1).filter(|f| !f.is_empty()) {
-                        Some(text) => match self.face(&text.clone(), 'S', data.place) {
-                            Some(n) => Some(n),
-                            None => continue,
-                        },
-                        None => None,
-                    };
-                    for e in elements {
-                        if face.is_none_or(|f| self.has_face(e, f, data.place)) {
-                            faces.push((e, face));
-                        }
-                    }
-                }
-                SurfaceParts::Faces(faces)
-            }
-            "NODE" => {
-                let mut nodes = Vec::new();
-                for data in &card.data {
-                    let Some(field) = data.fields.first() else {
-                        continue;
-                    };
-                    match whole(field) {
-                        Some(n) if self.deck.nodes.contains_key(&n) => nodes.push(n),
-                        Some(n) => self.error(
-                            data.place,
-                            format!("there is no node {n}"),
-                            "*NODE must stand before what refers to it",
-                        ),
-                        None => match self.deck.node_sets.get(&label(field)) {
-                            Some(set) => nodes.extend(set),
-                            None => self.error(
-                                data.place,
-                                format!("there is no set of nodes {}", clip(field)),
-                                "define it with *NSET before",
-                            ),
-                        },
-                    }
-                }
-                SurfaceParts::Nodes(nodes)
-            }
+            "" | "ELEMENT" => SurfaceParts::Faces(self.faces_of(card)),
+            "NODE" => SurfaceParts::Nodes(self.nodes_of(card)),
             other => {
                 let message = format!("*SURFACE of type {other} is not supported");
                 self.error(card.place, message, "surfaces are of type ELEMENT or NODE; a rigid surface can be a *RIGID BODY of elements");

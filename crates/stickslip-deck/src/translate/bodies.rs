@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use stickslip::io::abaqus::{self, Space};
+use stickslip::io::abaqus::{self, ElementType, Space};
 use stickslip::mesh::{Block, CellRef, FacetRef, Mesh};
 
 use super::job::Job;
 use super::toml;
 use crate::card::Place;
-use crate::deck::SurfaceParts;
+use crate::deck::{Deck, SurfaceParts};
 
 /// A body of the deck.
 #[derive(Debug)]
@@ -115,13 +115,19 @@ pub(super) fn find(job: &mut Job) -> Option<Bodies> {
     Some(bodies)
 }
 
-/// The bodies as connected cells, without names.
-pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
+/// Cells by their elements, joined where they share nodes, and the space that they live in.
+struct Joined {
+    cells: BTreeMap<u64, ElementType>,
+    parent: BTreeMap<u64, u64>,
+    space: Space,
+}
+
+/// Joins the cells of a deck.
+fn join(job: &mut Job, bounding: &BTreeSet<u64>) -> Option<Joined> {
     let deck = job.deck;
     let mut parent: BTreeMap<u64, u64> = BTreeMap::new();
     let mut space: Option<(Space, u64)> = None;
     let mut cells = BTreeMap::new();
-    let bounding = bounding(job);
     for (id, e) in &deck.elements {
         let Ok(t) = abaqus::element_type(&e.kind) else {
             continue;
@@ -165,7 +171,19 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
         );
         return None;
     };
-    let dim = if space == Space::Solid { 3 } else { 2 };
+    Some(Joined {
+        cells,
+        parent,
+        space,
+    })
+}
+
+/// The nodes of cells as points of a mesh without cells, and the index of each.
+fn points(
+    deck: &Deck,
+    cells: &BTreeMap<u64, ElementType>,
+    dim: usize,
+) -> (Mesh, BTreeMap<u64, usize>) {
     let mut mesh = Mesh {
         dim,
         ..Mesh::default()
@@ -184,6 +202,20 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
         mesh.points.push(x);
         mesh.point_ids.push(n);
     }
+    (mesh, index)
+}
+
+/// The bodies as connected cells, without names.
+pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
+    let deck = job.deck;
+    let bounding = bounding(job);
+    let Joined {
+        cells,
+        mut parent,
+        space,
+    } = join(job, &bounding)?;
+    let dim = if space == Space::Solid { 3 } else { 2 };
+    let (mut mesh, index) = points(deck, &cells, dim);
     // One block a kind of cell and way to integrate, in the order of the numbers.
     let mut blocks = BTreeMap::new();
     let (mut groups, mut all): (BTreeMap<u64, usize>, Vec<Body>) = (BTreeMap::new(), Vec::new());

@@ -30,6 +30,7 @@ use stickslip::mesh::Mesh;
 use crate::axes;
 use crate::deck::{Behavior, Deck, Print, SurfaceParts};
 use crate::finding::DeckError;
+use bodies::Bodies;
 use job::Job;
 use sets::Sets;
 
@@ -57,32 +58,9 @@ impl Deck {
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
-        let (stick, soft) = (deck_has_stick(self), deck_ties_by_springs(self));
-        if stick || soft {
-            // The slip and the stretch of springs that the deck gives are no errors of the solution.
-            job.out.line("");
-            job.out.line("[quality]");
-            job.out.line("false-slip = 1e300");
-        }
-        if soft {
-            job.out.line("penetration-to-approach = 1e300");
-        }
+        quality(&mut job);
         steps::write(&mut job);
-        for step in &self.steps {
-            for print in &step.prints {
-                let Print::Node { set, .. } = print else {
-                    continue;
-                };
-                let all = self.node_sets.get(set).into_iter().flatten();
-                let none = all.filter(|n| !bodies.of_node.contains_key(n)).count();
-                if none > 0 {
-                    let message = format!(
-                        "*NODE PRINT of {set}: {none} nodes that are in no body, such as reference nodes, are not printed"
-                    );
-                    job.note(step.place, message);
-                }
-            }
-        }
+        unprinted(&mut job, &bodies);
         job.out.tables(sets.tables());
         if !job.errors.is_empty() {
             return Err(job.failed());
@@ -90,22 +68,6 @@ impl Deck {
         let mesh = Arc::new(sets.into_mesh(&bodies));
         let mut notes = self.notes.clone();
         notes.append(&mut job.notes);
-        let printed = |p: &Print| match p {
-            Print::Node { set, .. } | Print::Element { set, .. } => Some(set.clone()),
-            Print::Contact { .. } => None,
-        };
-        let names: Vec<String> = self
-            .steps
-            .iter()
-            .flat_map(|s| &s.prints)
-            .filter_map(printed)
-            .collect();
-        let of = |sets: &BTreeMap<String, Vec<u64>>| {
-            names
-                .iter()
-                .filter_map(|n| Some((n.clone(), sets.get(n)?.clone())))
-                .collect()
-        };
         let node_axes = self.transforms.iter().filter_map(|(n, t)| {
             let x = *self.nodes.get(n)?;
             Some((*n, axes::at_node(t, x)?))
@@ -115,17 +77,10 @@ impl Deck {
             let o = self.orientations.get(o).filter(|o| o.uniform)?;
             Some((*e, o.axes))
         });
-        let mut times: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        for (step, span) in self.steps.iter().zip(&job.spans) {
-            for name in &step.output_times {
-                let points = steps::points(self, name, *span);
-                times.entry(name.clone()).or_default().extend(points);
-            }
-        }
         Ok(Translation {
             elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
             lint: lint::findings(self, &bodies),
-            times,
+            times: times(&job),
             node_axes: node_axes.collect(),
             element_axes: element_axes.collect(),
             toml: job.out.finish(),
@@ -133,14 +88,72 @@ impl Deck {
             mesh,
             notes,
             prints: self.steps.iter().map(|s| s.prints.clone()).collect(),
-            node_sets: of(&self.node_sets),
-            element_sets: of(&self.element_sets),
+            node_sets: printed(self, &self.node_sets),
+            element_sets: printed(self, &self.element_sets),
             pairs: job.pairs,
             path: path.to_path_buf(),
             places: job.places,
             files: self.files.clone(),
         })
     }
+}
+
+/// Limits of the gate that do not hold where the deck gives springs of its own.
+fn quality(job: &mut Job) {
+    let (stick, soft) = (deck_has_stick(job.deck), deck_ties_by_springs(job.deck));
+    if stick || soft {
+        // The slip and the stretch of springs that the deck gives are no errors of the solution.
+        job.out.line("");
+        job.out.line("[quality]");
+        job.out.line("false-slip = 1e300");
+    }
+    if soft {
+        job.out.line("penetration-to-approach = 1e300");
+    }
+}
+
+/// Notes on printed nodes that are in no body.
+fn unprinted(job: &mut Job, bodies: &Bodies) {
+    let deck = job.deck;
+    for step in &deck.steps {
+        for print in &step.prints {
+            let Print::Node { set, .. } = print else {
+                continue;
+            };
+            let all = deck.node_sets.get(set).into_iter().flatten();
+            let none = all.filter(|n| !bodies.of_node.contains_key(n)).count();
+            if none > 0 {
+                let message = format!(
+                    "*NODE PRINT of {set}: {none} nodes that are in no body, such as reference nodes, are not printed"
+                );
+                job.note(step.place, message);
+            }
+        }
+    }
+}
+
+/// The sets of a kind that are printed.
+fn printed(deck: &Deck, sets: &BTreeMap<String, Vec<u64>>) -> BTreeMap<String, Vec<u64>> {
+    let name = |p: &Print| match p {
+        Print::Node { set, .. } | Print::Element { set, .. } => Some(set.clone()),
+        Print::Contact { .. } => None,
+    };
+    let names = deck.steps.iter().flat_map(|s| &s.prints).filter_map(name);
+    names
+        .filter_map(|n| Some((n.clone(), sets.get(&n)?.clone())))
+        .collect()
+}
+
+/// Times of `*TIME POINTS` that are asked for, in the time of the analysis.
+fn times(job: &Job) -> BTreeMap<String, Vec<f64>> {
+    let mut times: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for (step, span) in job.deck.steps.iter().zip(&job.spans) {
+        for name in &step.output_times {
+            let points = steps::points(job.deck, name, *span);
+            times.entry(name.clone()).or_default().extend(points);
+        }
+    }
+    times
 }
 
 /// The mesh of a deck with all its sets and surfaces, whatever else it says: it may consist of a mesh alone.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::job::Job;
 use super::spans::{duration, times};
 use super::toml;
-use crate::deck::{Deck, Print, Procedure, When};
+use crate::deck::{Deck, Print, Procedure, Step, When};
 
 pub(super) fn write(job: &mut Job) {
     let deck = job.deck;
@@ -25,96 +25,120 @@ pub(super) fn write(job: &mut Job) {
         let length = duration(step);
         job.out
             .line(&format!("duration = {}", toml::number(length)));
-        for kind in ["supports", "loads", "couplings"] {
-            let all: Vec<&(&str, String, Vec<bool>)> =
-                job.active.iter().filter(|a| a.0 == kind).collect();
-            if all.iter().any(|a| a.2.contains(&false)) {
-                let mut names: Vec<String> =
-                    all.iter().filter(|a| a.2[i]).map(|a| a.1.clone()).collect();
-                if kind == "couplings" {
-                    // Equations and springs act in every step.
-                    let listed = |n: &str| all.iter().any(|a| a.1 == n);
-                    let always = job
-                        .places
-                        .iter()
-                        .filter_map(|(k, _)| k.strip_prefix("coupling."));
-                    names.extend(always.filter(|n| !listed(n)).map(str::to_string));
-                }
-                job.out.line(&format!("{kind} = {}", toml::texts(&names)));
-            }
+        acting(job, i);
+        let sizes = increments(step).join(", ");
+        job.out.line(&format!("increments = {{ {sizes} }}"));
+        if let Some(line) = motion(step) {
+            job.out.line(&line);
         }
-        let [first, _, smallest, largest] = times(step);
-        let (direct, dynamic) = match step.procedure {
-            Procedure::Static { direct, .. } => (direct, None),
-            Procedure::Dynamic {
-                direct,
-                explicit,
-                alpha,
-                ..
-            } => (direct, Some((explicit, alpha))),
-        };
-        let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
-        let explicit = dynamic.is_some_and(|(explicit, _)| explicit);
-        let mut sizes = Vec::new();
-        if direct && first > 0.0 {
-            sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
-        } else {
-            // An explicit step finds its increments itself, up to the largest.
-            let initial = match (first > 0.0, explicit && largest > 0.0) {
-                (true, false) => fraction(first),
-                (true, true) => fraction(first.min(largest)),
-                (false, true) => fraction(largest),
-                (false, false) => 1.0,
-            };
-            sizes.push(format!("initial = {}", toml::number(initial)));
-            if smallest > 0.0 && !explicit {
-                sizes.push(format!(
-                    "smallest = {}",
-                    toml::number(fraction(smallest).min(initial))
-                ));
+        changes(job, i);
+    }
+}
+
+/// The tables that act in a step, where some do not act in all.
+fn acting(job: &mut Job, step: usize) {
+    for kind in ["supports", "loads", "couplings"] {
+        let all: Vec<&(&str, String, Vec<bool>)> =
+            job.active.iter().filter(|a| a.0 == kind).collect();
+        if all.iter().any(|a| a.2.contains(&false)) {
+            let on = all.iter().filter(|a| a.2[step]);
+            let mut names: Vec<String> = on.map(|a| a.1.clone()).collect();
+            if kind == "couplings" {
+                // Equations and springs act in every step.
+                let listed = |n: &str| all.iter().any(|a| a.1 == n);
+                let always = job
+                    .places
+                    .iter()
+                    .filter_map(|(k, _)| k.strip_prefix("coupling."));
+                names.extend(always.filter(|n| !listed(n)).map(str::to_string));
             }
-            if largest > 0.0 {
-                sizes.push(format!(
-                    "largest = {}",
-                    toml::number(fraction(largest).max(fraction(smallest)).max(initial))
-                ));
-            }
-        }
-        job.out
-            .line(&format!("increments = {{ {} }}", sizes.join(", ")));
-        match dynamic {
-            // What is the smallest increment elsewhere is one to be reached by mass scaling in an explicit step.
-            Some((true, _)) if smallest > 0.0 => job.out.line(&format!(
-                "dynamic = {{ scheme.central-difference = {{ mass-scaling = {} }} }}",
-                toml::number(smallest)
-            )),
-            Some((true, _)) => job.out.line("dynamic = { scheme.central-difference = {} }"),
-            // CalculiX's own default.
-            Some((false, alpha)) => {
-                let alpha = toml::number(alpha.unwrap_or(-0.05));
-                job.out.line(&format!(
-                    "dynamic = {{ scheme.hht = {{ alpha = {alpha} }} }}"
-                ));
-            }
-            None => {}
-        }
-        let mut changes: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (_, interface, line) in job.changes.iter().filter(|(step, ..)| *step == i) {
-            changes
-                .entry(interface.clone())
-                .or_default()
-                .push(line.clone());
-        }
-        for (interface, lines) in changes {
-            job.out.line(&format!(
-                "change.{} = {{ {} }}",
-                toml::key(&interface),
-                lines.join(", ")
-            ));
+            job.out.line(&format!("{kind} = {}", toml::texts(&names)));
         }
     }
 }
 
+/// The sizes of the increments of a step, as parts of its length.
+fn increments(step: &Step) -> Vec<String> {
+    let length = duration(step);
+    let [first, _, smallest, largest] = times(step);
+    let (direct, explicit) = match step.procedure {
+        Procedure::Static { direct, .. } => (direct, false),
+        Procedure::Dynamic {
+            direct, explicit, ..
+        } => (direct, explicit),
+    };
+    let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
+    let mut sizes = Vec::new();
+    if direct && first > 0.0 {
+        sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
+        return sizes;
+    }
+    // An explicit step finds its increments itself, up to the largest.
+    let initial = match (first > 0.0, explicit && largest > 0.0) {
+        (true, false) => fraction(first),
+        (true, true) => fraction(first.min(largest)),
+        (false, true) => fraction(largest),
+        (false, false) => 1.0,
+    };
+    sizes.push(format!("initial = {}", toml::number(initial)));
+    if smallest > 0.0 && !explicit {
+        sizes.push(format!(
+            "smallest = {}",
+            toml::number(fraction(smallest).min(initial))
+        ));
+    }
+    if largest > 0.0 {
+        sizes.push(format!(
+            "largest = {}",
+            toml::number(fraction(largest).max(fraction(smallest)).max(initial))
+        ));
+    }
+    sizes
+}
+
+/// How motion is integrated.
+fn motion(step: &Step) -> Option<String> {
+    let Procedure::Dynamic {
+        explicit, alpha, ..
+    } = step.procedure
+    else {
+        return None;
+    };
+    let [_, _, smallest, _] = times(step);
+    Some(match explicit {
+        // What is the smallest increment elsewhere is one to be reached by mass scaling in an explicit step.
+        true if smallest > 0.0 => format!(
+            "dynamic = {{ scheme.central-difference = {{ mass-scaling = {} }} }}",
+            toml::number(smallest)
+        ),
+        true => "dynamic = { scheme.central-difference = {} }".to_string(),
+        // CalculiX's own default.
+        false => {
+            let alpha = toml::number(alpha.unwrap_or(-0.05));
+            format!("dynamic = {{ scheme.hht = {{ alpha = {alpha} }} }}")
+        }
+    })
+}
+
+/// The laws of interfaces that a step changes.
+fn changes(job: &mut Job, step: usize) {
+    let mut changes: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (_, interface, line) in job.changes.iter().filter(|(s, ..)| *s == step) {
+        changes
+            .entry(interface.clone())
+            .or_default()
+            .push(line.clone());
+    }
+    for (interface, lines) in changes {
+        job.out.line(&format!(
+            "change.{} = {{ {} }}",
+            toml::key(&interface),
+            lines.join(", ")
+        ));
+    }
+}
+
+/// The largest number of increments that divides both.
 fn gcd(a: usize, b: usize) -> usize {
     match b {
         0 => a,

@@ -8,7 +8,7 @@ use super::sets::Sets;
 use super::{courses, toml};
 use crate::axes;
 use crate::card::Place;
-use crate::deck::{Action, Boundary, Target, Transform};
+use crate::deck::{Action, Boundary, Rigid, Target, Transform};
 
 /// What is prescribed of one displacement in one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,12 +85,50 @@ pub(super) fn by_step(job: &Job) -> Vec<State> {
     out
 }
 
+/// Values of the displacements of a node that hold in the same steps, with one amplitude.
+type Line = (u64, When, Option<String>);
+
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let states = by_step(job);
+    let mut groups: BTreeMap<Alike, (Vec<u64>, Value)> = BTreeMap::new();
+    for ((node, steps, amplitude), values) in lines(job, bodies, &states) {
+        let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
+            continue;
+        };
+        let when = (node, &steps, &amplitude);
+        if !bodies.of_node.contains_key(&node) {
+            reference(job, bodies, sets, when, &values, &states);
+            continue;
+        }
+        let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
+        let all = values[..bodies.dim()].iter().all(Option::is_some);
+        if let Some(t) = job.deck.transforms.get(&node).copied()
+            && !(zero && all)
+        {
+            local(job, bodies, sets, when, (&values, t));
+            continue;
+        }
+        let alike = values
+            .each_ref()
+            .map(|v| v.as_ref().map(|v| ((v.value + 0.0).to_bits(), v.fixed)));
+        let group = groups
+            .entry((steps, amplitude, alike))
+            .or_insert((Vec::new(), first.clone()));
+        group.0.push(node);
+    }
+    unled(job, bodies);
+    // In the order of the deck.
+    let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
+    ordered.sort_by_key(|(_, (_, v))| v.place);
+    for (alike, group) in ordered {
+        support(job, bodies, sets, alike, group);
+    }
+}
+
+/// Every value of every displacement, with the steps in which it holds.
+fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Option<Value>; 3]> {
     let count = states.len();
     let dofs: BTreeSet<(u64, usize)> = states.iter().flat_map(|s| s.keys().copied()).collect();
-    // Every value of every displacement, with the steps in which it holds.
-    type Line = (u64, When, Option<String>);
     let mut lines: BTreeMap<Line, [Option<Value>; 3]> = BTreeMap::new();
     let mut wrong = BTreeSet::new();
     for (node, component) in dofs {
@@ -111,110 +149,80 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             values[at].1.1[i] = v.step < i && v.amplitude.is_some();
         }
         for (v, steps) in values {
-            if component >= bodies.dim() {
-                // Directions that the space does not have, and rotations, which cells do not have.
-                let turns = component >= 3
-                    && job
-                        .deck
-                        .rigid
-                        .iter()
-                        .any(|r| [r.reference, r.rotation].contains(&Some(node)));
-                if v.value != 0.0 && !turns && wrong.insert(v.place) {
-                    job.error(
-                        v.place,
-                        format!("node {node} has no direction {}", component + 1),
-                        "only zero may be prescribed there",
-                    );
-                }
+            if component < bodies.dim() {
+                let slot = lines.entry((node, steps, v.amplitude.clone())).or_default();
+                slot[component] = Some(v);
                 continue;
             }
-            let slot = lines.entry((node, steps, v.amplitude.clone())).or_default();
-            slot[component] = Some(v);
-        }
-    }
-    let mut groups: BTreeMap<Alike, (Vec<u64>, Value)> = BTreeMap::new();
-    for ((node, steps, amplitude), values) in lines {
-        let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
-            continue;
-        };
-        if !bodies.of_node.contains_key(&node) {
-            reference(
-                job,
-                bodies,
-                sets,
-                (node, &steps, &amplitude),
-                &values,
-                &states,
-            );
-            continue;
-        }
-        let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
-        let all = values[..bodies.dim()].iter().all(Option::is_some);
-        if let Some(t) = job.deck.transforms.get(&node).copied()
-            && !(zero && all)
-        {
-            local(job, bodies, sets, (node, &steps, &amplitude), (&values, t));
-            continue;
-        }
-        let alike = values
-            .each_ref()
-            .map(|v| v.as_ref().map(|v| ((v.value + 0.0).to_bits(), v.fixed)));
-        let group = groups
-            .entry((steps, amplitude, alike))
-            .or_insert((Vec::new(), first.clone()));
-        group.0.push(node);
-    }
-    for (index, _) in bodies
-        .rigid_nodes
-        .iter()
-        .filter(|(i, _)| !job.led.contains(i))
-        .collect::<Vec<_>>()
-    {
-        let place = job.deck.rigid[*index].place;
-        job.error(
-            place,
-            "the rigid set of nodes is part of a body and its reference node is not prescribed",
-            "prescribe all displacements and hold all rotations of the reference node in every step; a force can act on the nodes themselves, or make a body of its own rigid and *TIE it",
-        );
-    }
-    // In the order of the deck.
-    let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
-    ordered.sort_by_key(|(_, (_, v))| v.place);
-    for ((steps, amplitude, values), (nodes, first)) in ordered {
-        let name = job.fresh("support", &toml::name(&first.label));
-        let set = sets.points(bodies, &toml::name(&first.label), &nodes);
-        let given = values
-            .iter()
-            .flatten()
-            .map(|(bits, _)| f64::from_bits(*bits));
-        let largest = given.fold(0.0, |m: f64, v| m.max(v.abs()));
-        // What is held where it is does not move.
-        let still = values.iter().flatten().all(|(_, fixed)| *fixed);
-        let factor = match still {
-            true => None,
-            false => course(job, &amplitude, &steps, (largest, first.place), &name),
-        };
-        job.table("support", &name, first.place);
-        job.out.line(&format!("set = {}", toml::text(&set)));
-        let mut held = Vec::new();
-        for (axis, v) in ["x", "y", "z"].iter().zip(values) {
-            match v {
-                Some((_, true)) => held.push(*axis),
-                Some((bits, false)) => job
-                    .out
-                    .line(&format!("{axis} = {}", toml::number(f64::from_bits(bits)))),
-                None => {}
+            // Directions that the space does not have, and rotations, which cells do not have.
+            let of_node = |r: &Rigid| [r.reference, r.rotation].contains(&Some(node));
+            let turns = component >= 3 && job.deck.rigid.iter().any(of_node);
+            if v.value != 0.0 && !turns && wrong.insert(v.place) {
+                job.error(
+                    v.place,
+                    format!("node {node} has no direction {}", component + 1),
+                    "only zero may be prescribed there",
+                );
             }
         }
-        if !held.is_empty() {
-            job.out.line(&format!("hold = {}", toml::texts(&held)));
-        }
-        if let Some(factor) = factor {
-            job.out
-                .line(&format!("amplitude = {}", toml::text(&factor)));
-        }
-        job.active.push(("supports", name, steps.0));
     }
+    lines
+}
+
+/// Rigid sets of nodes that nothing leads are errors.
+fn unled(job: &mut Job, bodies: &Bodies) {
+    for index in bodies.rigid_nodes.keys() {
+        if !job.led.contains(index) {
+            job.error(
+                job.deck.rigid[*index].place,
+                "the rigid set of nodes is part of a body and its reference node is not prescribed",
+                "prescribe all displacements and hold all rotations of the reference node in every step; a force can act on the nodes themselves, or make a body of its own rigid and *TIE it",
+            );
+        }
+    }
+}
+
+/// The table of nodes that are prescribed alike.
+fn support(
+    job: &mut Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    (steps, amplitude, values): Alike,
+    (nodes, first): (Vec<u64>, Value),
+) {
+    let name = job.fresh("support", &toml::name(&first.label));
+    let set = sets.points(bodies, &toml::name(&first.label), &nodes);
+    let given = values
+        .iter()
+        .flatten()
+        .map(|(bits, _)| f64::from_bits(*bits));
+    let largest = given.fold(0.0, |m: f64, v| m.max(v.abs()));
+    // What is held where it is does not move.
+    let still = values.iter().flatten().all(|(_, fixed)| *fixed);
+    let factor = match still {
+        true => None,
+        false => course(job, &amplitude, &steps, (largest, first.place), &name),
+    };
+    job.table("support", &name, first.place);
+    job.out.line(&format!("set = {}", toml::text(&set)));
+    let mut held = Vec::new();
+    for (axis, v) in ["x", "y", "z"].iter().zip(values) {
+        match v {
+            Some((_, true)) => held.push(*axis),
+            Some((bits, false)) => job
+                .out
+                .line(&format!("{axis} = {}", toml::number(f64::from_bits(bits)))),
+            None => {}
+        }
+    }
+    if !held.is_empty() {
+        job.out.line(&format!("hold = {}", toml::texts(&held)));
+    }
+    if let Some(factor) = factor {
+        job.out
+            .line(&format!("amplitude = {}", toml::text(&factor)));
+    }
+    job.active.push(("supports", name, steps.0));
 }
 
 /// The amplitude of what is prescribed, under its name in the problem.

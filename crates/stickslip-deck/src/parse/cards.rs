@@ -1,0 +1,104 @@
+//! Which function reads a card that the table calls read.
+
+use super::reader::{Context, Reader};
+use crate::card::Card;
+
+/// What reads a card.
+type Read = fn(&mut Reader<'_>, &Card);
+
+/// Every card that is read, with what reads it.
+const CARDS: &[(&str, Read)] = &[
+    ("HEADING", |r, c| r.heading(c)),
+    ("NODE", |r, c| r.nodes(c)),
+    ("ELEMENT", |r, c| r.elements(c)),
+    ("NSET", |r, c| r.node_set(c)),
+    ("ELSET", |r, c| r.element_set(c)),
+    ("SURFACE", |r, c| r.surface(c)),
+    ("TRANSFORM", |r, c| r.transform(c)),
+    ("EQUATION", |r, c| r.equation(c)),
+    ("RIGIDBODY", |r, c| r.rigid_body(c)),
+    ("SPRING", |r, c| r.spring(c)),
+    ("MASS", |r, c| r.mass(c)),
+    ("INITIALCONDITIONS", |r, c| r.initial_conditions(c)),
+    ("MATERIAL", |r, c| r.material(c)),
+    ("ELASTIC", |r, c| r.elastic(c)),
+    ("DENSITY", |r, c| r.density(c)),
+    ("DAMPING", |r, c| r.damping(c)),
+    ("SOLIDSECTION", |r, c| r.solid_section(c)),
+    ("ORIENTATION", |r, c| r.orientation(c)),
+    ("AMPLITUDE", |r, c| r.amplitude(c)),
+    ("SURFACEINTERACTION", |r, c| r.interaction(c)),
+    ("SURFACEBEHAVIOR", |r, c| r.behavior(c)),
+    ("FRICTION", |r, c| r.friction(c)),
+    ("CONTACTDAMPING", |r, c| r.contact_damping(c)),
+    ("CHANGEFRICTION", |r, c| {
+        r.change(c, Context::ChangeFriction)
+    }),
+    ("CHANGESURFACEBEHAVIOR", |r, c| {
+        r.change(c, Context::ChangeBehavior)
+    }),
+    ("CONTACTPAIR", |r, c| r.contact_pair(c)),
+    ("CLEARANCE", |r, c| r.clearance(c)),
+    ("TIE", |r, c| r.tie(c)),
+    ("TIMEPOINTS", |r, c| r.time_points(c)),
+    ("STEP", |r, c| r.step(c)),
+    ("ENDSTEP", |r, c| r.end_step(c)),
+    ("STATIC", |r, c| r.statics(c)),
+    ("DYNAMIC", |r, c| r.dynamics(c)),
+    ("BOUNDARY", |r, c| r.boundary(c)),
+    ("CLOAD", |r, c| r.forces(c)),
+    ("DLOAD", |r, c| r.distributed(c)),
+    ("DSLOAD", |r, c| r.surface_loads(c)),
+    ("NODEPRINT", |r, c| r.print(c)),
+    ("ELPRINT", |r, c| r.print(c)),
+    ("CONTACTPRINT", |r, c| r.print(c)),
+    ("NODEFILE", |r, c| r.output(c)),
+    ("ELFILE", |r, c| r.output(c)),
+    ("CONTACTFILE", |r, c| r.output(c)),
+    ("NODEOUTPUT", |r, c| r.output(c)),
+    ("ELEMENTOUTPUT", |r, c| r.output(c)),
+    ("CONTACTOUTPUT", |r, c| r.output(c)),
+    ("OUTPUT", |r, c| r.output(c)),
+    ("NORMAL", |r, c| r.normal(c)),
+    // What is refused of it has been said, and nothing else of it matters.
+    ("RESTART", |_, _| {}),
+];
+
+/// Cards that stand beneath a material or an interaction.
+pub(super) const BENEATH: [&str; 6] = [
+    "ELASTIC",
+    "DENSITY",
+    "DAMPING",
+    "SURFACEBEHAVIOR",
+    "FRICTION",
+    "CONTACTDAMPING",
+];
+
+/// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
+pub(super) const NAMES: [&str; 11] = [
+    "NODE",
+    "ELEMENT",
+    "NSET",
+    "ELSET",
+    "SURFACE",
+    "MATERIAL",
+    "SURFACEINTERACTION",
+    "AMPLITUDE",
+    "STEP",
+    "STATIC",
+    "DYNAMIC",
+];
+
+/// Procedures that are refused.
+pub(super) const OTHER_PROCEDURES: [&str; 4] = [
+    "COUPLEDTEMPERATURE-DISPLACEMENT",
+    "FREQUENCY",
+    "HEATTRANSFER",
+    "BUCKLE",
+];
+
+/// The function that reads a card.
+pub(super) fn reader_of(keyword: &str) -> Option<Read> {
+    let card = CARDS.iter().find(|(name, _)| *name == keyword);
+    card.map(|(_, read)| *read)
+}
