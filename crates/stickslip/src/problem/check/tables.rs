@@ -262,78 +262,15 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
         normal,
         damping,
         friction,
-        slip,
         enforcement,
         ..
     } = interface;
-    let at = |last: &[&'static str]| -> Vec<&str> { [table, last].concat() };
-    let mut add = |stage, kind, faults| findings.faults(&at(&[stage, kind]), faults);
-    add("normal", normal.kind(), normal.as_dyn().faults());
-    add("damping", damping.kind(), damping.as_dyn().faults());
-    add("friction", friction.kind(), friction.as_dyn().faults());
-    add("slip", slip.kind(), slip.as_dyn().faults());
-    add(
-        "enforcement",
-        enforcement.kind(),
-        enforcement.as_dyn().faults(),
-    );
-    if let Some(model) = &interface.discretisation {
-        add("discretisation", model.kind(), model.as_dyn().faults());
-    }
-    let by_points = interface.kinematics.as_dyn().triangles()
-        || interface.facets == Some(FacetShape::Triangles);
-    if by_points && interface.discretisation().as_dyn().weighted().is_some() {
-        findings.add(
-            &at(&["discretisation"]),
-            "kinematics `pop-1995` and `facets = \"triangles\"` are for contact elements of a point and a facet",
-            "remove the key, or write discretisation.node-to-facet = {}",
-        );
-    }
-    if interface.tied {
-        let plain = Interface {
-            secondary: interface.secondary.clone(),
-            primary: interface.primary.clone(),
-            roles: interface.roles,
-            enforcement: enforcement.clone(),
-            discretisation: interface.discretisation.clone(),
-            kinematics: interface.kinematics.clone(),
-            facets: interface.facets,
-            tied: true,
-            normal: NormalModel::default(),
-            damping: DampingModel::default(),
-            friction: FrictionModel::default(),
-            slip: SlipModel::default(),
-            initial: interface.initial,
-            initial_tolerance: interface.initial_tolerance,
-            initial_distance: interface.initial_distance,
-            initial_set: interface.initial_set.clone(),
-            wear: None,
-            primary_velocity: None,
-            primary_velocity_table: None,
-        };
-        if plain != *interface {
-            findings.add(
-                &at(&["tied"]),
-                "laws and velocities have no meaning where surfaces are tied",
-                "remove normal, damping, friction, slip and primary-velocity, or `tied`",
-            );
-        }
-    }
-    if let Some(wear) = &interface.wear {
-        findings.faults(&at(&["wear"]), wear.faults());
-    }
+    parameters(findings, table, interface);
+    elements(findings, table, interface);
+    tied(findings, table, interface);
     initial(findings, table, interface);
-    let triangles = interface.kinematics.as_dyn().triangles();
-    if triangles && interface.facets == Some(FacetShape::Bilinear) {
-        findings.add(
-            &at(&["facets"]),
-            format!(
-                "kinematics `{}` needs triangles",
-                interface.kinematics.kind()
-            ),
-            "write facets = \"triangles\", or remove the key",
-        );
-    }
+    facets(findings, table, interface);
+    let at = |key: &'static str| [table, &[key]].concat();
     let set_valued = normal.as_dyn().pressure(0.0).is_none();
     let multipliers = enforcement.as_dyn().multipliers() != Multipliers::None;
     // Two conditions for one gap: each alone would close it, and multipliers cannot share what they do.
@@ -342,7 +279,7 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
         && (set_valued || friction.as_dyn().frictional())
     {
         findings.add(
-            &at(&["discretisation"]),
+            &at("discretisation"),
             "two-sided contact with multipliers has more conditions than unknowns",
             "choose enforcement.penalty, or a compliant normal law without friction",
         );
@@ -350,7 +287,7 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     // A multiplier takes whatever pressure closes the gap: damping would change nothing.
     if damping.as_dyn().active() && set_valued && multipliers {
         findings.add(
-            &at(&["damping"]),
+            &at("damping"),
             "damping needs a pressure that follows from the gap",
             "choose a compliant normal law or enforcement.penalty",
         );
@@ -358,13 +295,88 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     // An exact law has no penetration of its own: what there is comes from the enforcement and means nothing.
     if friction.as_dyn().needs_penetration() && set_valued {
         findings.add(
-            &at(&["friction"]),
+            &at("friction"),
             format!(
                 "friction `{}` depends on the penetration, which normal `{}` does not allow",
                 friction.kind(),
                 normal.kind()
             ),
             "choose a compliant normal law, or friction.coulomb",
+        );
+    }
+}
+
+/// What the models of an interface say of their own parameters.
+fn parameters(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    fn of<F: Family>(model: &F, faults: Vec<(&'static str, String)>) -> Said {
+        (F::KEY, model.kind(), faults)
+    }
+    type Said = (&'static str, &'static str, Vec<(&'static str, String)>);
+    let i = interface;
+    let discretisation = i.discretisation.iter();
+    let said = [
+        of(&i.normal, i.normal.as_dyn().faults()),
+        of(&i.damping, i.damping.as_dyn().faults()),
+        of(&i.friction, i.friction.as_dyn().faults()),
+        of(&i.slip, i.slip.as_dyn().faults()),
+        of(&i.enforcement, i.enforcement.as_dyn().faults()),
+    ];
+    let said = said
+        .into_iter()
+        .chain(discretisation.map(|d| of(d, d.as_dyn().faults())));
+    for (family, kind, faults) in said {
+        findings.faults(&[table, &[family, kind]].concat(), faults);
+    }
+}
+
+/// Contact elements of a point and a facet are a discretisation of their own.
+fn elements(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    let by_points = interface.kinematics.as_dyn().triangles()
+        || interface.facets == Some(FacetShape::Triangles);
+    if by_points && interface.discretisation().as_dyn().weighted().is_some() {
+        findings.add(
+            &[table, &["discretisation"]].concat(),
+            "kinematics `pop-1995` and `facets = \"triangles\"` are for contact elements of a point and a facet",
+            "remove the key, or write discretisation.node-to-facet = {}",
+        );
+    }
+}
+
+/// Laws have no meaning where surfaces are tied.
+fn tied(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    let plain = Interface {
+        normal: NormalModel::default(),
+        damping: DampingModel::default(),
+        friction: FrictionModel::default(),
+        slip: SlipModel::default(),
+        wear: None,
+        primary_velocity: None,
+        primary_velocity_table: None,
+        ..interface.clone()
+    };
+    if interface.tied && plain != *interface {
+        findings.add(
+            &[table, &["tied"]].concat(),
+            "laws and velocities have no meaning where surfaces are tied",
+            "remove normal, damping, friction, slip and primary-velocity, or `tied`",
+        );
+    }
+    if let Some(wear) = &interface.wear {
+        findings.faults(&[table, &["wear"]].concat(), wear.faults());
+    }
+}
+
+/// Which facets a kinematics needs.
+fn facets(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    let triangles = interface.kinematics.as_dyn().triangles();
+    if triangles && interface.facets == Some(FacetShape::Bilinear) {
+        findings.add(
+            &[table, &["facets"]].concat(),
+            format!(
+                "kinematics `{}` needs triangles",
+                interface.kinematics.kind()
+            ),
+            "write facets = \"triangles\", or remove the key",
         );
     }
 }
