@@ -3,31 +3,27 @@
 //! All of them are made on an integer lattice that is mapped into space (`lattice.rs`): a grid for the rectangle and
 //! the box, a core with layers around it for the round bodies (`round.rs`).
 
+mod ball;
 mod cuboid;
 mod disc;
 mod generate;
 mod grading;
-mod half_ball;
-mod half_disc;
 mod lattice;
 mod rectangle;
 mod round;
 mod round_options;
-mod solid_ball;
 
 #[cfg(test)]
 mod tests;
 
+pub use ball::{Ball, HalfBall};
 pub use cuboid::Cuboid;
-pub use disc::Disc;
+pub use disc::{Disc, HalfDisc};
 pub use generate::Generate;
 pub use grading::{Grading, Stretch};
-pub use half_ball::HalfBall;
-pub use half_disc::HalfDisc;
 pub use lattice::Diagonal;
 pub use rectangle::Rectangle;
 pub use round_options::{Refinement, Sector};
-pub use solid_ball::Ball;
 
 crate::family! {
     /// The built-in meshes.
