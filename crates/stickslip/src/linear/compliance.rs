@@ -1,5 +1,5 @@
 use std::io::{self, Read, Write};
-use std::ops::{Add, Mul, Range};
+use std::ops::{Add, AddAssign, Mul, Range};
 use std::sync::OnceLock;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -31,7 +31,9 @@ const SMALL: usize = 512;
 const TASKS: usize = 8;
 
 /// Numbers that a product can be made with.
-trait Number: Copy + Send + Sync + Add<Output = Self> + Mul<Output = Self> + 'static {
+trait Number:
+    Copy + Send + Sync + Add<Output = Self> + AddAssign + Mul<Output = Self> + 'static
+{
     const ZERO: Self;
     fn of(x: f64) -> Self;
     fn to(self) -> f64;
@@ -296,9 +298,9 @@ impl<T: Number> pulp::NullaryFnOnce for LowerColumns<'_, T> {
             for a in j..j + width {
                 for b in j..=a {
                     let v = values[b * n + a];
-                    y[a - first] = y[a - first] + v * x[b];
+                    y[a - first] += v * x[b];
                     if a != b {
-                        y[b - first] = y[b - first] + v * x[a];
+                        y[b - first] += v * x[a];
                     }
                 }
             }
@@ -317,14 +319,14 @@ impl<T: Number> pulp::NullaryFnOnce for LowerColumns<'_, T> {
                         .zip(&mut y[below - first..])
                         .zip(&x[width..])
                     {
-                        *y = *y + *v * x[k];
-                        *sum = *sum + *v * *xi;
+                        *y += *v * x[k];
+                        *sum += *v * *xi;
                     }
                 }
                 sums
             };
             for (k, sum) in sums.into_iter().enumerate().take(width) {
-                y[j + k - first] = y[j + k - first] + sum;
+                y[j + k - first] += sum;
             }
             j += width;
         }
@@ -345,20 +347,20 @@ fn four_columns<T: Number>(c: [&[T]; 4], s: [T; 4], x: &[T], y: &mut [T]) -> [T;
         for l in 0..LANES {
             let low = c0[l] * s[0] + c1[l] * s[1];
             let high = c2[l] * s[2] + c3[l] * s[3];
-            y[l] = y[l] + (low + high);
+            y[l] += low + high;
         }
         for l in 0..LANES {
-            lanes[0][l] = lanes[0][l] + c0[l] * x[l];
-            lanes[1][l] = lanes[1][l] + c1[l] * x[l];
-            lanes[2][l] = lanes[2][l] + c2[l] * x[l];
-            lanes[3][l] = lanes[3][l] + c3[l] * x[l];
+            lanes[0][l] += c0[l] * x[l];
+            lanes[1][l] += c1[l] * x[l];
+            lanes[2][l] += c2[l] * x[l];
+            lanes[3][l] += c3[l] * x[l];
         }
     }
     let mut sums = lanes.map(|lane| lane.iter().fold(T::ZERO, |a, &b| a + b));
     for (((((y, x), c0), c1), c2), c3) in yr.iter_mut().zip(xr).zip(r0).zip(r1).zip(r2).zip(r3) {
         for (k, c) in [c0, c1, c2, c3].into_iter().enumerate() {
-            *y = *y + *c * s[k];
-            sums[k] = sums[k] + *c * *x;
+            *y += *c * s[k];
+            sums[k] += *c * *x;
         }
     }
     sums

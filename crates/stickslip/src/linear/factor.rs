@@ -1,3 +1,10 @@
+//! The Cholesky factor of all free dofs, with blocks of interfaces: faer's supernodal one.
+//!
+//! The multifrontal factor of this folder could do the same without kept dofs. Measured beside it (one thread, development build, best of 3 to 7):
+//! 4 800 dofs in 2D 4.8 ms against 3.8 ms here, 100 000 in 2D 0.214 s against 0.205 s, 31 944 in 3D 0.57 s against 0.67 s, 81 000 in 3D 3.8 s against
+//! 4.1 s; a solution takes 0.4 to 0.65 of the time. What it lacks is blocks between points that the matrix does not couple, and counts without the
+//! zeros it stores, by which methods are chosen (up to 50 % of the entries in small 2D models): it would change choices, and the bits of every sparse run.
+
 use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -274,8 +281,7 @@ fn check_pivots(
 
 #[cfg(test)]
 mod tests {
-    use super::super::DenseLu;
-    use super::super::testing::{dense_of, grid, noise};
+    use super::super::testing::{self, dense_of, grid, noise};
     use super::*;
 
     fn analyze(matrix: &BlockCsr, fixed: &[bool], extra: &[Vec<usize>]) -> Arc<Symbolic> {
@@ -295,8 +301,7 @@ mod tests {
             dense[i * n + i] = 1.0;
             x[i] = 0.0;
         }
-        DenseLu::new(n, &dense).unwrap().solve(&mut x);
-        x
+        testing::dense_solution(&dense, &x)
     }
 
     fn assert_close(x: &[f64], y: &[f64], tolerance: f64) {

@@ -6,7 +6,6 @@
 
 mod block_csr;
 mod compliance;
-mod dense;
 mod digest;
 mod error;
 mod factor;
@@ -23,7 +22,6 @@ mod testing;
 
 pub use block_csr::BlockCsr;
 pub use compliance::Compliance;
-pub use dense::DenseLu;
 pub use digest::Digest;
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};

@@ -1,5 +1,8 @@
 //! Matrices for the tests of this folder.
 
+use faer::Mat;
+use faer::prelude::Solve;
+
 use super::BlockCsr;
 
 /// Reproducible numbers in (-1, 1).
@@ -18,6 +21,14 @@ pub fn noise(seed: &mut u64, count: usize) -> Vec<f64> {
 pub fn dense_of(a: &BlockCsr) -> Vec<f64> {
     let n = a.rows();
     (0..n * n).map(|k| a.entry(k / n, k % n)).collect()
+}
+
+/// The solution of a dense system given row by row, by LU with row exchanges.
+pub fn dense_solution(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let n = b.len();
+    let lu = Mat::from_fn(n, n, |i, j| a[i * n + j]).partial_piv_lu();
+    let x = lu.solve(Mat::from_fn(n, 1, |i, _| b[i]));
+    (0..n).map(|i| x[(i, 0)]).collect()
 }
 
 /// A grid of points `(n0, n1, n2)` whose cells hold a spring along every edge and diagonal, each with an elastic and a

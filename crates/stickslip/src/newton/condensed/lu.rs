@@ -50,7 +50,7 @@ pub trait Entry:
     /// `y += a x`.
     fn add_scaled(y: &mut [Self], a: Self, x: &[Self]) {
         for (y, &x) in y.iter_mut().zip(x) {
-            *y = *y + a * x;
+            *y += a * x;
         }
     }
 }

@@ -60,7 +60,7 @@ impl SmallMatrix<'_> {
         for k in 0..self.count {
             let diagonal = &mut matrix[k * size + k];
             amplification = amplification.max(diagonal.to().abs());
-            *diagonal = *diagonal + T::of(1.0);
+            *diagonal += T::of(1.0);
         }
         self.spring_columns(&mut matrix);
         (matrix, amplification)
@@ -91,7 +91,7 @@ impl SmallMatrix<'_> {
             for changes in other.changes() {
                 let mut sum = T::of(0.0);
                 for (c, l) in changes.iter().zip(&*local) {
-                    sum = sum + T::of(*c) * *l;
+                    sum += T::of(*c) * *l;
                 }
                 out.push(sum);
             }
