@@ -53,7 +53,7 @@ impl Factors {
         &mut self.kept[i].1
     }
 
-    /// What a user should know since the last time somebody asked.
+    /// What a user should know and has not been told yet.
     pub fn notes(&mut self) -> Vec<String> {
         let mut notes = std::mem::take(&mut self.notes);
         notes.extend(self.kept.iter_mut().filter_map(|(_, l)| l.note()));

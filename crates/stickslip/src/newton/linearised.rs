@@ -50,7 +50,7 @@ impl Linearised {
         self.grids.as_ref().is_some_and(Grids::works)
     }
 
-    /// Why multigrid has been given up since the last time somebody asked.
+    /// Why multigrid has been given up, once.
     pub(super) fn note(&mut self) -> Option<String> {
         self.grids.as_mut()?.note()
     }

@@ -13,7 +13,7 @@ const EARLY: usize = 4;
 const EARLY_GROWTH: f64 = 1e3;
 const GROWTH: f64 = 10.0;
 
-/// What it may be multiplied by once points go to and fro: every step has to gain a little.
+/// What it may be multiplied by once points chatter: every step has to gain a little.
 const GAIN: f64 = 0.99;
 
 /// Part of the residual of [`BACK`] iterations before that must be left behind for an iteration not to count as stuck.

@@ -6,7 +6,7 @@
 //!
 //! Every body is a [`Substructure`]: its interior is eliminated once, and what remains is the compliance of the dofs where it may touch others. A
 //! Newton iteration then costs a few compliance products, with dense matrices of the size of the contact surfaces, whatever the bodies are like
-//! inside. The interior is found when somebody asks for it, for many increments in one sweep.
+//! inside. The interior is recovered on demand, for many increments in one sweep.
 //!
 //! With `W = (S + σ R Rᵀ)⁻¹` and the forces `s` for which `u = W s`, balance at the candidates reads
 //!
