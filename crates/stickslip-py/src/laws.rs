@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use stickslip::contact::law::own::{LimitFunction, PressureFunction};
+use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 
 use super::array::Array;
 use super::mesh::doubles;

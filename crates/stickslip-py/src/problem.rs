@@ -247,7 +247,7 @@ fn bring(
         // Two-sided contact is two interfaces of one name.
         for interface in contact.interfaces.iter_mut().filter(|i| i.name == name) {
             found = true;
-            interface.bring(
+            interface.set_user_laws(
                 normal.clone().map(|f| f as _),
                 friction.clone().map(|f| f as _),
             );

@@ -35,7 +35,7 @@ struct Group {
     /// Largest force that pushes bodies `[N]`.
     force: f64,
     /// How far the body may move in one round, about `[m]`.
-    reach: f64,
+    max_step: f64,
     /// Displacements of the points at the start, those of the anchors, and those of the points at the last evaluation.
     start: Vec<Vec3>,
     at: Vec<Vec3>,
@@ -50,7 +50,7 @@ pub struct Hold {
     /// Largest force that pushes bodies `[N]`.
     pub force: f64,
     /// How far the body may move in one round, about `[m]`.
-    pub reach: f64,
+    pub max_step: f64,
     /// Size of the cells at its surface `[m]`.
     pub size: f64,
     /// How often anchors proved too weak so far.
@@ -114,7 +114,7 @@ impl Anchors {
         let rolling =
             ROLLING * FIRMER.powi(hold.firmness as i32) * hold.force / (count * hold.size);
         let first = (WEAK * hold.spring)
-            .max(hold.force / (FIRST * count * hold.reach))
+            .max(hold.force / (FIRST * count * hold.max_step))
             .max(rolling);
         self.groups.push(Group {
             points,
@@ -122,7 +122,7 @@ impl Anchors {
             first,
             least: (WEAKEST * hold.spring).max(rolling),
             force: hold.force,
-            reach: hold.reach,
+            max_step: hold.max_step,
             start: here.clone(),
             at: here.clone(),
             now: here,
@@ -139,7 +139,7 @@ impl Anchors {
     pub fn travel(&self) -> f64 {
         let moved = self.groups.iter().flat_map(|g| {
             let pairs = g.start.iter().zip(&g.now);
-            pairs.map(|(&a, &b)| distance(a, b) / g.reach)
+            pairs.map(|(&a, &b)| distance(a, b) / g.max_step)
         });
         moved.fold(0.0, f64::max)
     }
@@ -190,7 +190,7 @@ impl Group {
 
 impl Anchors {
     /// Where the anchors are to be next: where the bodies would come to rest if what they did in the last rounds went on in the same way
-    /// ([Anderson's](crate::references::anderson_1965) mixing); where they are now if nothing is known of that. Never further than the reach from where they are.
+    /// ([Anderson's](crate::references::anderson_1965) mixing); where they are now if nothing is known of that. Never further than the max_step from where they are.
     fn extrapolate(&mut self) -> Vec<Vec<Vec3>> {
         let flat = |part: fn(&Group) -> &[Vec3]| -> Vec<f64> {
             let all = self.groups.iter().flat_map(|g| part(g).iter().flatten());
@@ -216,8 +216,8 @@ impl Anchors {
             });
             let steps: Vec<Vec3> = steps.collect();
             let longest = steps.iter().map(|&s| norm(s)).fold(0.0, f64::max);
-            let part = if longest > g.reach {
-                g.reach / longest
+            let part = if longest > g.max_step {
+                g.max_step / longest
             } else {
                 1.0
             };
@@ -328,14 +328,14 @@ impl Force for Anchors {
         for (g, next) in self.groups.iter_mut().zip(next) {
             let pairs = g.now.iter().zip(&g.at);
             let away = pairs.map(|(&a, &b)| distance(a, b)).fold(0.0, f64::max);
-            worst = worst.max(away / g.reach);
+            worst = worst.max(away / g.max_step);
             g.at = next;
             if away == 0.0 || self.near {
                 continue;
             }
             // What is left of the force may move the body as far in the next round as all of it in the first.
             let relief = match effort {
-                ..=EASY => (g.reach / away).clamp(1.0, RELIEF),
+                ..=EASY => (g.max_step / away).clamp(1.0, RELIEF),
                 HARD.. => 1.0 / STIFFER,
                 _ => 1.0,
             };

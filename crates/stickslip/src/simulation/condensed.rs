@@ -14,7 +14,7 @@ use super::scene::Scene;
 use super::solver::{
     Iteration, Load, Recovered, Solver, Task, check_candidates, check_change, in_motion,
 };
-use crate::contact::interface::Reach;
+use crate::contact::interface::CandidateRange;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
 use crate::math::vector::dot;
@@ -335,18 +335,18 @@ impl Solver {
         let widened = self.condenser.widened;
         if count < FEW || widened >= MOST_WIDENED || !self.method.condenses() {
             for interface in &mut contact.interfaces {
-                interface.wake(&mut kept);
+                interface.include_all(&mut kept);
             }
         } else {
             let step = &model.steps[frame.step];
             let travel = travel(model, frame) * f64::powi(2.0, widened as i32);
-            let reach = Reach {
-                approach: travel + extra(widened, model),
+            let range = CandidateRange {
+                distance: travel + extra(widened, model),
                 along: travel,
                 span: [step.start, step.end],
             };
             for interface in &mut contact.interfaces {
-                interface.limit(&frame.state.u, reach, &mut kept);
+                interface.restrict_to_candidates(&frame.state.u, range, &mut kept);
             }
         }
         for point in self.floating.points() {
@@ -366,7 +366,7 @@ impl Solver {
     pub fn include_all(&mut self, model: &Model, contact: &mut Contact) {
         let mut kept = vec![false; model.dofs.points];
         for interface in &mut contact.interfaces {
-            interface.wake(&mut kept);
+            interface.include_all(&mut kept);
         }
         self.condenser.kept = None;
         self.log.method = "explicit";

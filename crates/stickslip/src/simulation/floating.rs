@@ -281,7 +281,7 @@ impl Solver {
             let hold = Hold {
                 spring,
                 force,
-                reach: REACH * size,
+                max_step: REACH * size,
                 size,
                 firmness: floating.firmness,
             };

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use stickslip::Error;
-use stickslip::contact::law::own::{LimitFunction, PressureFunction};
+use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::simulation::{Analysis, Event, Observer, Simulation, View};
 
 /// A block pressed on a base and dragged; the second step has more increments than are recovered in one sweep.
@@ -207,7 +207,7 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
             .replace("METHOD", method);
         let mut setup = support::problem(&other).build(Path::new("")).unwrap();
         let functions = Arc::new(Functions::default());
-        setup.contact.interfaces[0].bring(Some(functions.clone()), Some(functions.clone()));
+        setup.contact.interfaces[0].set_user_laws(Some(functions.clone()), Some(functions.clone()));
         let mut simulation = Simulation::new(setup).unwrap();
         let mut seen = Diary::default();
         simulation.run(&mut [&mut seen]).unwrap();

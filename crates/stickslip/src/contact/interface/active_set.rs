@@ -8,18 +8,18 @@ use crate::system::ActiveSet;
 
 impl ActiveSet for Interface {
     fn chattering(&self) -> usize {
-        self.attempt.freezing.restless()
+        self.attempt.freezing.chattering()
     }
 
     fn freeze(&mut self, on: bool) -> usize {
-        self.attempt.freezing.engage(on)
+        self.attempt.freezing.freeze(on)
     }
 
     fn recheck(&mut self) -> usize {
         let put_back = self.put_back();
-        let (held, refused) = self.refused();
+        let (frozen, refused) = self.refused();
         self.attempt.freezing.exchange(&refused);
-        put_back + held
+        put_back + frozen
     }
 }
 
@@ -38,22 +38,22 @@ impl Interface {
         count
     }
 
-    /// How many points are held, and those whose choice the laws refuse, with what they want instead.
+    /// How many points are frozen, and those whose choice the laws refuse, with what they want instead.
     fn refused(&self) -> (usize, Vec<(usize, Choice)>) {
         let points = self.attempt.freezing.points.iter();
-        let mut held = 0;
+        let mut frozen = 0;
         let mut refused = Vec::new();
         for (i, (p, e)) in points.zip(&self.cache.last.points).enumerate() {
-            if let Some(choice) = p.held {
-                held += 1;
+            if let Some(choice) = p.frozen {
+                frozen += 1;
                 let wanted = self.wanted(i, choice, p.closed, e);
                 refused.extend(wanted.map(|wanted| (i, wanted)));
             }
         }
-        (held, refused)
+        (frozen, refused)
     }
 
-    /// What the laws want of a point instead of what it is held in, after it has been closed so many times; `None` if nothing else.
+    /// What the laws want of a point instead of what it is frozen in, after it has been closed so many times; `None` if nothing else.
     fn wanted(&self, i: usize, choice: Choice, closed: u32, e: &Evaluation) -> Option<Choice> {
         let r = &e.response;
         let shear = e.along(&e.frames.before);

@@ -16,11 +16,11 @@ pub struct Attempt {
     /// Points whose status changed with the last iterate.
     pub(super) changed: usize,
     /// The last evaluation, a tentative one, may become the next iterate.
-    pub(super) pending: bool,
+    pub(super) tentative: bool,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
-    pub(super) untouched: bool,
+    pub(super) never_in_contact: bool,
     /// Gap that multipliers leave as it is where a point stays in contact `[m]`.
-    pub(super) accepted: f64,
+    pub(super) accepted_gap: f64,
     /// How often the stiffness of the enforcement has been raised tenfold, and the violation after the round before.
     pub(super) tightened: u32,
     pub(super) violation: Option<f64>,
@@ -28,7 +28,7 @@ pub struct Attempt {
 
 impl Attempt {
     /// The next one, from these histories. Points that are frozen while that goes on stay so; vectors keep their memory.
-    pub(super) fn next(self, histories: &[PointHistory], accepted: f64) -> Self {
+    pub(super) fn next(self, histories: &[PointHistory], accepted_gap: f64) -> Self {
         let Attempt {
             mut multipliers,
             mut flips,
@@ -44,8 +44,8 @@ impl Attempt {
             multipliers,
             flips,
             freezing,
-            accepted,
-            untouched: histories.iter().all(|h| h.status == Status::Open),
+            accepted_gap,
+            never_in_contact: histories.iter().all(|h| h.status == Status::Open),
             ..Attempt::default()
         }
     }
@@ -128,14 +128,22 @@ mod tests {
         spoiled.flips[2].note(Status::Slip);
         spoiled.flips[2].left = 2;
         spoiled.changed = 3;
-        spoiled.pending = true;
+        spoiled.tentative = true;
         spoiled.tightened = 2;
         spoiled.violation = Some(1.0);
         let again = spoiled.next(&histories, 0.25);
         assert_eq!(again.multipliers, first.multipliers);
         assert_eq!(again.flips, first.flips);
-        let rest = |a: &Attempt| (a.changed, a.pending, a.untouched, a.tightened, a.violation);
+        let rest = |a: &Attempt| {
+            (
+                a.changed,
+                a.tentative,
+                a.never_in_contact,
+                a.tightened,
+                a.violation,
+            )
+        };
         assert_eq!(rest(&again), rest(&first));
-        assert!(!first.untouched);
+        assert!(!first.never_in_contact);
     }
 }

@@ -36,9 +36,9 @@ impl Interface {
         };
         let approach = self.elastic_approach(stage);
         let worst = self.centre();
-        let reach = self.cache.search.at().iter().chain(&self.reference);
-        let reach = reach.map(|&x| norm(x)).fold(0.0, f64::max);
-        if worst <= (error * approach).max(ROUNDING * f64::EPSILON * reach) {
+        let largest = self.cache.search.at().iter().chain(&self.reference);
+        let largest = largest.map(|&x| norm(x)).fold(0.0, f64::max);
+        if worst <= (error * approach).max(ROUNDING * f64::EPSILON * largest) {
             return Augmentation::Done;
         }
         // An update that gains little says that the stiffness is low for what presses on it.

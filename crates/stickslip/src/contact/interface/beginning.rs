@@ -18,9 +18,9 @@ impl Interface {
         if !matches!(self.initial.start, Start::Offset | Start::Ramp) {
             return;
         }
-        let asleep = std::mem::take(&mut self.directives.asleep);
+        let excluded = std::mem::take(&mut self.directives.excluded);
         let gaps = self.gaps_at(stage);
-        self.directives.asleep = asleep;
+        self.directives.excluded = excluded;
         let largest = match self.initial.start {
             Start::Offset => self.initial.within.unwrap_or(CLOSE),
             _ => Within::Distance(0.0),

@@ -275,8 +275,8 @@ impl Interface {
         if committed.len() != self.points.len() {
             return out;
         }
-        let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
-        let rounding = 64.0 * f64::EPSILON * (reach + norm(self.origin));
+        let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
+        let rounding = 64.0 * f64::EPSILON * (largest + norm(self.origin));
         // Gaps of the meshes, with what the start of the interface takes off; a point that has nothing opposite says nothing.
         let said = |i: usize| match committed[i].normal == [0.0; 3] {
             true => f64::INFINITY,

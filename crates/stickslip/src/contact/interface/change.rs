@@ -24,11 +24,11 @@ impl Interface {
         let before = self.stored_energy();
         if let Some(normal) = &change.normal {
             self.laws.normal = normal.clone();
-            self.laws.own.normal = None;
+            self.laws.user.normal = None;
         }
         if let Some(friction) = &change.friction {
             self.laws.friction = friction.clone();
-            self.laws.own.friction = None;
+            self.laws.user.friction = None;
         }
         self.stored_energy() - before
     }

@@ -13,7 +13,7 @@ use crate::system::Stage;
 const MOMENT: f64 = 1e-4;
 
 /// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
-const YIELDING: f64 = 1e-2;
+const GIVEN: f64 = 1e-2;
 
 impl Interface {
     /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
@@ -35,7 +35,7 @@ impl Interface {
             let (moved, unsure) = self.moved_over(i, e, stage);
             let speed = norm(moved) / stage.dt;
             // What the speed changes is the law's, and it sees another measure of it.
-            let limit = match self.laws.own.friction {
+            let limit = match self.laws.user.friction {
                 Some(_) => e.response.limit,
                 None => {
                     let limit = law.limit(&FrictionPoint {
@@ -57,7 +57,7 @@ impl Interface {
                 false => size - limit,
             };
             wrong = wrong.max(dot(shear, e.frames.normal).abs());
-            let given = (size + norm(before.shear)) * self.yielding(i, e);
+            let given = (size + norm(before.shear)) * self.compliance(i, e);
             if slips && norm(moved) > unsure + given {
                 wrong = wrong.max(dot(shear, moved) / norm(moved));
             }
@@ -67,8 +67,8 @@ impl Interface {
     }
 
     /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
-    fn yielding(&self, i: usize, e: &Evaluation) -> f64 {
-        1.0 / e.tangential_stiffness + YIELDING / self.points[i].stiffness
+    fn compliance(&self, i: usize, e: &Evaluation) -> f64 {
+        1.0 / e.tangential_stiffness + GIVEN / self.points[i].stiffness
     }
 
     /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics

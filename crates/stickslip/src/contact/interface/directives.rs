@@ -6,7 +6,7 @@ pub struct Directives {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     pub(super) inertia: Vec<f64>,
     /// Points that do not take part; empty where all do.
-    pub(super) asleep: Vec<bool>,
+    pub(super) excluded: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
     pub(super) inner: Vec<bool>,
     /// Stiffness of stick relative to that of the bodies; `None`: that of the enforcement.

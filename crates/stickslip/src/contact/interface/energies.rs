@@ -46,8 +46,8 @@ impl Interface {
     /// The same by point and per area `[J/m²]`.
     fn law_energies(&self) -> Vec<f64> {
         let gaps = self.history.points.iter().map(|h| h.gap);
-        match &self.laws.own.normal {
-            Some(own) => own.energies(&gaps.collect::<Vec<_>>()),
+        match &self.laws.user.normal {
+            Some(user) => user.energies(&gaps.collect::<Vec<_>>()),
             None => {
                 let law = self.laws.normal_law();
                 gaps.map(|gap| law.energy(gap)).collect()

@@ -25,7 +25,7 @@ impl Interface {
     ) -> Evaluation {
         let glued = self.history.start.glued.get(i);
         let unglued = glued.is_some_and(|gap| gap.is_nan());
-        if unglued || self.directives.asleep.get(i) == Some(&true) {
+        if unglued || self.directives.excluded.get(i) == Some(&true) {
             return Evaluation::open(f64::INFINITY);
         }
         match &self.primary {

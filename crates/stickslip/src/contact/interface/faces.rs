@@ -32,9 +32,9 @@ impl Interface {
             dt: stage.dt,
             rate: None,
         };
-        let asleep = std::mem::take(&mut self.directives.asleep);
+        let excluded = std::mem::take(&mut self.directives.excluded);
         let gaps = self.gaps_at(&still);
-        self.directives.asleep = asleep;
+        self.directives.excluded = excluded;
         let within = self.initial.within.unwrap_or(GLUE);
         let near = |(gap, p): (f64, &ContactPoint)| {
             if gap.abs() <= within.of(p.size) {
@@ -74,9 +74,10 @@ impl Interface {
             facets,
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
-        let asleep = &self.directives.asleep;
-        let awake =
-            |points: &[usize]| frozen || asleep.is_empty() || points.iter().any(|&p| !asleep[p]);
+        let excluded = &self.directives.excluded;
+        let included = |points: &[usize]| {
+            frozen || excluded.is_empty() || points.iter().any(|&p| !excluded[p])
+        };
         let integrals = &mut cache.integrals;
         integrals.resize_with(mortar.faces.len(), FaceIntegral::default);
         mortar
@@ -87,7 +88,7 @@ impl Interface {
             .for_each(|((faces, integrals), opposite)| {
                 let mut scratch = Scratch::default();
                 for ((face, integral), opposite) in faces.iter().zip(integrals).zip(opposite) {
-                    if awake(&face.points) {
+                    if included(&face.points) {
                         integrate(face, &sides, opposite, &mut scratch, integral);
                     } else {
                         integral.clear();

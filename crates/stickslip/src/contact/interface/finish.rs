@@ -78,7 +78,7 @@ fn add_force(e: &mut Evaluation, traction: [f64; 3], batch: &mut Batch) {
     }));
     let slopes = e.response.d_gap.iter().flatten();
     let slope = slopes.fold(0.0_f64, |m, d| m.max(d.abs()));
-    e.rounding = ROUNDING * f64::EPSILON * stencil.reach * slope * area;
+    e.rounding = ROUNDING * f64::EPSILON * stencil.coordinate_scale * slope * area;
 }
 
 /// Gradients, and the change of the tractions along them: `-d · B (- the skew)`, shape `(3, n)`.

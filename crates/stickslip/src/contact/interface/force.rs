@@ -31,7 +31,7 @@ impl Force for Interface {
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         if !self.schedule.active(stage.at.t) {
             self.cache.last.points.clear();
-            self.attempt.pending = false;
+            self.attempt.tentative = false;
             self.add_pairs(&Evaluations::default(), out);
             return Ok(());
         }
@@ -46,7 +46,7 @@ impl Force for Interface {
         scatter(&evaluations, out);
         self.add_curvature(&evaluations, out);
         let pending = out.wants_tangent && out.tentative;
-        self.attempt.pending = pending;
+        self.attempt.tentative = pending;
         // The multiplier rows of the last iterate are needed until the step has been taken.
         if self.unknown() && (pending || !out.wants_tangent) {
             for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
@@ -64,7 +64,7 @@ impl Force for Interface {
     }
 
     fn settle(&mut self) {
-        if std::mem::take(&mut self.attempt.pending) {
+        if std::mem::take(&mut self.attempt.tentative) {
             if self.unknown() {
                 std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
             }
@@ -195,7 +195,7 @@ impl Interface {
         let unknown = self.unknown();
         let attempt = &mut self.attempt;
         let last = &self.cache.last.points;
-        attempt.untouched = false;
+        attempt.never_in_contact = false;
         attempt.changed = 0;
         for (flips, e) in attempt.flips.iter_mut().zip(last) {
             attempt.changed += usize::from(flips.note(e.response.status));

@@ -1,21 +1,21 @@
 //! Memory of status: points that keep changing it keep a choice until the rest has settled.
 //!
 //! Semi-smooth Newton is an active-set method that changes all points at once, and may go round in a circle: two neighbours that open and close in
-//! turn, a point whose slip goes to and fro across stick. A point that has been seen to do so is held, in contact and sticking if that is among
+//! turn, a point whose slip goes to and fro across stick. A point that has been seen to do so is frozen, in contact and sticking if that is among
 //! what it does. Its branch of the laws goes on beyond where they would leave it, so the rest settles; then the choice is checked against the laws,
-//! and exchanged where they refuse it. At the end nothing is held: what comes out obeys the laws.
+//! and exchanged where they refuse it. At the end nothing is frozen: what comes out obeys the laws.
 
 use super::evaluation::{Evaluation, components};
 use crate::contact::response::{Frozen, Status};
 use crate::math::{Vec3, dot};
 
-/// Changes of status or reversals of slip after which a point is held.
+/// Changes of status or reversals of slip after which a point is frozen.
 const MOST_CHANGES: u32 = 3;
 
 /// How often all choices may be exchanged without fewer being refused.
 const MOST_IDLE: u32 = 1;
 
-/// What a point is held in.
+/// What a point is frozen in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Choice {
     Open,
@@ -31,12 +31,12 @@ pub(super) struct StatusRecord {
     /// Shear traction while it slid.
     shear: Vec3,
     changes: u32,
-    pub held: Option<Choice>,
-    /// How often it has been closed while it was held.
+    pub frozen: Option<Choice>,
+    /// How often it has been closed while it was frozen.
     pub closed: u32,
 }
 
-/// What the points of an interface did, and what they are held in.
+/// What the points of an interface did, and what they are frozen in.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Freezing {
     on: bool,
@@ -47,11 +47,11 @@ pub(super) struct Freezing {
 }
 
 impl Freezing {
-    /// A new attempt. While points are being held those that were go on, sticking.
+    /// A new attempt. While points are frozen those that were go on, sticking.
     pub fn begin(&mut self) {
         for p in &mut self.points {
             *p = StatusRecord {
-                held: p.held.filter(|_| self.on).map(|_| Choice::Stick),
+                frozen: p.frozen.filter(|_| self.on).map(|_| Choice::Stick),
                 ..StatusRecord::default()
             };
         }
@@ -73,15 +73,15 @@ impl Freezing {
             p.status = Some(status);
             p.shear = shear;
             if self.on {
-                p.hold();
+                p.judge();
             }
         }
     }
 
     /// What a point is frozen in, in this frame.
     pub fn frozen(&self, i: usize, frame: &[Vec3; 2], dim: usize) -> Option<Frozen> {
-        let held = self.points.get(i)?.held?;
-        Some(match held {
+        let frozen = self.points.get(i)?.frozen?;
+        Some(match frozen {
             Choice::Open => Frozen::Open,
             Choice::Stick => Frozen::Stick,
             Choice::Slip(direction) => Frozen::Slip(components(direction, frame, dim)),
@@ -89,22 +89,22 @@ impl Freezing {
     }
 
     /// Points that have changed often.
-    pub fn restless(&self) -> usize {
+    pub fn chattering(&self) -> usize {
         let often = self.points.iter().filter(|p| p.changes >= MOST_CHANGES);
         often.count()
     }
 
     /// Holds points from now on; returns how many there are.
-    pub fn engage(&mut self, on: bool) -> usize {
+    pub fn freeze(&mut self, on: bool) -> usize {
         self.on = on;
         for p in &mut self.points {
             if on {
-                p.hold();
+                p.judge();
             } else {
-                p.held = None;
+                p.frozen = None;
             }
         }
-        self.points.iter().filter(|p| p.held.is_some()).count()
+        self.points.iter().filter(|p| p.frozen.is_some()).count()
     }
 }
 
@@ -127,12 +127,12 @@ impl Freezing {
         };
         for &(i, wanted) in &refused[first..] {
             let p = &mut self.points[i];
-            p.closed += u32::from(p.held == Some(Choice::Open));
-            p.held = Some(wanted);
+            p.closed += u32::from(p.frozen == Some(Choice::Open));
+            p.frozen = Some(wanted);
         }
         if refused.is_empty() {
             self.fewest = None;
-            for p in self.points.iter_mut().filter(|p| p.held.is_some()) {
+            for p in self.points.iter_mut().filter(|p| p.frozen.is_some()) {
                 *p = StatusRecord::default();
             }
         }
@@ -140,9 +140,9 @@ impl Freezing {
 }
 
 impl StatusRecord {
-    fn hold(&mut self) {
-        if self.held.is_none() && self.changes >= MOST_CHANGES {
-            self.held = Some(Choice::Stick);
+    fn judge(&mut self) {
+        if self.frozen.is_none() && self.changes >= MOST_CHANGES {
+            self.frozen = Some(Choice::Stick);
         }
     }
 }

@@ -65,8 +65,8 @@ impl Interface {
             belt: scene.belt_seen(),
         };
         kinematics.stencil(&pair, &mut batch.stencil);
-        let reach = now.iter().map(|&x| dot(x, x));
-        batch.stencil.reach = reach.fold(dot(position, position), f64::max).sqrt();
+        let largest = now.iter().map(|&x| dot(x, x));
+        batch.stencil.coordinate_scale = largest.fold(dot(position, position), f64::max).sqrt();
         let met = Met {
             i,
             area: point.area,

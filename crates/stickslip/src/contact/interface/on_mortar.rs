@@ -42,7 +42,7 @@ impl Interface {
             reference: &self.reference,
             origin: norm(self.origin),
             carried: (!self.kinematics.as_dyn().frozen()).then(carried),
-            untouched: self.attempt.untouched,
+            never_in_contact: self.attempt.never_in_contact,
         };
         mean.stencil(
             &sums,

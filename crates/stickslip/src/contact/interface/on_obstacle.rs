@@ -38,7 +38,7 @@ impl Interface {
             return Evaluation::open(f64::INFINITY);
         }
         // A curved obstacle measures the gap from its centre.
-        batch.stencil.reach = norm(x) + 2.0 * shape.radius().abs();
+        batch.stencil.coordinate_scale = norm(x) + 2.0 * shape.radius().abs();
         let met = Met {
             i,
             area: point.area,

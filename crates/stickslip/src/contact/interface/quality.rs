@@ -76,8 +76,8 @@ impl Interface {
             Multipliers::Augmented { .. }
         );
         // What rounding of the coordinates may leave is no violation.
-        let reach = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
-        let rounding = 16.0 * f64::EPSILON * (reach + norm(self.origin));
+        let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
+        let rounding = 16.0 * f64::EPSILON * (largest + norm(self.origin));
         let (mut bridged, mut pressed) = (0.0, 0.0);
         let (mut carried, mut stiffness) = (0.0, 0.0);
         let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
@@ -87,7 +87,7 @@ impl Interface {
             let shear = norm(h.shear);
             if h.pressure > 0.0 {
                 // The pressure of a law of the program is the law's; asking for its inverse would take long.
-                let wanted = match self.laws.own.normal {
+                let wanted = match self.laws.user.normal {
                     Some(_) => h.gap,
                     None => law.gap(h.pressure - h.damping).value,
                 };

@@ -125,7 +125,7 @@ impl Interface {
         // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
         let soft = self.directives.softening.map(|factor| factor * own);
         let tangential = tangential.min(soft.unwrap_or(f64::INFINITY));
-        let touches = self.attempt.untouched && stencil.gap <= TOUCHING * point.size;
+        let touches = self.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
         let stiffnesses = Stiffnesses {
             normal,
             tangential,
@@ -172,7 +172,7 @@ impl Interface {
         if !self.unknown() {
             return self.history.rest.get(i).copied().unwrap_or(0.0);
         }
-        let (before, accepted) = (&self.history.points[i], self.attempt.accepted);
+        let (before, accepted) = (&self.history.points[i], self.attempt.accepted_gap);
         match before.status {
             Status::Open => 0.0,
             _ => before.gap.clamp(-accepted, accepted),

@@ -112,7 +112,7 @@ pub struct MeanPoint<'a> {
     /// What was; `None` if pairs and normals are those of the reference configuration.
     pub carried: Option<Carried>,
     /// Nothing has been in contact yet: surfaces that just touch must not be in contact or apart by the rounding of the integrals.
-    pub untouched: bool,
+    pub never_in_contact: bool,
 }
 
 impl MeanPoint<'_> {
@@ -142,13 +142,13 @@ impl MeanPoint<'_> {
         };
         let turned = mat_vec(&own, normal_before);
         let mut gap = sums.gap * (per_area / length);
-        let mut reach: f64 = 0.0;
+        let mut largest: f64 = 0.0;
         let (mut moved, mut arm) = ([0.0; 3], [0.0; 3]);
         for (k, (&(node, w), gradient)) in nodes.iter().zip(gradients.iter()).enumerate() {
             let x = self.x[node];
             moved = add_scaled(moved, w, sub(x, self.before[node]));
             arm = add_scaled(arm, w, self.before[node]);
-            reach = reach.max(dot(x, x));
+            largest = largest.max(dot(x, x));
             if self.carried.is_none() {
                 gap += dot(*gradient, sub(x, self.reference[node]));
             }
@@ -168,8 +168,8 @@ impl MeanPoint<'_> {
         if dim == 2 {
             out.slip[1] = 0.0;
         }
-        let rounding = ROUNDING * f64::EPSILON * (reach.sqrt() + self.origin);
-        if self.untouched && gap.abs() <= rounding {
+        let rounding = ROUNDING * f64::EPSILON * (largest.sqrt() + self.origin);
+        if self.never_in_contact && gap.abs() <= rounding {
             gap = 0.0;
         }
         out.gap = gap;
@@ -177,6 +177,6 @@ impl MeanPoint<'_> {
         out.frame = frame;
         out.frame_before = frame.map(|e| turning::back(&own, carried_over(e, normal, turned)));
         out.normal_before = normal_before;
-        out.reach = reach.sqrt();
+        out.coordinate_scale = largest.sqrt();
     }
 }

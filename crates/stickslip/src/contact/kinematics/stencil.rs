@@ -32,7 +32,7 @@ pub struct Stencil {
     /// Gradient of the skew; empty where it is zero.
     pub skew_row: Vec<f64>,
     /// Size of the coordinates from which the gap is a difference `[m]`: what its rounding is relative to.
-    pub reach: f64,
+    pub coordinate_scale: f64,
 }
 
 impl Stencil {

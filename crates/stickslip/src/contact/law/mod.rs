@@ -6,8 +6,8 @@
 pub mod damping;
 pub mod friction;
 pub mod normal;
-pub mod own;
 pub mod slip;
+pub mod user;
 mod wear;
 
 pub use wear::Wear;

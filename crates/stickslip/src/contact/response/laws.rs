@@ -5,8 +5,8 @@ use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::{FrictionLaw, FrictionModel};
 use crate::contact::law::normal::{NormalLaw, NormalModel};
-use crate::contact::law::own::Own;
 use crate::contact::law::slip::SlipModel;
+use crate::contact::law::user::UserLaws;
 
 /// The laws of an interface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,7 +26,7 @@ pub struct Laws {
     /// What sliding wears off, if that is followed.
     pub wear: Option<Wear>,
     /// Laws of the program that take the place of `normal` and `friction`.
-    pub own: Own,
+    pub user: UserLaws,
 }
 
 impl Laws {
@@ -38,11 +38,11 @@ impl Laws {
         }
         format!(
             "normal {}, friction {}, slip {}, {}",
-            self.own
+            self.user
                 .normal
                 .as_ref()
                 .map_or(self.normal.kind(), |_| "own"),
-            self.own
+            self.user
                 .friction
                 .as_ref()
                 .map_or(self.friction.kind(), |_| "own"),
@@ -53,23 +53,23 @@ impl Laws {
 
     /// The normal law that counts.
     pub fn normal_law(&self) -> &dyn NormalLaw {
-        match &self.own.normal {
-            Some(own) => own,
+        match &self.user.normal {
+            Some(user) => user,
             None => self.normal.as_dyn(),
         }
     }
 
     /// The friction law that counts.
     pub fn friction_law(&self) -> &dyn FrictionLaw {
-        match &self.own.friction {
-            Some(own) => own,
+        match &self.user.friction {
+            Some(user) => user,
             None => self.friction.as_dyn(),
         }
     }
 
     /// Whether the normal law has no pressure of its own at a gap. A law of the program is not asked: it has one.
     pub fn set_valued(&self) -> bool {
-        self.own.normal.is_none() && self.normal.as_dyn().pressure(0.0).is_none()
+        self.user.normal.is_none() && self.normal.as_dyn().pressure(0.0).is_none()
     }
 
     /// Whether the multipliers are unknowns of Newton's iteration.

@@ -277,7 +277,7 @@ impl Make<'_> {
                 enforcement: table.enforcement.clone(),
                 tied: table.tied,
                 wear: table.wear,
-                own: Default::default(),
+                user: Default::default(),
             },
             kinematics: table.kinematics.clone(),
             belt: belt(table),

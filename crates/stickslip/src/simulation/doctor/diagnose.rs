@@ -76,7 +76,7 @@ fn root(view: &View, cause: &Cause) -> Option<Finding> {
         Cause::Singular | Cause::LinearSolver | Cause::NotConverged | Cause::CollapsedCell => {}
         Cause::NotFinite => {
             // Laws of the families are finite wherever they are asked.
-            let own = view.contact.interfaces.iter().find(|i| i.laws.own.any());
+            let own = view.contact.interfaces.iter().find(|i| i.laws.user.any());
             let faulty = own.map(|i| {
                 Finding::new(
                     DoctorCause::FaultyLaw,

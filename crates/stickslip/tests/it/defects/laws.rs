@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use stickslip::contact::law::own::{LimitFunction, PressureFunction};
+use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::simulation::Contact;
 use stickslip::simulation::doctor::DoctorCause;
 
@@ -35,11 +35,11 @@ fn named(name: &str, prepare: &dyn Fn(&mut Contact)) {
 }
 
 fn limit(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
-    move |contact| contact.interfaces[0].bring(None, Some(Arc::new(Each(law))))
+    move |contact| contact.interfaces[0].set_user_laws(None, Some(Arc::new(Each(law))))
 }
 
 fn pressure(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
-    move |contact| contact.interfaces[0].bring(Some(Arc::new(Each(law))), None)
+    move |contact| contact.interfaces[0].set_user_laws(Some(Arc::new(Each(law))), None)
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn functions_that_are_no_laws_are_named() {
 fn functions_that_are_laws_raise_no_alarm() {
     let sound = |contact: &mut Contact| {
         let normal = Arc::new(Each(|g| 1e14 * (-g).max(0.0)));
-        contact.interfaces[0].bring(Some(normal), Some(Arc::new(Each(|p| 0.3 * p))));
+        contact.interfaces[0].set_user_laws(Some(normal), Some(Arc::new(Each(|p| 0.3 * p))));
     };
     let said = examined(COMPLIANT, &folder("functions", &[]), &sound).expect("a sound model");
     assert!(

@@ -46,7 +46,7 @@ fn beneath(interface: &Interface) -> Option<(f64, f64)> {
 fn stiffness(interface: &Interface, largest: f64) -> Option<Finding> {
     let law = interface.laws.normal_law();
     law.pressure(0.0)?;
-    if interface.laws.own.normal.is_some() {
+    if interface.laws.user.normal.is_some() {
         return None;
     }
     let (beneath, size) = beneath(interface)?;
@@ -88,7 +88,7 @@ fn stiffness(interface: &Interface, largest: f64) -> Option<Finding> {
 /// Laws of the program, tried at a few places.
 fn function(interface: &Interface) -> Option<Finding> {
     let (stiffness, size) = beneath(interface)?;
-    let own = &interface.laws.own;
+    let own = &interface.laws.user;
     let name = &interface.name;
     let new = |message: String, remark: String| {
         Finding::new(DoctorCause::FaultyLaw, Severity::Warning, message)

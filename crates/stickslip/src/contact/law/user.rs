@@ -26,28 +26,28 @@ pub trait LimitFunction: Send + Sync {
 
 /// The laws of an interface that a program has brought along; they take the place of those of the problem.
 #[derive(Clone, Default)]
-pub struct Own {
+pub struct UserLaws {
     /// Pressure against gap.
-    pub normal: Option<OwnNormal>,
+    pub normal: Option<UserNormal>,
     /// Limit of the shear traction.
-    pub friction: Option<OwnFriction>,
+    pub friction: Option<UserFriction>,
 }
 
-impl Own {
+impl UserLaws {
     /// Whether there are any.
     pub fn any(&self) -> bool {
         self.normal.is_some() || self.friction.is_some()
     }
 }
 
-impl fmt::Debug for Own {
+impl fmt::Debug for UserLaws {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (normal, friction) = (self.normal.is_some(), self.friction.is_some());
         write!(f, "Own {{ normal: {normal}, friction: {friction} }}")
     }
 }
 
-impl PartialEq for Own {
+impl PartialEq for UserLaws {
     fn eq(&self, other: &Self) -> bool {
         let normal = match (&self.normal, &other.normal) {
             (Some(a), Some(b)) => Arc::ptr_eq(&a.function, &b.function),
@@ -81,7 +81,7 @@ const TAIL: usize = 20;
 
 /// A normal law from a function.
 #[derive(Clone)]
-pub struct OwnNormal {
+pub struct UserNormal {
     function: Arc<dyn PressureFunction>,
     /// A length `[m]` that gaps are small against, the mean height of the cells beneath.
     length: f64,
@@ -95,10 +95,10 @@ fn sized(values: Vec<f64>, count: usize) -> Vec<f64> {
     }
 }
 
-impl OwnNormal {
+impl UserNormal {
     /// The law of a function; `length` is one that gaps are small against `[m]`.
     pub fn new(function: Arc<dyn PressureFunction>, length: f64) -> Self {
-        OwnNormal { function, length }
+        UserNormal { function, length }
     }
 
     fn values(&self, gaps: &[f64]) -> Vec<f64> {
@@ -186,7 +186,7 @@ impl OwnNormal {
     }
 }
 
-impl NormalLaw for OwnNormal {
+impl NormalLaw for UserNormal {
     fn pressure(&self, gap: f64) -> Option<Slope> {
         self.pressures(&[gap]).pop()
     }
@@ -223,14 +223,14 @@ impl NormalLaw for OwnNormal {
 
 /// A friction law from a function.
 #[derive(Clone)]
-pub struct OwnFriction {
+pub struct UserFriction {
     function: Arc<dyn LimitFunction>,
 }
 
-impl OwnFriction {
+impl UserFriction {
     /// The law of a function.
     pub fn new(function: Arc<dyn LimitFunction>) -> Self {
-        OwnFriction { function }
+        UserFriction { function }
     }
 
     /// Limits and derivatives at many points. At zero pressure or speed the derivative by it is taken as zero where the function does
@@ -279,7 +279,7 @@ impl OwnFriction {
     }
 }
 
-impl FrictionLaw for OwnFriction {
+impl FrictionLaw for UserFriction {
     fn limit(&self, at: &FrictionPoint) -> Limit {
         self.limits(&[*at]).pop().unwrap_or_default()
     }
@@ -320,7 +320,7 @@ mod tests {
 
     #[test]
     fn slope_inverse_and_energy_follow_from_the_function() {
-        let law = OwnNormal::new(Arc::new(Power), 1e-3);
+        let law = UserNormal::new(Arc::new(Power), 1e-3);
         let p = law.pressure(-2e-6).unwrap();
         assert!((p.value / 4e4 - 1.0).abs() < 1e-14);
         assert!((p.slope / -4e10 - 1.0).abs() < 1e-6, "{p:?}");
@@ -332,7 +332,7 @@ mod tests {
 
     #[test]
     fn the_energy_counts_what_acts_beyond_the_surface() {
-        let law = OwnNormal::new(Arc::new(Exponential), 1e-3);
+        let law = UserNormal::new(Arc::new(Exponential), 1e-3);
         for gap in [-3e-6, 0.0, 2e-6] {
             let wanted = (-gap / 1e-6_f64).exp();
             assert!((law.energy(gap) / wanted - 1.0).abs() < 1e-3, "{gap}");
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn limits_have_derivatives() {
-        let law = OwnFriction::new(Arc::new(Power));
+        let law = UserFriction::new(Arc::new(Power));
         let at = FrictionPoint {
             pressure: 2e6,
             speed: 0.5,

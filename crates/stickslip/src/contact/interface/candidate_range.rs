@@ -10,9 +10,9 @@ use crate::math::{Vec3, distance, dot, sub};
 
 /// How far contact may come before somebody has to look again.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub struct CandidateRange {
     /// Distance from the primary up to which a point of the secondary takes part, beyond what cells call for `[m]`.
-    pub approach: f64,
+    pub distance: f64,
     /// How far points may move along the primary `[m]`.
     pub along: f64,
     /// The time span in which obstacles move `[s]`.
@@ -31,31 +31,31 @@ const INNER: f64 = 0.5;
 impl Interface {
     /// Lets only those points take part that are within reach at displacements `u`, and marks their nodes and those they may meet among all
     /// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
-    pub fn limit(&mut self, u: &[f64], reach: Reach, kept: &mut [bool]) {
+    pub fn restrict_to_candidates(&mut self, u: &[f64], range: CandidateRange, kept: &mut [bool]) {
         self.ready();
         let x = self.coordinates(u);
-        let distances = self.distances(&x, reach);
+        let distances = self.distances(&x, range);
         let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
         let facets = self.facets().iter().map(|f| length(&f.nodes));
         let size = facets.fold(0.0, f64::max);
-        let near = self.facets_near(&x, &distances, reach, size);
+        let near = self.facets_near(&x, &distances, range, size);
         let own = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
-        let limit = reach.approach + MARGIN * size.max(own);
-        let mut asleep = Vec::with_capacity(distances.len());
+        let limit = range.distance + MARGIN * size.max(own);
+        let mut excluded = Vec::with_capacity(distances.len());
         let mut inner = Vec::with_capacity(distances.len());
         for (i, (point, &d)) in self.points.iter().zip(&distances).enumerate() {
             let known = point.nodes.iter().all(|&n| kept[self.nodes[n]]);
-            let awake = d <= limit || known || self.history.points[i].status != Status::Open;
-            asleep.push(!awake);
+            let included = d <= limit || known || self.history.points[i].status != Status::Open;
+            excluded.push(!included);
             inner.push(d <= INNER * limit || known);
-            if awake {
+            if included {
                 self.mark(i, near.get(i), kept);
             }
         }
-        if asleep.iter().all(|asleep| !asleep) {
-            asleep.clear();
+        if excluded.iter().all(|excluded| !excluded) {
+            excluded.clear();
         }
-        self.directives.asleep = asleep;
+        self.directives.excluded = excluded;
         self.directives.inner = inner;
     }
 
@@ -64,7 +64,7 @@ impl Interface {
         &self,
         x: &[Vec3],
         distances: &[f64],
-        reach: Reach,
+        range: CandidateRange,
         size: f64,
     ) -> Vec<Vec<usize>> {
         let Primary::Facets(facets) = &self.primary else {
@@ -73,11 +73,11 @@ impl Interface {
         let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
         let faces = self.mortar.iter().flat_map(|m| &m.faces);
         let own = faces.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
-        let margin = reach.along + size + own.fold(0.0, f64::max);
+        let margin = range.along + size + own.fold(0.0, f64::max);
         (self.points.iter().zip(distances))
             .map(|(point, &d)| {
                 let mut near = Vec::new();
-                if d <= reach.approach + MARGIN * size {
+                if d <= range.distance + MARGIN * size {
                     tree.near(point.position(x), margin, &mut near);
                 }
                 near
@@ -102,8 +102,8 @@ impl Interface {
     }
 
     /// Lets all points take part and marks all nodes.
-    pub fn wake(&mut self, kept: &mut [bool]) {
-        self.directives.asleep.clear();
+    pub fn include_all(&mut self, kept: &mut [bool]) {
+        self.directives.excluded.clear();
         self.directives.inner.clear();
         for &node in &self.nodes {
             kept[node] = true;
@@ -112,7 +112,7 @@ impl Interface {
 
     /// Whether contact has come so near to points that do not take part that they should.
     pub fn spreads(&self) -> bool {
-        if self.directives.asleep.is_empty() {
+        if self.directives.excluded.is_empty() {
             return false;
         }
         let points = self.cache.last.points.iter().zip(&self.directives.inner);
@@ -123,63 +123,63 @@ impl Interface {
 
     /// The number of points that do not take part although they penetrate the primary at displacements `u`.
     pub fn overlooked(&self, u: &[f64], t: f64) -> usize {
-        if self.directives.asleep.is_empty() {
+        if self.directives.excluded.is_empty() {
             return 0;
         }
         let x = self.coordinates(u);
-        let span = Reach {
-            approach: 0.0,
+        let span = CandidateRange {
+            distance: 0.0,
             along: 0.0,
             span: [t, t],
         };
-        let asleep = &self.directives.asleep;
+        let excluded = &self.directives.excluded;
         let gaps = self.gaps(&x, span);
         let smallest = |i: usize| -1e-9 * self.points[i].size;
-        (0..asleep.len())
-            .filter(|&i| asleep[i] && gaps[i] < smallest(i))
+        (0..excluded.len())
+            .filter(|&i| excluded[i] && gaps[i] < smallest(i))
             .count()
     }
 
     /// Finds the gaps of points that do not take part, for reports of the state with displacements `u` at time `t`.
     pub fn measure(&mut self, u: &[f64], t: f64) {
-        if self.directives.asleep.is_empty() {
+        if self.directives.excluded.is_empty() {
             return;
         }
         let x = self.coordinates(u);
-        let here = Reach {
-            approach: 0.0,
+        let here = CandidateRange {
+            distance: 0.0,
             along: 0.0,
             span: [t, t],
         };
         let gaps = self.gaps(&x, here);
         let points = self.history.points.iter_mut().zip(gaps);
-        for ((history, gap), asleep) in points.zip(&self.directives.asleep) {
-            if *asleep {
+        for ((history, gap), excluded) in points.zip(&self.directives.excluded) {
+            if *excluded {
                 history.gap = gap;
             }
         }
     }
 
     /// Distances from the primary, whatever side of it.
-    fn distances(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
-        self.gaps(x, reach)
+    fn distances(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
+        self.gaps(x, range)
             .into_iter()
             .map(|g| g.max(0.0))
             .collect()
     }
 
     /// The smallest gaps over the span; infinite where a point does not face the primary.
-    fn gaps(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
-        let gaps = self.distances_to_primary(x, reach);
-        let end = reach.span[1];
+    fn gaps(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
+        let gaps = self.distances_to_primary(x, range);
+        let end = range.span[1];
         let gaps = gaps.into_iter().enumerate();
         gaps.map(|(i, gap)| gap - self.offset(i, end)).collect()
     }
 
-    fn distances_to_primary(&self, x: &[Vec3], reach: Reach) -> Vec<f64> {
+    fn distances_to_primary(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
         match &self.primary {
             Primary::Rigid(shape, motion) => {
-                let [from, to] = reach.span;
+                let [from, to] = range.span;
                 let poses: Vec<_> = (0..POSES)
                     .map(|k| motion.pose(from + (to - from) * k as f64 / (POSES - 1) as f64))
                     .collect();

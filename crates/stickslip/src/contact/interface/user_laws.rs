@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::definition::Interface;
 use super::evaluation::{Evaluations, Question};
 use super::scene::{LawQuery, Scene, Wants};
-use crate::contact::law::own::{LimitFunction, OwnFriction, OwnNormal, PressureFunction};
+use crate::contact::law::user::{LimitFunction, PressureFunction, UserFriction, UserNormal};
 use crate::contact::pairing::Anchor;
 use crate::contact::response::Answers;
 
@@ -15,15 +15,15 @@ const ROUNDING: f64 = 1e-12;
 impl Interface {
     /// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
     /// begins.
-    pub fn bring(
+    pub fn set_user_laws(
         &mut self,
         normal: Option<Arc<dyn PressureFunction>>,
         friction: Option<Arc<dyn LimitFunction>>,
     ) {
         let sizes = self.points.iter().map(|p| p.size).sum::<f64>();
         let length = sizes / self.points.len().max(1) as f64;
-        self.laws.own.normal = normal.map(|f| OwnNormal::new(f, length));
-        self.laws.own.friction = friction.map(OwnFriction::new);
+        self.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
+        self.laws.user.friction = friction.map(UserFriction::new);
     }
 
     /// What laws of the program say at the points of a scene; nothing where there are none.
@@ -36,19 +36,19 @@ impl Interface {
         out: &mut Evaluations,
         anchors: &mut [Option<Anchor>],
     ) -> Vec<Answers> {
-        let own = &self.laws.own;
-        if !own.any() || self.laws.tied {
+        let user = &self.laws.user;
+        if !user.any() || self.laws.tied {
             return Vec::new();
         }
         let mut answers = vec![Answers::default(); self.points.len()];
-        if let Some(normal) = &own.normal {
+        if let Some(normal) = &user.normal {
             let questions = self.questions(scene, &answers, LawQuery::Gaps, out, anchors);
             let gaps: Vec<f64> = questions.iter().map(|q| q.gap).collect();
             for (q, answer) in questions.iter().zip(normal.pressures(&gaps)) {
                 answers[q.point].pressure = Some(answer);
             }
         }
-        if let Some(friction) = &own.friction {
+        if let Some(friction) = &user.friction {
             let questions = self.questions(scene, &answers, LawQuery::Friction, out, anchors);
             let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
             for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
