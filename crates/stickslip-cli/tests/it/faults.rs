@@ -1,7 +1,7 @@
 //! What goes wrong around a run: full and read-only disks, folders that are taken, names that leave the folder, inputs that would be
 //! overwritten, memory that runs out, runs that are killed. Nothing is lost, and each message is what it was when somebody read it last.
 
-use crate::support;
+use crate::support::{self, CASE};
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -9,32 +9,14 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-const CASE: &str = r#"format = 1
-model.space = "plane-strain"
-body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
-interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
-support.top = { set = "block.top", x = 0.0, y = -1e-5 }
-step = [{ name = "press", increments = { fixed = 2 } }]
-"#;
-
 /// A folder of its own for each test, with the case in it.
 fn place(name: &str) -> PathBuf {
-    let folder = support::folder("faults", name);
-    std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
-    folder
-}
-
-fn stickslip(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
-    command.current_dir(folder).stdin(Stdio::null());
-    command
+    support::place("faults", name, CASE)
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     said(
-        stickslip(folder)
+        support::command(folder)
             .args(arguments)
             .output()
             .expect("the binary runs"),
@@ -105,7 +87,7 @@ impl Drop for Guard {
 
 /// A run that goes on until it is killed, under way.
 fn endless(folder: &Path) -> Guard {
-    let child = stickslip(folder)
+    let child = support::command(folder)
         .args([
             "run",
             "case.toml",
@@ -427,7 +409,10 @@ fn a_full_disk_is_told_wherever_it_happens() {
     let folder = place("full");
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full");
     let full = full.expect("a device that is always full");
-    let output = stickslip(&folder).arg("schema").stdout(full).output();
+    let output = support::command(&folder)
+        .arg("schema")
+        .stdout(full)
+        .output();
     let (code, text) = said(output.expect("the binary runs"));
     assert_eq!(code, Some(1));
     assert_eq!(
@@ -435,7 +420,7 @@ fn a_full_disk_is_told_wherever_it_happens() {
         "error: standard output: No space left on device (os error 28)\n"
     );
     // Files: none may grow beyond two blocks. The first that does is the fields.
-    let mut limited = stickslip(&folder);
+    let mut limited = support::command(&folder);
     limited.args(["run", "case.toml", "-q"]);
     let (code, text) = with_limit(&mut limited, libc::RLIMIT_FSIZE, 2048);
     assert_eq!(code, Some(1), "{text}");
@@ -454,7 +439,7 @@ fn a_full_disk_is_told_wherever_it_happens() {
     let folder = place("full-cache");
     let more = CASE.replace("cells = [4, 2]", "cells = [40, 20]");
     std::fs::write(folder.join("case.toml"), more).expect("a file");
-    let mut limited = stickslip(&folder);
+    let mut limited = support::command(&folder);
     limited.args([
         "run",
         "case.toml",
@@ -526,7 +511,7 @@ fn memory_that_runs_out_is_an_error_and_no_abort() {
     let large = |cells: &str| {
         let text = CASE.replace("cells = [4, 2]", &format!("cells = {cells}"));
         std::fs::write(folder.join("case.toml"), text).expect("a file");
-        let mut command = stickslip(&folder);
+        let mut command = support::command(&folder);
         command.args(["run", "case.toml", "-q", "--threads", "1"]);
         command
     };

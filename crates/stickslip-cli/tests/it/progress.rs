@@ -1,38 +1,19 @@
 //! What programs and people see of a run while it goes on, and that it can be stopped.
 
-use crate::support;
-use crate::support::text;
+use crate::support::{self, CASE, text};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-const CASE: &str = r#"format = 1
-model.space = "plane-strain"
-body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
-interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
-support.top = { set = "block.top", x = 0.0, y = -1e-5 }
-step = [{ name = "press", increments = { fixed = 3 } }]
-"#;
-
 fn place(name: &str) -> PathBuf {
-    let folder = support::folder("progress", name);
-    std::fs::write(folder.join("case.toml"), CASE).expect("the folder can be written to");
-    folder
-}
-
-fn stickslip(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
-    command.current_dir(folder);
-    command
+    support::place("progress", name, &CASE.replace("fixed = 2", "fixed = 3"))
 }
 
 #[test]
 fn programs_get_a_line_of_json_for_each_event() {
     let folder = place("json");
-    let output = stickslip(&folder)
+    let output = support::command(&folder)
         .args(["run", "case.toml", "--json"])
         .output();
     let output = output.expect("the binary runs");
@@ -60,14 +41,14 @@ fn programs_get_a_line_of_json_for_each_event() {
 #[test]
 fn a_pipe_gets_no_line_an_increment() {
     let folder = place("piped");
-    let output = stickslip(&folder)
+    let output = support::command(&folder)
         .args(["run", "case.toml"])
         .output()
         .expect("the binary runs");
     let said = text(&output.stderr);
     assert!(said.contains("done: 3 increments"), "{said}");
     assert!(!said.lines().any(|l| l.starts_with("press")), "{said}");
-    let output = stickslip(&folder)
+    let output = support::command(&folder)
         .args(["run", "case.toml", "--verbose"])
         .output();
     let said = text(&output.expect("the binary runs").stderr);
@@ -100,7 +81,7 @@ fn a_run_that_is_interrupted_leaves_valid_results() {
 
 fn interrupted(signal: &str) {
     let folder = place(&format!("interrupted-{signal}"));
-    let run = stickslip(&folder)
+    let run = support::command(&folder)
         .args([
             "run",
             "case.toml",
@@ -137,7 +118,7 @@ fn interrupted(signal: &str) {
     assert_eq!(summary["increments"], rows);
     assert!(rows > 0);
     // and other commands take them for what they are
-    let explained = stickslip(&folder)
+    let explained = support::command(&folder)
         .args(["explain", "case.out"])
         .output()
         .expect("the binary runs");

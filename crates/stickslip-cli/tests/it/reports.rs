@@ -1,25 +1,12 @@
 //! Reports and pictures from outside: what a run leaves is enough for them.
 
-use crate::support;
-use crate::support::{stickslip, text};
+use crate::support::{self, CASE, stickslip, text};
 use std::path::PathBuf;
-
-const CASE: &str = r#"format = 1
-title = "A block"
-model.space = "plane-strain"
-body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
-interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
-support.top = { set = "block.top", x = 0.0, y = -1e-5 }
-step = [{ name = "press", increments = { fixed = 2 } }]
-"#;
 
 /// The results of the case, with another coefficient of friction, in a folder of its own.
 fn results(name: &str) -> PathBuf {
-    let folder = support::folder("reports", name);
+    let folder = support::place("reports", name, &format!("title = \"A block\"\n{CASE}"));
     let case = folder.join("case.toml");
-    std::fs::write(&case, CASE).expect("the case is written");
     let set = "interface.base.friction.coulomb.mu=0.4";
     let output = stickslip(&["run", "--quiet", "--set", set, &case.to_string_lossy()]);
     assert!(output.status.success(), "{}", text(&output.stderr));

@@ -1,19 +1,7 @@
 //! Running, comparing and tabulating from outside: results on disk, exit codes 0 to 3.
 
-use crate::support;
-use crate::support::{code, stickslip, text};
+use crate::support::{self, CASE, code, stickslip, text};
 use std::path::{Path, PathBuf};
-
-const CASE: &str = r#"format = 1
-model.space = "plane-strain"
-body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
-interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
-support.top = { set = "block.top", x = 0.0, y = -1e-5 }
-probe.corner.point = [0.0, 0.02]
-step = [{ name = "press", increments = { fixed = 2 } }]
-"#;
 
 /// What the case must give: the top moves as prescribed.
 const EXPECTED: &str = r#"format = 1
@@ -33,9 +21,8 @@ struct Place {
 
 impl Place {
     fn new(name: &str) -> Self {
-        let folder = support::folder("runs", name);
+        let folder = support::place("runs", name, CASE);
         let place = Place { folder };
-        place.write("case.toml", CASE);
         place.write("expected.toml", EXPECTED);
         place
     }

@@ -1,22 +1,11 @@
 //! Sweeps from outside: which runs, in which order, what the table says, and what is refused before anything runs.
 
-use crate::support;
+use crate::support::{self, CASE};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use stickslip::io::csv;
-
-const CASE: &str = r#"format = 1
-model.space = "plane-strain"
-body.block = { generate.rectangle = { to = [0.04, 0.02], cells = [4, 2] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
-interface.base = { secondary = "block.bottom", primary = "floor", friction.coulomb = { mu = 0.3 } }
-support.top = { set = "block.top", x = 0.0, y = -1e-5 }
-probe.corner.point = [0.0, 0.02]
-step = [{ name = "press", increments = { fixed = 2 } }]
-"#;
 
 /// A folder of its own for each test, with the case in it.
 struct Place {
@@ -25,10 +14,8 @@ struct Place {
 
 impl Place {
     fn new(name: &str) -> Self {
-        let folder = support::folder("sweep", name);
-        let place = Place { folder };
-        place.write_case(CASE);
-        place
+        let folder = support::place("sweep", name, CASE);
+        Place { folder }
     }
 
     fn write_case(&self, text: &str) {

@@ -202,13 +202,37 @@ fn a_path_may_pass_through_the_unloaded_state() {
         support.aside = { set = "upper.top", x = 0 }
         support.press = { set = "upper.top", y = -1e-3, amplitude = "press" }
         amplitude.press.table = [[0, 0], [1, 1], [2, -0.2]]
-        solver.method = "condensed"
         step = [{ increments.fixed = 4 }, { increments.fixed = 6 }]
     "#;
-    let problem = Document::new(text, None).problem().expect("a problem");
-    let model = problem.build(Path::new(".")).expect("a model");
-    let (states, _) = run(Simulation::new(model).expect("a simulation"));
-    assert_eq!(states.times.len(), 10);
+    let states = |method: &str| {
+        let method = format!("solver.method=\"{method}\"");
+        let document = Document::new(text, None).with_overrides([method]);
+        let problem = document.problem().expect("a problem");
+        let model = problem.build(Path::new(".")).expect("a model");
+        run(Simulation::new(model).expect("a simulation")).0
+    };
+    let (condensed, sparse) = (states("condensed"), states("sparse"));
+    assert_eq!(condensed.times.len(), 10);
+    let pressed = 1e-3;
+    for (k, t) in condensed.times.iter().enumerate() {
+        assert!((t - sparse.times[k]).abs() < 1e-12);
+        let (a, b) = (&condensed.displacements[k], &sparse.displacements[k]);
+        let apart = difference(a, b) / pressed;
+        assert!(apart < 1e-6, "at {t}: {apart:e}");
+    }
+    // Pressed for nine increments of ten, and not at all where the path comes back to where it began.
+    let largest_force = |k: usize| largest(condensed.forces[k].iter());
+    let zero = (0..10).find(|&k| (condensed.times[k] - 11.0 / 6.0).abs() < 1e-9);
+    let zero = zero.expect("an increment ends where nothing is pressed");
+    assert!(largest_force(zero) < 1e-6 * largest_force(3));
+    assert!(largest(condensed.displacements[zero].iter()) < 1e-6 * pressed);
+    // Lifted by a fifth of what they were pressed, the upper block moves as a whole and the lower one not at all.
+    let last = &condensed.displacements[9];
+    let lifted = last
+        .chunks(2)
+        .filter(|u| (u[1] - 0.2 * pressed).abs() < 1e-6 * pressed);
+    let still = last.chunks(2).filter(|u| u[1].abs() < 1e-6 * pressed);
+    assert_eq!([still.count(), lifted.count()], [9 * 5, 6 * 6]);
 }
 
 #[test]
