@@ -1,4 +1,7 @@
 //! Columns of the history as lines.
+//!
+//! Drawn by hand, with [`axis`]: charts go to the same canvas as pictures of bodies, PNG or SVG with the letters that are built in. A library of charts
+//! would need that canvas wrapped as its own and bring its own choice of letters, for the two hundred lines that it would replace.
 
 use stickslip::Error;
 

@@ -1,5 +1,22 @@
 //! Sound models, of which each planted defect spoils one.
 
+/// Two blocks of steel in the plane, the lower one held, and what is said of them.
+macro_rules! blocks {
+    ($more:literal) => {
+        concat!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+"#,
+            $more
+        )
+    };
+}
+
 /// Two blocks in the plane, pressed together by a prescribed displacement. Lengths in m.
 pub const PRESS: &str = r#"
 format = 1
@@ -96,20 +113,15 @@ $EndElements
 ";
 
 /// Two blocks, pressed together in a first step and slid in a second one.
-pub const SLIDE: &str = r#"
-format = 1
-model.space = "plane-strain"
-body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
-body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
-support.base = { set = "lower.bottom", x = 0, y = 0 }
+pub const SLIDE: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
 support.down = { set = "upper.top", y = -1e-5, amplitude = "down" }
 support.along = { set = "upper.top", x = 1e-5, amplitude = "along" }
 amplitude.down.table = [[0, 0], [1, 1]]
 amplitude.along.table = [[1, 0], [2, 1]]
 step = [{ name = "press" }, { name = "slide" }]
-"#;
+"#
+);
 
 /// A ring pressed on another one. Radius and axis.
 pub const RINGS: &str = r#"
@@ -125,31 +137,20 @@ step = [{ name = "press" }]
 "#;
 
 /// Two blocks, the upper one with a compliant surface.
-pub const COMPLIANT: &str = r#"
-format = 1
-model.space = "plane-strain"
-body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
-body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-interface.joint = { secondary = "upper.bottom", primary = "lower.top", normal.linear = { c = 1e14 }, friction.coulomb = { mu = 0.3 } }
-support.base = { set = "lower.bottom", x = 0, y = 0 }
+pub const COMPLIANT: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", normal.linear = { c = 1e14 }, friction.coulomb = { mu = 0.3 } }
 support.top = { set = "upper.top", x = 0, y = -1e-5 }
 step = [{ name = "press" }]
-"#;
+"#
+);
 
-/// All models that have nothing wrong with them.
 /// Two blocks that are glued together and pulled, the upper one by an equation.
-pub const GLUED: &str = r#"
-format = 1
-model.space = "plane-strain"
-body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
-body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-interface.joint = { secondary = "upper.bottom", primary = "lower.top", tied = true }
-support.base = { set = "lower.bottom", x = 0, y = 0 }
+pub const GLUED: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", tied = true }
 support.top = { set = "upper.top", x = 0, y = 1e-5 }
 step = [{ name = "pull" }]
-"#;
+"#
+);
 
 /// A block that an equation alone pulls.
 pub const LED: &str = r#"
@@ -198,20 +199,16 @@ step = [{ name = "pull" }]
 "#;
 
 /// Two blocks, pressed by a displacement and then by a load in its place, and let go by an amplitude.
-pub const HANDED: &str = r#"
-format = 1
-model.space = "plane-strain"
-body.lower = { generate.rectangle = { to = [0.04, 0.02], cells = [8, 4] }, material = "steel" }
-body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.03, 0.04], cells = [6, 6] }, material = "steel" }
-material.steel.isotropic = { young = 210e9, poisson = 0.3 }
-interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
-support.base = { set = "lower.bottom", x = 0, y = 0 }
+pub const HANDED: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
 support.down = { set = "upper.top", x = 0, y = -1e-6 }
 support.rail = { set = "upper.top", x = 0 }
 load.weight = { set = "upper.top", pressure.value = 1e7 }
 step = [{ name = "touch", supports = ["base", "down"], loads = [] }, { name = "press", supports = ["base", "rail"] }]
-"#;
+"#
+);
 
+/// All models that have nothing wrong with them.
 pub const SOUND: [(&str, &str); 13] = [
     ("beside", BESIDE),
     ("pinned", PINNED),
