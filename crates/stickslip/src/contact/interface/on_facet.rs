@@ -13,6 +13,14 @@ use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
 /// How often a point may slide off an outer edge before it stays off.
 const MOST_LEFT: usize = 2;
 
+/// A point that no facet carries.
+struct Off {
+    /// From the surface `[m]`.
+    distance: f64,
+    /// It stays off the outer edge, but lies beneath the surface.
+    stranded: bool,
+}
+
 /// The place on a facet that moves with it.
 fn material(foot: &FacetPoint, nodes: &[Vec3]) -> Vec3 {
     let weighted = nodes.iter().zip(&foot.n);
@@ -35,7 +43,12 @@ impl Interface {
         let mut position_before = point.position(&cache.before);
         let (f, foot) = match self.facet_of(i, facets, scene, last, anchor) {
             Ok(found) => found,
-            Err(open) => return open,
+            Err(off) => {
+                return Evaluation {
+                    stranded: off.stranded,
+                    ..Evaluation::open(off.distance)
+                };
+            }
         };
         let facet = &facets[f];
         let mut now = [[0.0; 3]; FACET_NODES];
@@ -87,7 +100,7 @@ impl Interface {
         e
     }
 
-    /// The facet of a point and its projection there; as an error the point, open, if it has none.
+    /// The facet of a point and its projection there; where it is if it has none.
     fn facet_of(
         &self,
         i: usize,
@@ -95,7 +108,7 @@ impl Interface {
         scene: &Scene,
         last: Option<&Evaluation>,
         anchor: &mut Option<Anchor>,
-    ) -> Result<(usize, FacetPoint), Evaluation> {
+    ) -> Result<(usize, FacetPoint), Off> {
         let cache = scene.cache;
         let found = if self.kinematics.as_dyn().frozen() {
             cache.frozen[i].ok_or(f64::INFINITY)
@@ -117,12 +130,15 @@ impl Interface {
             // off until the rest has settled, and if it leaves twice again until the next increment.
             Ok((_, p)) if self.attempt.flips[i].left >= MOST_LEFT => {
                 let away = sub(self.points[i].position(&cache.x), p.x);
-                Err(Evaluation {
+                Err(Off {
+                    distance: norm(away),
                     stranded: dot(away, p.normal) < 0.0,
-                    ..Evaluation::open(norm(away))
                 })
             }
-            found => found.map_err(Evaluation::open),
+            found => found.map_err(|distance| Off {
+                distance,
+                stranded: false,
+            }),
         }
     }
 }

@@ -17,8 +17,11 @@ pub(super) struct PointValues {
     pub area: f64,
 }
 
-/// What is shown as a mean at nodes, with its name.
-pub(super) const MEANS: [(&str, fn(&PointValues) -> f64); 6] = [
+/// A name and the value that goes by it.
+pub(super) type Shown = (&'static str, fn(&PointValues) -> f64);
+
+/// What is shown as a mean at nodes.
+pub(super) const MEANS: [Shown; 6] = [
     ("CPRESS", |v| v.pressure),
     ("CSHEAR1", |v| v.shear[0]),
     ("CSHEAR2", |v| v.shear[1]),
