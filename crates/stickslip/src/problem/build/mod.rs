@@ -10,6 +10,7 @@ mod rigid;
 mod schedules;
 mod sets;
 mod snap;
+mod surfaces;
 mod unused;
 
 use std::path::Path;
