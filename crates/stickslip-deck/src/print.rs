@@ -272,17 +272,8 @@ impl Printer {
                     };
                     out.push_str(&title(what));
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
-                        for (i, p) in cell.points.iter().enumerate() {
-                            // Shear strains are those of the tensor, half of ours.
-                            let (v, half) = if key == "S" {
-                                (p.stress, 1.0)
-                            } else {
-                                (p.strain, 0.5)
-                            };
-                            let axes = self.element_axes.get(id).filter(|_| !global);
-                            let v = tensor(&v, half, axes);
-                            row(out, &format!("{id:>10} {:>3}", i + 1), &v);
-                        }
+                        let axes = self.element_axes.get(id).filter(|_| !global);
+                        tensors(out, *id, cell, (key == "S", axes));
                     }
                 }
                 "ELSE" | "EVOL" => {
@@ -334,6 +325,7 @@ impl Printer {
                 .any(|(name, s, m)| *name == i.name && s == slave && m == master),
             None => self.pairs.iter().any(|(name, ..)| *name == i.name),
         };
+        let interfaces = || analysis.contact.interfaces.iter().filter(of_pair);
         let all = |what: &str| {
             format!(
                 "\n {what} for all contact elements and time{}\n\n",
@@ -348,24 +340,8 @@ impl Printer {
                         true => "relative contact displacement (slave node,normal,tang1,tang2)",
                         false => "contact stress (slave node,press,tang1,tang2)",
                     }));
-                    for interface in analysis.contact.interfaces.iter().filter(of_pair) {
-                        let (names, columns) = interface.table(&analysis.frame.state.u);
-                        let column =
-                            |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
-                        let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
-                        let count = columns.first().map_or(0, Vec::len);
-                        for i in (0..count).filter(|&i| value("CSTATUS", i) > 0.0) {
-                            // Shear here is what acts on the slave; there it has the sign of the slip.
-                            let values = match gaps {
-                                true => [value("COPEN", i), value("CSLIP1", i), value("CSLIP2", i)],
-                                false => [
-                                    value("CPRESS", i),
-                                    -value("CSHEAR1", i),
-                                    -value("CSHEAR2", i),
-                                ],
-                            };
-                            row(out, &format!("{:>10}", value("node", i) as u64), &values);
-                        }
+                    for interface in interfaces() {
+                        points_in_contact(analysis, interface, out, gaps);
                     }
                 }
                 "CNUM" => {
@@ -373,18 +349,7 @@ impl Printer {
                         "\n total number of contact elements for time {}\n\n",
                         time(self.time)
                     ));
-                    let tally = |i: &Interface| {
-                        let (names, columns) = i.table(&analysis.frame.state.u);
-                        let at = names.iter().position(|n| n == "CSTATUS");
-                        at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
-                    };
-                    let n: usize = analysis
-                        .contact
-                        .interfaces
-                        .iter()
-                        .filter(of_pair)
-                        .map(tally)
-                        .sum();
+                    let n: usize = interfaces().map(|i| count_in_contact(analysis, i)).sum();
                     let _ = writeln!(out, "{n:>10}");
                 }
                 "CELS" if totals != Totals::No || pair.is_none() => {
@@ -392,17 +357,11 @@ impl Printer {
                         "\n total contact spring energy for time {}\n\n",
                         time(self.time)
                     ));
-                    let sum: f64 = analysis
-                        .contact
-                        .interfaces
-                        .iter()
-                        .filter(of_pair)
-                        .map(|i| i.energy().stored)
-                        .sum();
+                    let sum: f64 = interfaces().map(|i| i.energy().stored).sum();
                     row(out, "      ", &[sum]);
                 }
                 "CF" | "CFN" | "CFS" => {
-                    for interface in analysis.contact.interfaces.iter().filter(of_pair) {
+                    for interface in interfaces() {
                         let named = self.pairs.iter().find(|(name, ..)| *name == interface.name);
                         let Some((_, slave, master)) = named else {
                             continue;
@@ -419,6 +378,50 @@ impl Printer {
                 _ => {}
             }
         }
+    }
+}
+
+/// Gap and slip, or pressure and shear, of the points of an interface that are in contact.
+fn points_in_contact(analysis: &Analysis, interface: &Interface, out: &mut String, gaps: bool) {
+    let (names, columns) = interface.table(&analysis.frame.state.u);
+    let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
+    let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
+    let count = columns.first().map_or(0, Vec::len);
+    for i in (0..count).filter(|&i| value("CSTATUS", i) > 0.0) {
+        // Shear here is what acts on the slave; there it has the sign of the slip.
+        let values = match gaps {
+            true => [value("COPEN", i), value("CSLIP1", i), value("CSLIP2", i)],
+            false => [
+                value("CPRESS", i),
+                -value("CSHEAR1", i),
+                -value("CSHEAR2", i),
+            ],
+        };
+        row(out, &format!("{:>10}", value("node", i) as u64), &values);
+    }
+}
+
+/// How many points of an interface are in contact.
+fn count_in_contact(analysis: &Analysis, interface: &Interface) -> usize {
+    let (names, columns) = interface.table(&analysis.frame.state.u);
+    let at = names.iter().position(|n| n == "CSTATUS");
+    at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
+}
+
+/// Stresses, or strains, of an element at its points.
+fn tensors(
+    out: &mut String,
+    id: u64,
+    cell: &CellState,
+    (stress, axes): (bool, Option<&[Vec3; 3]>),
+) {
+    for (i, p) in cell.points.iter().enumerate() {
+        // Shear strains are those of the tensor, half of ours.
+        let v = match stress {
+            true => tensor(&p.stress, 1.0, axes),
+            false => tensor(&p.strain, 0.5, axes),
+        };
+        row(out, &format!("{id:>10} {:>3}", i + 1), &v);
     }
 }
 

@@ -58,28 +58,7 @@ fn parts(
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let deck = job.deck;
-    for c in &deck.clearances {
-        let known = deck
-            .pairs
-            .iter()
-            .any(|p| p.slave == c.slave && p.master == c.master);
-        if !known {
-            job.error(
-                c.place,
-                format!(
-                    "no contact pair has the surfaces {} and {}",
-                    c.slave, c.master
-                ),
-                "*CLEARANCE names the surfaces of a *CONTACT PAIR",
-            );
-        } else if c.value != 0.0 {
-            job.error(
-                c.place,
-                "clearances other than 0 are not supported",
-                "move the body by the clearance, or let the meshes have it",
-            );
-        }
-    }
+    clearances(job);
     for pair in &deck.pairs {
         if pair.slave == pair.master {
             job.error(
@@ -114,6 +93,40 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             }
         }
     }
+    ties(job, bodies, sets);
+    changes(job);
+}
+
+/// Clearances are checked only: those of zero say what holds anyway.
+fn clearances(job: &mut Job) {
+    let deck = job.deck;
+    for c in &deck.clearances {
+        let known = deck
+            .pairs
+            .iter()
+            .any(|p| p.slave == c.slave && p.master == c.master);
+        if !known {
+            job.error(
+                c.place,
+                format!(
+                    "no contact pair has the surfaces {} and {}",
+                    c.slave, c.master
+                ),
+                "*CLEARANCE names the surfaces of a *CONTACT PAIR",
+            );
+        } else if c.value != 0.0 {
+            job.error(
+                c.place,
+                "clearances other than 0 are not supported",
+                "move the body by the clearance, or let the meshes have it",
+            );
+        }
+    }
+}
+
+/// The interfaces of ties.
+fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let deck = job.deck;
     for tie in &deck.ties {
         let secondary = parts(job, bodies, sets, &tie.slave, false, tie.place);
         let primary = parts(job, bodies, sets, &tie.master, true, tie.place);
@@ -140,7 +153,6 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             }
         }
     }
-    changes(job);
 }
 
 /// `POSITION TOLERANCE` of a `*TIE` that has none, relative to the size of the faces of the master (CalculiX CrunchiX manual, *Keywords in CalculiX,

@@ -20,9 +20,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     initial(job, bodies, sets);
 }
 
-fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    type State = BTreeMap<(u64, usize), Given<f64>>;
-    let (mut state, mut by_step) = (State::new(), Vec::new());
+/// Forces by node and direction.
+type Forces = BTreeMap<(u64, usize), Given<f64>>;
+
+/// The forces of each step; none if two of them cannot be added up.
+fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
+    let (mut state, mut by_step) = (Forces::new(), Vec::new());
     for (i, step) in job.deck.steps.iter().enumerate() {
         // The first force of a step replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
@@ -41,7 +44,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                         let before = state.get(&(node, *component)).filter(|_| again);
                         if before.is_some_and(|b| b.amplitude != *amplitude) {
                             two_courses(job, *place);
-                            return;
+                            return None;
                         }
                         let given = Given {
                             what: value + before.map_or(0.0, |b| b.what),
@@ -58,6 +61,13 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
         by_step.push(state.clone());
     }
+    Some(by_step)
+}
+
+fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let Some(by_step) = forces_by_step(job) else {
+        return;
+    };
     // Directions of one node that act alike are one force, nodes with the same force one load.
     let mut nodes: BTreeMap<(u64, When), ([f64; 3], Place, String)> = BTreeMap::new();
     for ((node, component), a) in collect(&by_step) {
@@ -137,9 +147,43 @@ fn stand_in(job: &Job, bodies: &Bodies, node: u64) -> Option<u64> {
     mine.find(|n| stickslip::math::distance(job.deck.nodes[n], x) <= 1e-9 * size)
 }
 
-fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    type State = BTreeMap<(usize, FacetRef), Given<f64>>;
-    let (mut state, mut by_step) = (State::new(), Vec::new());
+/// Pressures by body and face.
+type Pressures = BTreeMap<(usize, FacetRef), Given<f64>>;
+
+/// Faces by body.
+type Faces = BTreeMap<usize, Vec<FacetRef>>;
+
+/// The faces, the size and the name of a load that is a pressure.
+fn loaded(
+    job: &mut Job,
+    bodies: &Bodies,
+    load: &Distributed,
+    place: Place,
+) -> Option<(Faces, f64, String)> {
+    match load {
+        Distributed::Pressure(faces, value) => {
+            let parts = SurfaceParts::Faces(faces.iter().map(|(e, f)| (*e, Some(*f))).collect());
+            Some((bodies.faces(&parts), *value, "pressure".to_string()))
+        }
+        Distributed::Surface(name, value) => match job.deck.surfaces.get(name) {
+            Some(s) if matches!(s.parts, SurfaceParts::Nodes(_)) => {
+                job.error(
+                    place,
+                    format!("the surface {name} consists of nodes"),
+                    "a pressure acts on faces of elements",
+                );
+                None
+            }
+            Some(s) => Some((bodies.faces(&s.parts), *value, name.clone())),
+            None => None,
+        },
+        _ => None,
+    }
+}
+
+/// The pressures of each step; none if two of them cannot be added up.
+fn pressures_by_step(job: &mut Job, bodies: &Bodies) -> Option<Vec<Pressures>> {
+    let (mut state, mut by_step) = (Pressures::new(), Vec::new());
     for (i, step) in job.deck.steps.iter().enumerate() {
         // As forces: the first pressure of a step on a face replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
@@ -155,25 +199,8 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 }
                 continue;
             };
-            let (faces, value, label) = match load {
-                Distributed::Pressure(faces, value) => {
-                    let parts =
-                        SurfaceParts::Faces(faces.iter().map(|(e, f)| (*e, Some(*f))).collect());
-                    (bodies.faces(&parts), *value, "pressure".to_string())
-                }
-                Distributed::Surface(name, value) => match job.deck.surfaces.get(name) {
-                    Some(s) if matches!(s.parts, SurfaceParts::Nodes(_)) => {
-                        job.error(
-                            *place,
-                            format!("the surface {name} consists of nodes"),
-                            "a pressure acts on faces of elements",
-                        );
-                        continue;
-                    }
-                    Some(s) => (bodies.faces(&s.parts), *value, name.clone()),
-                    None => continue,
-                },
-                _ => continue,
+            let Some((faces, value, label)) = loaded(job, bodies, load, *place) else {
+                continue;
             };
             for (body, list) in faces {
                 for facet in list {
@@ -181,7 +208,7 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     let before = state.get(&(body, facet)).filter(|_| again);
                     if before.is_some_and(|b| b.amplitude != *amplitude) {
                         two_courses(job, *place);
-                        return;
+                        return None;
                     }
                     let given = Given {
                         what: value + before.map_or(0.0, |b| b.what),
@@ -196,8 +223,14 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
         by_step.push(state.clone());
     }
+    Some(by_step)
+}
+
+fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let Some(by_step) = pressures_by_step(job, bodies) else {
+        return;
+    };
     type Alike = (When, u64);
-    type Faces = BTreeMap<usize, Vec<FacetRef>>;
     let mut groups: BTreeMap<Alike, (Faces, Place, String)> = BTreeMap::new();
     for ((body, facet), a) in collect(&by_step) {
         let key = (a.when(), a.what.to_bits());
