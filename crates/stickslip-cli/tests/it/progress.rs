@@ -1,7 +1,7 @@
 //! What programs and people see of a run while it goes on, and that it can be stopped.
 
 use crate::support::{self, CASE, text};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
