@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 use libfuzzer_sys::fuzz_target;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 const CASE: &str = r#"format = 1
 model.space = "plane-strain"

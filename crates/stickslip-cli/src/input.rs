@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
+use stickslip::model::Setup;
 use stickslip::problem::{Document, Meshes, Problem};
-use stickslip::simulation::Setup;
 use stickslip_deck::{Deck, Severity, Translation};
 
 use crate::failure::{Failure, located};

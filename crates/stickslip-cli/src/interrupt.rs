@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use stickslip::simulation::Interrupt;
+use stickslip::run::Interrupt;
 
 /// Something to ask whether the user wants to stop. A second signal ends the program at once.
 pub fn watch() -> Interrupt {

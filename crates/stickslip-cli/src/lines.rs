@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use stickslip::Error;
-use stickslip::simulation::{Analysis, Event, Observer};
+use stickslip::results::{Analysis, Event, Observer};
 
 use crate::print;
 

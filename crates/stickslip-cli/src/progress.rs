@@ -5,10 +5,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use stickslip::Error;
+use stickslip::assess::Gate;
+use stickslip::assess::doctor::{Finding, Severity};
 use stickslip::contact::response::Status;
 use stickslip::newton::Strategy;
-use stickslip::simulation::doctor::{Finding, Severity};
-use stickslip::simulation::{Analysis, Event, Gate, Observer, Row};
+use stickslip::results::{Analysis, Event, Observer, Row};
 
 /// Prints what happens.
 pub struct Progress {

@@ -9,7 +9,7 @@ use stickslip::body::CellState;
 use stickslip::contact::interface::Interface;
 use stickslip::io::write_atomically;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
-use stickslip::simulation::{Analysis, Event, Observer};
+use stickslip::results::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
 use crate::translate::Translation;

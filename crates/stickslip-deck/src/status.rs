@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::io::write_atomically;
-use stickslip::simulation::{Analysis, Event, Observer};
+use stickslip::results::{Analysis, Event, Observer};
 
 /// Writes the `.sta` file of a run.
 #[derive(Debug)]

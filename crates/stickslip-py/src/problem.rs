@@ -8,9 +8,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::Error;
+use stickslip::model::{Contact, Setup};
 use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Meshes};
-use stickslip::simulation::{Contact, Setup};
 use stickslip_deck::{Deck, Translation};
 
 use super::errors::{raise, raise_deck};
@@ -166,7 +166,7 @@ impl Problem {
     /// What the doctor says of the problem before it is run: as text, and as JSON.
     fn check(&self, py: Python<'_>) -> PyResult<(String, String)> {
         let checked = py.detach(|| {
-            let mut simulation = stickslip::simulation::Simulation::new(self.setup()?)?;
+            let mut simulation = stickslip::run::Simulation::new(self.setup()?)?;
             let report = simulation.check();
             let json = serde_json::to_string(&report).unwrap_or_default();
             Ok((report.to_string(), json))
@@ -189,7 +189,7 @@ impl Problem {
             Some(factors) => Arc::clone(&factors.library),
             None => Arc::new(Library::new(Library::small_limit())),
         };
-        let made = py.detach(|| stickslip::simulation::Simulation::with_library(setup, library));
+        let made = py.detach(|| stickslip::run::Simulation::with_library(setup, library));
         let inputs = match &self.deck {
             Some(deck) => deck.files().to_vec(),
             None => self.document.inputs(&self.problem),

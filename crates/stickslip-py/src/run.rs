@@ -9,7 +9,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::Error;
-use stickslip::simulation::{Claim, Event, Observer, ResultFiles, fields};
+use stickslip::results::{Claim, Event, Observer, ResultFiles, fields};
 use stickslip::system::Location;
 
 use super::array::{Array, Kept, Owner};
@@ -38,11 +38,7 @@ struct Rows {
 }
 
 impl Observer for Rows {
-    fn see(
-        &mut self,
-        analysis: &stickslip::simulation::Analysis,
-        event: Event,
-    ) -> Result<(), Error> {
+    fn see(&mut self, analysis: &stickslip::results::Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Increment(row) => {
                 if self.names.is_empty() {
@@ -65,7 +61,7 @@ type Bounds = (usize, usize);
 /// A model being run.
 #[pyclass]
 pub struct Simulation {
-    simulation: stickslip::simulation::Simulation,
+    simulation: stickslip::run::Simulation,
     rows: Rows,
     files: Option<ResultFiles>,
     /// The files that the problem was read from.
@@ -78,7 +74,7 @@ pub struct Simulation {
 impl Simulation {
     /// From a simulation, the files it was read from, and the place for exceptions of its laws.
     pub fn new(
-        mut simulation: stickslip::simulation::Simulation,
+        mut simulation: stickslip::run::Simulation,
         inputs: Vec<PathBuf>,
         raised: Raised,
     ) -> Self {

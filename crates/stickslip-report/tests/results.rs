@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use stickslip::io::write_atomically;
 use stickslip::problem::Problem;
-use stickslip::simulation::{Claim, Observer, ResultFiles, Simulation};
+use stickslip::results::{Claim, Observer, ResultFiles};
+use stickslip::run::Simulation;
 use stickslip_report::plot::{self, Picture, View, When};
 use stickslip_report::{Limits, Results, page, report};
 

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))

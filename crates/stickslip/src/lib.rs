@@ -6,7 +6,7 @@
 //! [Pop 1995](references::pop_1995).
 //!
 //! A problem is plain data ([`problem::Problem`]), usually read from a TOML file. It is checked and built into
-//! a [`simulation::Simulation`], which runs and hands every accepted increment to its observers.
+//! a [`run::Simulation`], which runs and hands every accepted increment to its observers.
 //!
 //! The modules are layered; `ARCHITECTURE.md` at the root of the repository draws the map and
 //! `tests/it/layers.rs` holds the code to it.
@@ -32,7 +32,17 @@ pub mod newton;
 pub mod io;
 pub mod time;
 
-pub mod simulation;
+pub mod model;
+
+mod solve;
+
+mod integrate;
+
+pub mod assess;
+
+pub mod results;
+
+pub mod run;
 
 pub mod problem;
 

@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     let setup = input.build()?;
-    let mut simulation = stickslip::simulation::Simulation::new(setup)?;
+    let mut simulation = stickslip::run::Simulation::new(setup)?;
     let report = simulation.check();
     let text = match arguments.json {
         false => report.to_string(),

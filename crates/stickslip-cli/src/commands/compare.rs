@@ -19,7 +19,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let parent = arguments.directory.parent().unwrap_or(&arguments.directory);
         parent.join("expected.toml")
     });
-    let report = stickslip::simulation::compare::compare(&arguments.directory, &expected)?;
+    let report = stickslip::results::compare::compare(&arguments.directory, &expected)?;
     print::out(&format!("{report}\n"))?;
     Ok(if report.passes() {
         ExitCode::SUCCESS

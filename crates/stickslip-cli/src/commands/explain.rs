@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
-use stickslip::simulation::Figure;
-use stickslip::simulation::doctor::{DoctorCause, Finding, Guilty, Severity};
+use stickslip::assess::Figure;
+use stickslip::assess::doctor::{DoctorCause, Finding, Guilty, Severity};
 
 use crate::failure::{Failure, Outcome};
 use crate::print;

@@ -3,7 +3,8 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use stickslip::newton::condensed::Library;
-use stickslip::simulation::{Claim, Observer, ResultFiles, Simulation};
+use stickslip::results::{Claim, Observer, ResultFiles};
+use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
 use super::{library, use_threads};

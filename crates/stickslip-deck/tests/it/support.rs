@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use stickslip::simulation::{Observer, Simulation};
+use stickslip::results::Observer;
+use stickslip::run::Simulation;
 use stickslip_deck::{Deck, Printer, Translation};
 
 /// A file of one test.

@@ -1,7 +1,7 @@
 //! How hard the run was, and what went wrong on the way.
 
 use serde_json::Value;
-use stickslip::simulation::doctor::Finding;
+use stickslip::assess::doctor::Finding;
 
 use super::escape::text;
 use super::facts::{count, mark, number, table};

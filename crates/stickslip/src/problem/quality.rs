@@ -1,3 +1,3 @@
 //! `[quality]` is the table of limits itself.
 
-pub use crate::simulation::Limits as Quality;
+pub use crate::model::Limits as Quality;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::simulation::Solution;
+use crate::model::Solution;
 
 /// `[solver]`: when an increment counts as solved, and how equations are solved. All dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

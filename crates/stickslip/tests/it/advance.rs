@@ -6,8 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use stickslip::Error;
+use stickslip::assess::View;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
-use stickslip::simulation::{Analysis, Event, Observer, Simulation, View};
+use stickslip::results::{Analysis, Event, Observer};
+use stickslip::run::Simulation;
 
 /// A block pressed on a base and dragged; the second step has more increments than are recovered in one sweep.
 const CASE: &str = r#"

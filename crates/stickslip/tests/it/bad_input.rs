@@ -7,7 +7,7 @@ use std::path::Path;
 
 use stickslip::Error;
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 /// A block of two cells on a rigid floor.
 const CASE: &str = r#"

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::problem::Document;
-use stickslip::simulation::compare::Expected;
-use stickslip::simulation::{Analysis, Event, Observer, Simulation};
+use stickslip::results::compare::Expected;
+use stickslip::results::{Analysis, Event, Observer};
+use stickslip::run::Simulation;
 
 /// Displacements and out-of-balance forces (reactions) after every increment that is reported.
 #[derive(Default)]

@@ -232,10 +232,10 @@ fn a_result_is_an_initial_condition() {
         let model = problem(text)
             .build(&folder)
             .unwrap_or_else(|e| panic!("{e}"));
-        let mut simulation = stickslip::simulation::Simulation::new(model).expect("sound");
+        let mut simulation = stickslip::run::Simulation::new(model).expect("sound");
         let mut record = support::Record::default();
         let mut files =
-            stickslip::simulation::ResultFiles::new(&folder.join(out), &Default::default())
+            stickslip::results::ResultFiles::new(&folder.join(out), &Default::default())
                 .expect("a folder");
         simulation
             .run(&mut [&mut record, &mut files])

@@ -9,8 +9,8 @@ use stickslip::linear::{BlockCsr, Factor, Symbolic};
 use stickslip::material::{Elasticity, Isotropic};
 use stickslip::mesh::generators::{Cuboid, Generate, Rectangle};
 use stickslip::mesh::{Block, Mesh};
+use stickslip::run::Simulation;
 use stickslip::shape::ElementKind;
-use stickslip::simulation::Simulation;
 use stickslip::system::Fields;
 
 const YOUNG: f64 = 200e9;

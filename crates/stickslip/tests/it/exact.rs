@@ -11,8 +11,9 @@ use stickslip::math::{
 use stickslip::mesh::generators::{Cuboid, Generate, Rectangle};
 use stickslip::newton::Strategy;
 use stickslip::problem::{Meshes, Problem};
+use stickslip::results::{Analysis, Event, Observer};
+use stickslip::run::Simulation;
 use stickslip::shape::ElementKind;
-use stickslip::simulation::{Analysis, Event, Observer, Simulation};
 use support::Record;
 
 /// Two cubes with edges of 10 mm, meshes that do not match; numbers for a unit of length that is `1/length` metres.
@@ -289,7 +290,7 @@ impl Observer for Audit {
         if !matches!(event, Event::Increment(_)) {
             return Ok(());
         }
-        let fields = stickslip::simulation::fields(simulation);
+        let fields = stickslip::results::fields(simulation);
         let field = |name: &str| {
             let mut all = fields.all.iter();
             &all.find(|f| f.name == name).expect(name).values

@@ -6,8 +6,9 @@
 use std::path::{Path, PathBuf};
 
 use stickslip::problem::Document;
-use stickslip::simulation::compare::{Expected, compare};
-use stickslip::simulation::{Observer, ResultFiles, Simulation};
+use stickslip::results::compare::{Expected, compare};
+use stickslip::results::{Observer, ResultFiles};
+use stickslip::run::Simulation;
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use stickslip::newton::Statistics;
 use stickslip::newton::condensed::Library;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 /// A stack of four blocks; nothing but contact holds the two in the middle.
 const CASE: &str = r#"

@@ -3,9 +3,10 @@
 use crate::support;
 use std::path::Path;
 
+use stickslip::assess::doctor::DoctorCause;
 use stickslip::problem::Problem;
-use stickslip::simulation::doctor::DoctorCause;
-use stickslip::simulation::{Simulation, Summary};
+use stickslip::results::Summary;
+use stickslip::run::Simulation;
 use support::Record;
 
 /// Gaps `[m]`.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 /// A cell kind by its number in Gmsh's format, and its nodes as corners of a hexahedron; middle nodes follow by edge.
 struct Kind {

@@ -43,8 +43,8 @@ increments.fixed = 2
 fn end(text: &str, method: &str) -> (Vec<f64>, Statistics) {
     let mut problem = problem(text);
     problem.solver.method = match method {
-        "sparse" => stickslip::simulation::Solution::Sparse,
-        _ => stickslip::simulation::Solution::Multigrid,
+        "sparse" => stickslip::model::Solution::Sparse,
+        _ => stickslip::model::Solution::Multigrid,
     };
     problem.solver.tolerance = 1e-10;
     problem.output.every = 0;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 /// The gaps of two half-balls that meet pole on pole: of most nodes the nearest facets face away, and the planes of those that do not are
 /// far from them.

@@ -1,8 +1,10 @@
 //! The quality gate: what trips each limit, what passes, and whether the stated dependence on the numerical stiffness is the true one.
 
 use crate::support;
-use stickslip::simulation::doctor::DoctorCause;
-use stickslip::simulation::{Figure, GateMode, Simulation};
+use stickslip::assess::Figure;
+use stickslip::assess::doctor::DoctorCause;
+use stickslip::model::GateMode;
+use stickslip::run::Simulation;
 
 /// Two blocks with meshes that do not match; the top is moved down and aside.
 const BLOCKS: &str = r#"format = 1

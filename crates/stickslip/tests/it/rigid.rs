@@ -3,7 +3,7 @@
 use crate::support;
 use std::f64::consts::TAU;
 
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 use support::{Record, complaint, problem, run};
 
 const SCHEMES: [&str; 3] = [
@@ -306,7 +306,7 @@ duration = 1.0
         2.0_f64.sqrt() * turned,
         1e-10,
     );
-    let fields = stickslip::simulation::fields(&simulation.view());
+    let fields = stickslip::results::fields(&simulation.view());
     for field in &fields.all {
         let count = match field.location {
             stickslip::system::Location::Point => 27,

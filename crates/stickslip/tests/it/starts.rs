@@ -3,7 +3,7 @@
 use crate::support;
 use std::path::Path;
 
-use stickslip::simulation::Simulation;
+use stickslip::run::Simulation;
 
 /// Two blocks, the upper one too high or too low by `gap`, pressed by a displacement or held.
 fn blocks(gap: f64, press: f64, initial: &str) -> String {

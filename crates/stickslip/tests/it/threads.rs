@@ -3,7 +3,8 @@
 use crate::support;
 use std::path::Path;
 
-use stickslip::simulation::{ResultFiles, Simulation};
+use stickslip::results::ResultFiles;
+use stickslip::run::Simulation;
 
 /// Large enough that bodies and interface are worked on in several chunks.
 const CASE: &str = r#"

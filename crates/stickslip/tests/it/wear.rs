@@ -1,7 +1,8 @@
 //! What sliding leaves on both sides: dissipated energy and wear against closed forms, and fields that are uniform where they should be.
 
 use crate::support;
-use stickslip::simulation::{Simulation, fields};
+use stickslip::results::fields;
+use stickslip::run::Simulation;
 
 const PRESSURE: f64 = 40.0;
 const SLIP: f64 = 0.05;

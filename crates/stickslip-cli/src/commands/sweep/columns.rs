@@ -2,8 +2,8 @@
 
 use stickslip::Error;
 use stickslip::error::RunError;
-use stickslip::simulation::compare::near;
-use stickslip::simulation::{Analysis, Event, Observer};
+use stickslip::results::compare::near;
+use stickslip::results::{Analysis, Event, Observer};
 
 use crate::failure::Failure;
 

@@ -11,12 +11,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use stickslip::Error;
+use stickslip::assess::doctor::Severity;
+use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
-use stickslip::simulation::doctor::Severity;
-use stickslip::simulation::{
-    Claim, FileClaim, Interrupt, Observer, ResultFiles, Setup, Simulation, Summary,
-};
+use stickslip::results::{Claim, FileClaim, Observer, ResultFiles, Summary};
+use stickslip::run::{Interrupt, Simulation};
 
 use super::{library, spare, use_threads};
 

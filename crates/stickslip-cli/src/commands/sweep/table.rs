@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use stickslip::Error;
 use stickslip::io::write_atomically;
-use stickslip::simulation::Summary;
+use stickslip::results::Summary;
 
 /// What is known of a run.
 #[derive(Debug, Default)]

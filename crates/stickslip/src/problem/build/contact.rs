@@ -16,7 +16,7 @@ use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
-use crate::simulation::Body;
+use crate::model::Body;
 use crate::system::{Dofs, Schedule};
 
 /// How far a point may overhang the outer edge of the primary, relative to the facet.

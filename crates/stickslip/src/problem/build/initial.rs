@@ -10,7 +10,7 @@ use crate::error::{Diagnostic, Error};
 use crate::io::vtu;
 use crate::math::{Vec3, add, cross, distance, scale, sub};
 use crate::mesh::Mesh;
-use crate::simulation::{Initial, Support};
+use crate::model::{Initial, Support};
 use crate::system::Dofs;
 
 fn vec3(v: &[f64]) -> Vec3 {

@@ -1,4 +1,4 @@
-//! From a checked [`Problem`] to a [`Model`](crate::simulation::Model): meshes are made or read, names become indices.
+//! From a checked [`Problem`] to a [`Model`](crate::model::Model): meshes are made or read, names become indices.
 
 mod contact;
 mod couplings;
@@ -20,8 +20,8 @@ use super::{Problem, SpaceKind};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
+use crate::model::{Body, Contact, Model, OutputPlan, Prescribed, Probe, Setup, Support};
 use crate::newton::Settings;
-use crate::simulation::{Body, Contact, Model, OutputPlan, Prescribed, Probe, Setup, Support};
 use crate::system::{Dofs, Links};
 pub use meshes::Meshes;
 

@@ -4,7 +4,7 @@ use super::fault::problem_error;
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, sub, symmetric_eigen};
-use crate::simulation::{Body, Prescribed, Rigid};
+use crate::model::{Body, Prescribed, Rigid};
 use crate::system::{Dofs, Freedom, Link, Links, Motion, Row};
 
 /// Square of the part of a motion that a support may leave out of it, or take of it, without meaning to: a set that misses the centre

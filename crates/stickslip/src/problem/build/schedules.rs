@@ -1,7 +1,7 @@
 //! When what acts, and with which factor.
 
 use super::super::Problem;
-use crate::simulation::{Dynamic, Step};
+use crate::model::{Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
 

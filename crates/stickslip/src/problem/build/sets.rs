@@ -7,7 +7,7 @@ use super::fault::problem_error;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, distance, dot, normalize, sub};
 use crate::mesh::{CellRef, FacetRef, Mesh};
-use crate::simulation::Body;
+use crate::model::Body;
 
 /// Resolves names of sets against the joined mesh.
 pub(super) struct Sets<'a> {

@@ -12,8 +12,8 @@ use crate::contact::surface::{ContactPoint, Facet};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add_scaled, cross, norm, normalize, sub};
 use crate::mesh::{FacetRef, Mesh};
+use crate::model::Body;
 use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
-use crate::simulation::Body;
 
 /// Multiple of its size by which a model lies away before its interfaces count coordinates from somewhere nearer.
 const FAR: f64 = 16.0;

@@ -1,6 +1,6 @@
 //! Defects of supports, loads, amplitudes and steps.
 
-use stickslip::simulation::doctor::DoctorCause;
+use stickslip::assess::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
 use super::models::{CUBES, LED, LOAD, PRESS, SLIDE, THROW};

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use stickslip::assess::doctor::{DoctorCause, Severity};
 use stickslip::problem::Document;
-use stickslip::simulation::Simulation;
-use stickslip::simulation::doctor::{DoctorCause, Severity};
+use stickslip::run::Simulation;
 
 /// Warnings that are right: example, cause, why.
 const RIGHT: &[(&str, DoctorCause, &str)] = &[(

@@ -1,6 +1,6 @@
 //! Defects of places, surfaces and meshes.
 
-use stickslip::simulation::doctor::DoctorCause;
+use stickslip::assess::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
 use super::models::{CUBES, LOAD, PRESS, RINGS, THROW};

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use stickslip::assess::doctor::DoctorCause;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
-use stickslip::simulation::Contact;
-use stickslip::simulation::doctor::DoctorCause;
+use stickslip::model::Contact;
 
 use super::models::COMPLIANT;
 use super::{examined, folder, judged};

@@ -11,9 +11,10 @@ use crate::support;
 use std::path::Path;
 
 use stickslip::Error;
+use stickslip::assess::doctor::{DoctorCause, Finding, Severity};
+use stickslip::model::Contact;
 use stickslip::problem::Document;
-use stickslip::simulation::doctor::{DoctorCause, Finding, Severity};
-use stickslip::simulation::{Contact, Simulation};
+use stickslip::run::Simulation;
 
 /// What has to be said of a defect.
 pub enum Expected {

@@ -1,6 +1,6 @@
 //! Defects of numbers: units, laws, materials, speeds.
 
-use stickslip::simulation::doctor::DoctorCause;
+use stickslip::assess::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
 use super::models::{COMPLIANT, CUBES, LOAD, PRESS, THROW};

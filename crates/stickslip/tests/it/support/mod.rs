@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::newton::Progress;
 use stickslip::problem::{Document, Problem};
-pub use stickslip::simulation::Row;
-use stickslip::simulation::{Analysis, Event, Observer, Simulation};
+pub use stickslip::results::Row;
+use stickslip::results::{Analysis, Event, Observer};
+use stickslip::run::Simulation;
 
 /// The problem in `text`, which must be sound.
 pub fn problem(text: &str) -> Problem {

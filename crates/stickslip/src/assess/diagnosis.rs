@@ -1,0 +1,306 @@
+//! What can be said of a model before it runs, and of a body that nothing holds.
+
+use std::fmt;
+
+use super::doctor::Finding;
+use super::view::View;
+use crate::contact::interface::Interface;
+use crate::error::RunError;
+use crate::math::add;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::system::{Stage, State, StepFailure};
+
+/// A rigid-body mode that neither supports nor springs hold.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct FreeMode {
+    /// The body.
+    pub body: String,
+    /// What the motion is: `translation x`, or a mixture.
+    pub motion: String,
+}
+
+/// What `stickslip check` says.
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct CheckReport {
+    /// The bodies.
+    pub bodies: Vec<BodyReport>,
+    /// The interfaces.
+    pub interfaces: Vec<InterfaceReport>,
+    /// Motions that only contact can hold, at the start.
+    pub free: Vec<FreeMode>,
+    /// Steps, in words.
+    pub steps: Vec<String>,
+    /// What the doctor found, worst first.
+    pub findings: Vec<Finding>,
+}
+
+/// A body in numbers.
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct BodyReport {
+    /// Name.
+    pub name: String,
+    /// Points.
+    pub points: usize,
+    /// Cells.
+    pub cells: usize,
+    /// Kinds of cells.
+    pub kinds: String,
+    /// Mass if it is rigid.
+    pub rigid: Option<f64>,
+    /// Corners of its box.
+    pub low: [f64; 3],
+    /// Corners of its box.
+    pub high: [f64; 3],
+    /// Its sets.
+    pub sets: Vec<String>,
+}
+
+/// An interface in numbers.
+#[derive(Debug, Clone, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct InterfaceReport {
+    /// Name.
+    pub name: String,
+    /// Points of the secondary.
+    pub points: usize,
+    /// Area of the secondary.
+    pub area: f64,
+    /// Points with something opposite.
+    pub paired: usize,
+    /// Smallest gap `[m]`; infinite without a paired point.
+    pub smallest: f64,
+    /// The middle one of the gaps of paired points `[m]`.
+    pub median: f64,
+    /// Largest gap of paired points `[m]`.
+    pub largest: f64,
+    /// User's number of the node with the smallest gap, where the point is one.
+    pub nearest_node: Option<u64>,
+    /// Its reference coordinates `[m]`.
+    pub nearest_at: Option<[f64; 3]>,
+    /// Points that overlap at the start.
+    pub overlapping: usize,
+    /// Its laws in words.
+    pub laws: String,
+}
+
+/// Motions of each body that the supports and springs acting at `t` do not hold.
+pub fn free_modes(view: &View, t: f64) -> Vec<FreeMode> {
+    let bodies = view.free_bodies(t).into_iter();
+    let modes = bodies.flat_map(|free| {
+        let body = view.model.bodies[free.body].name.clone();
+        let modes = free.motions.into_iter();
+        modes.map(move |(motion, _)| FreeMode {
+            body: body.clone(),
+            motion,
+        })
+    });
+    modes.collect()
+}
+
+/// The error for a singular system in which every body is held: something inside a body is not.
+pub(crate) fn explain_singular(view: &View, failure: &StepFailure) -> RunError {
+    let model = view.model;
+    // A hidden point has no number.
+    let meshed = |dof: &usize| model.dofs.locate(*dof).0 < model.mesh.points.len();
+    let place = failure.dof.filter(meshed).map(|dof| {
+        let (point, component) = model.dofs.locate(dof);
+        let body = model.bodies.iter().find(|b| b.points.contains(&point));
+        format!(
+            "found at node {} of body {}, direction {}",
+            model.mesh.point_ids[point],
+            body.map_or("?", |b| b.name.as_str()),
+            ["x", "y", "z"][component]
+        )
+    });
+    RunError {
+        message: "the system is singular although supports hold every body".to_string(),
+        time: view.frame.state.t,
+        culprits: place.into_iter().collect(),
+        help: Some(
+            "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness"
+                .into(),
+        ),
+    }
+}
+
+/// Gaps at the start, by interface.
+pub(crate) fn start_gaps(model: &Model, frame: &Frame, contact: &mut Contact) -> Vec<Vec<f64>> {
+    let start = &frame.state;
+    let steps = model.steps.first();
+    let end = State {
+        t: start.t + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start)),
+        ..start.clone()
+    };
+    let stage = Stage {
+        from: start,
+        at: &end,
+        dt: end.t - start.t,
+        rate: None,
+    };
+    let interfaces = contact.interfaces.iter_mut();
+    interfaces.map(|i| i.gaps_at(&stage)).collect()
+}
+
+impl View<'_> {
+    /// What there is to say of a model before it runs, given the gaps at its start by interface.
+    pub(crate) fn check(&self, gaps: &[Vec<f64>], findings: Vec<Finding>) -> CheckReport {
+        let start = self.frame.state.t;
+        let steps = self.model.steps.first();
+        let end = start + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start));
+        let interfaces = self.contact.interfaces.iter().zip(gaps);
+        let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
+        let mesh = &self.model.mesh;
+        let bodies = self
+            .model
+            .bodies
+            .iter()
+            .map(|b| {
+                let blocks = &mesh.blocks[b.blocks.clone()];
+                let mut kinds: Vec<&str> = blocks.iter().map(|x| x.kind.name()).collect();
+                kinds.dedup();
+                let mut low = [f64::INFINITY; 3];
+                let mut high = [f64::NEG_INFINITY; 3];
+                for p in &mesh.points[b.points.clone()] {
+                    for c in 0..3 {
+                        low[c] = low[c].min(p[c]);
+                        high[c] = high[c].max(p[c]);
+                    }
+                }
+                let prefix = format!("{}.", b.name);
+                let mut sets: Vec<String> = mesh
+                    .point_sets
+                    .keys()
+                    .chain(mesh.facet_sets.keys())
+                    .chain(mesh.cell_sets.keys())
+                    .filter_map(|k| k.strip_prefix(&prefix).map(str::to_string))
+                    .collect();
+                sets.sort();
+                sets.dedup();
+                BodyReport {
+                    name: b.name.clone(),
+                    points: b.points.len(),
+                    cells: blocks.iter().map(|x| x.cell_ids.len()).sum(),
+                    kinds: kinds.join(", "),
+                    rigid: b.rigid.map(|r| r.mass),
+                    low,
+                    high,
+                    sets,
+                }
+            })
+            .collect();
+        CheckReport {
+            bodies,
+            interfaces,
+            free: free_modes(self, end),
+            steps: self
+                .model
+                .steps
+                .iter()
+                .map(|s| format!("{}: {} to {}", s.name, s.start, s.end))
+                .collect(),
+            findings,
+        }
+    }
+}
+
+fn inspect(interface: &Interface, gaps: &[f64]) -> InterfaceReport {
+    let mut finite: Vec<(f64, usize)> = gaps.iter().copied().zip(0..).collect();
+    finite.retain(|(gap, _)| gap.is_finite());
+    finite.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let nearest = finite.first().map(|&(_, i)| &interface.points[i]);
+    let gap = |at: Option<&(f64, usize)>, none: f64| at.map_or(none, |&(gap, _)| gap);
+    InterfaceReport {
+        name: interface.name.clone(),
+        points: interface.points.len(),
+        area: interface.points.iter().map(|p| p.area).sum(),
+        paired: finite.len(),
+        smallest: gap(finite.first(), f64::INFINITY),
+        median: gap(finite.get(finite.len() / 2), f64::INFINITY),
+        largest: gap(finite.last(), f64::NEG_INFINITY),
+        nearest_node: nearest.and_then(|p| Some(interface.node_ids[p.node()?])),
+        nearest_at: nearest.map(|p| add(p.place(&interface.reference), interface.origin)),
+        overlapping: finite.iter().filter(|(gap, _)| *gap < 0.0).count(),
+        laws: interface.laws.describe(),
+    }
+}
+
+impl fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "bodies")?;
+        for b in &self.bodies {
+            writeln!(
+                f,
+                "  {}: {} points, {} cells ({}), from ({}, {}, {}) to ({}, {}, {})",
+                b.name,
+                b.points,
+                b.cells,
+                b.kinds,
+                b.low[0],
+                b.low[1],
+                b.low[2],
+                b.high[0],
+                b.high[1],
+                b.high[2]
+            )?;
+            if let Some(mass) = b.rigid {
+                writeln!(f, "    rigid, of mass {mass:.6e}")?;
+            }
+            writeln!(f, "    sets: {}", b.sets.join(", "))?;
+        }
+        writeln!(f, "interfaces")?;
+        for i in &self.interfaces {
+            writeln!(
+                f,
+                "  {}: {} points, area {:.6e}, {}",
+                i.name, i.points, i.area, i.laws
+            )?;
+            if i.paired == 0 {
+                writeln!(
+                    f,
+                    "    nothing lies opposite: the interface cannot close from here"
+                )?;
+            } else {
+                writeln!(
+                    f,
+                    "    gaps {:.6e} to {:.6e}, median {:.6e}, {} of {} points have something opposite, {} overlap",
+                    i.smallest, i.largest, i.median, i.paired, i.points, i.overlapping
+                )?;
+                if let Some([x, y, z]) = i.nearest_at {
+                    let what = match i.smallest < 0.0 {
+                        true => "deepest overlap",
+                        false => "smallest gap",
+                    };
+                    let node = match i.nearest_node {
+                        Some(id) => format!("node {id} "),
+                        None => String::new(),
+                    };
+                    writeln!(f, "    {what} at {node}({x:.6e}, {y:.6e}, {z:.6e})")?;
+                }
+            }
+        }
+        writeln!(f, "free rigid-body modes (held by contact alone)")?;
+        if self.free.is_empty() {
+            writeln!(f, "  none")?;
+        }
+        for m in &self.free {
+            writeln!(f, "  {}: {}", m.body, m.motion)?;
+        }
+        writeln!(f, "steps")?;
+        for s in &self.steps {
+            writeln!(f, "  {s}")?;
+        }
+        writeln!(f, "findings")?;
+        if self.findings.is_empty() {
+            writeln!(f, "  none")?;
+        }
+        for finding in &self.findings {
+            writeln!(f, "  {}", finding.to_string().replace('\n', "\n  "))?;
+        }
+        Ok(())
+    }
+}

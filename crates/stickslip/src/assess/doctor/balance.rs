@@ -1,0 +1,200 @@
+//! Whether contact can balance what acts on a body that nothing else holds.
+
+use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::friction::friction_coefficient;
+use super::places;
+use super::surfaces::Opposite;
+use crate::assess::view::View;
+use crate::contact::interface::Primary;
+use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
+use crate::model::definition::Body;
+use crate::model::scene::Scene;
+
+/// Cosine between outward normals below which two places face each other.
+const FACING: f64 = -0.3;
+
+/// Cosine between contact normals that make a flat surface.
+const FLAT: f64 = 0.999;
+
+/// Part of the loads that counts as none.
+const NONE: f64 = 1e-9;
+
+/// Directions in which contact can push one body.
+#[derive(Default)]
+struct Push {
+    directions: Vec<Vec3>,
+    /// Largest coefficient of friction; `None` where a limit does not depend on pressure.
+    friction: Option<f64>,
+    interface: String,
+}
+
+/// Bodies without supports and springs on which the loads at time `t` and contact cannot be in balance.
+pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
+    let model = view.model;
+    let held = view.constraints(t).fixed;
+    let loads = view.external(t);
+    let scale_of_loads = vector::norm(&loads);
+    for body in &model.bodies {
+        let mut dofs: Vec<usize> =
+            (model.dofs.of(body.points.start, 0)..model.dofs.of(body.points.end, 0)).collect();
+        if let Some(rigid) = body.rigid {
+            // Its points are no unknowns; what is supported or loaded is the body itself.
+            let link = &model.links.all()[rigid.link];
+            dofs = link.motions(model.dofs).iter().map(|m| m.0).collect();
+        }
+        let sprung = model.springs.iter().flat_map(|s| s.entries());
+        let sprung = sprung
+            .into_iter()
+            .any(|(dof, k)| *k > 0.0 && dofs.contains(dof));
+        if sprung || dofs.iter().any(|&dof| held[dof]) {
+            continue;
+        }
+        let Some(push) = push(view, body, t) else {
+            continue;
+        };
+        let mut force = [0.0; 3];
+        for &dof in &dofs {
+            let (point, component) = model.dofs.locate(dof);
+            if !model.links.turns(point) {
+                force[component] += loads[dof];
+            }
+        }
+        let sum = push.directions.iter().fold([0.0; 3], |s, d| add(s, *d));
+        let Some(mean) = normalize(sum) else {
+            continue;
+        };
+        let narrowest = push.directions.iter().map(|d| dot(*d, mean));
+        let narrowest = narrowest.fold(f64::INFINITY, f64::min);
+        let found = judge(
+            &body.name,
+            &push,
+            (mean, narrowest),
+            force,
+            NONE * scale_of_loads,
+        );
+        if let Some((cause, message)) = found {
+            let finding = Finding::new(cause, Severity::Warning, message)
+                .blame(places::body(
+                    model,
+                    &body.name,
+                    "held by contact alone".into(),
+                ))
+                .blame(Guilty::interface(&push.interface, ""));
+            return Some(match cause {
+                DoctorCause::FreeRigidMode => {
+                    finding.advise("support the body on its other side, or hold it by springs")
+                }
+                _ => finding
+                    .advise("no equilibrium exists: lower the load, raise friction or support the motion")
+                    .advise("make the step dynamic if the body is meant to take off"),
+            });
+        }
+    }
+    None
+}
+
+/// Why a body cannot be in balance, given the mean direction in which contact pushes and the smallest cosine to it.
+fn judge(
+    name: &str,
+    push: &Push,
+    (mean, narrowest): (Vec3, f64),
+    force: Vec3,
+    nothing: f64,
+) -> Option<(DoctorCause, String)> {
+    let mu = push.friction?;
+    if norm(force) <= nothing {
+        // What pushes back along the mean direction is friction at most.
+        return (narrowest > mu / (1.0 + mu * mu).sqrt()).then(|| {
+            (
+                DoctorCause::FreeRigidMode,
+                format!(
+                    "contact pushes body {name} away and nothing pushes back: no support, no spring and no load holds it"
+                ),
+            )
+        });
+    }
+    if narrowest < FLAT {
+        return None;
+    }
+    let pressing = -dot(force, mean);
+    let along = norm(add_scaled(force, pressing, mean));
+    if pressing < -nothing {
+        return Some((
+            DoctorCause::SlidesAway,
+            format!(
+                "the loads pull body {name} off what it lies on, by {:.3e}",
+                -pressing
+            ),
+        ));
+    }
+    (along > (1.0 + 1e-6) * mu * pressing + nothing).then(|| {
+        (
+            DoctorCause::SlidesAway,
+            format!(
+                "body {name} slides away: the loads push it along its contact by {along:.3e}, and friction resists {:.3e} at most",
+                mu * pressing
+            ),
+        )
+    })
+}
+
+/// How contact can push a body; `None` if it cannot.
+fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
+    let mut push = Push {
+        friction: Some(0.0),
+        ..Push::default()
+    };
+    for interface in &scene.contact.interfaces {
+        if !interface.schedule.active(t) {
+            continue;
+        }
+        let within = |local: usize| body.points.contains(&interface.nodes[local]);
+        let ours = interface.points.iter().any(|p| within(p.nodes[0]));
+        let theirs = match &interface.primary {
+            Primary::Facets(facets) => facets.iter().any(|f| within(f.nodes[0])),
+            Primary::Rigid(..) => false,
+        };
+        if !ours && !theirs {
+            continue;
+        }
+        let sign = if ours { 1.0 } else { -1.0 };
+        let mut opposite = Opposite::new(interface, t);
+        for p in &interface.points {
+            let Some(nearest) = opposite.nearest(p.position(&interface.reference)) else {
+                continue;
+            };
+            if dot(nearest.normal, p.normal) < FACING {
+                push.directions.push(scale(sign, nearest.normal));
+            }
+        }
+        push.interface.clone_from(&interface.name);
+        let frictional = interface.laws.friction_law().frictional();
+        push.friction = match (push.friction, friction_coefficient(interface)) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (before, None) if !frictional => before,
+            _ => None,
+        };
+    }
+    (!push.directions.is_empty()).then_some(push)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_holds_a_block_up_to_its_limit() {
+        let push = Push {
+            friction: Some(0.3),
+            ..Push::default()
+        };
+        let up = [0.0, 1.0, 0.0];
+        let cause = |force: Vec3| judge("block", &push, (up, 1.0), force, 1e-9).map(|f| f.0);
+        assert_eq!(cause([0.29, -1.0, 0.0]), None);
+        assert_eq!(cause([0.31, -1.0, 0.0]), Some(DoctorCause::SlidesAway));
+        assert_eq!(cause([0.0, 0.1, 0.0]), Some(DoctorCause::SlidesAway));
+        assert_eq!(cause([0.0; 3]), Some(DoctorCause::FreeRigidMode));
+        // A seat that holds from both sides.
+        assert!(judge("pin", &push, (up, -0.2), [0.0; 3], 1e-9).is_none());
+    }
+}

@@ -1,0 +1,97 @@
+//! Supports that contradict each other, and models in which nothing acts.
+
+use std::collections::BTreeMap;
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::common::{forced, travel};
+use super::measured::Measured;
+use crate::assess::view::View;
+use crate::model::definition::{Model, Prescribed};
+
+/// Difference of prescribed displacements, relative to the larger, that is one.
+const DIFFERENT: f64 = 1e-9;
+
+pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
+    let model = view.model;
+    let mut out: Vec<Finding> = contradictions(model);
+    let belts = view.contact.interfaces.iter().any(|i| !i.belt.is_empty());
+    let overlaps = view.contact.interfaces.iter().zip(measured).any(|(i, m)| {
+        let points = i.points.iter().zip(&m.gaps);
+        points.into_iter().any(|(p, g)| *g < -1e-6 * p.size)
+    });
+    if travel(view) == 0.0 && !forced(model) && !belts && !overlaps && model.initials.is_empty() {
+        out.push(
+            Finding::new(
+                DoctorCause::NothingActs,
+                Severity::Warning,
+                "nothing acts: no load, no prescribed displacement, no motion of an obstacle, no overlap",
+            )
+            .blame(Guilty::key("step", "every step leaves the model as it is"))
+            .advise("check that values are not zero and that steps list the loads and supports that act"),
+        );
+    }
+    out
+}
+
+fn contradictions(model: &Model) -> Vec<Finding> {
+    let mut seen: Vec<(usize, usize)> = Vec::new();
+    let mut out = Vec::new();
+    // In between, supports start from where they find the points; at the end of a step they are where they should be.
+    for t in model.steps.iter().map(|step| step.end) {
+        let mut first: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
+        for (k, support) in model.supports.iter().enumerate() {
+            if !support.schedule.active(t) {
+                continue;
+            }
+            let factor = support.schedule.at(t);
+            for e in support.entries.iter().filter(|e| !e.hold) {
+                let value = factor * e.value;
+                let &mut (other, was) = first.entry(e.dof).or_insert((k, value));
+                let apart = (value - was).abs() > DIFFERENT * value.abs().max(was.abs());
+                if other != k && apart && !seen.contains(&(other, k)) {
+                    seen.push((other, k));
+                    out.push(contradiction(model, (other, k), (was, value), (e, t)));
+                }
+            }
+        }
+    }
+    out
+}
+
+fn contradiction(
+    model: &Model,
+    (a, b): (usize, usize),
+    (was, value): (f64, f64),
+    (entry, t): (&Prescribed, f64),
+) -> Finding {
+    let (first, second) = (&model.supports[a].name, &model.supports[b].name);
+    let (point, component) = model.dofs.locate(entry.dof);
+    let direction = ["x", "y", "z"][component];
+    let mut finding = Finding::new(
+        DoctorCause::ContradictingSupports,
+        Severity::Warning,
+        format!(
+            "supports {first} and {second} prescribe different displacements in {direction} for one point: {was:.4e} and {value:.4e} at time {t:.4e}; \
+             the second counts"
+        ),
+    );
+    if point < model.mesh.points.len() {
+        let body = model.bodies.iter().find(|b| b.points.contains(&point));
+        let name = body.map_or(String::new(), |b| b.name.clone());
+        finding = finding.blame(
+            Guilty {
+                what: What::Node,
+                id: Some(model.mesh.point_ids[point]),
+                body: Some(name.clone()),
+                name,
+                remark: format!("direction {direction}"),
+                ..Guilty::default()
+            }
+            .at(model.mesh.points[point]),
+        );
+    }
+    finding
+        .blame(Guilty::key(format!("support.{first}"), ""))
+        .blame(Guilty::key(format!("support.{second}"), ""))
+        .advise("leave the common points out of one of the two sets, or let the supports act in different steps")
+}

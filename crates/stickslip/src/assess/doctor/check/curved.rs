@@ -1,0 +1,159 @@
+//! Curved surfaces whose cells are larger than any contact between them can be.
+
+use std::collections::BTreeMap;
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::surfaces::{Opposite, coordinates, spacing};
+use super::common::{median, roles, sides};
+use crate::contact::interface::{Interface, Primary};
+use crate::contact::projection::evaluate;
+use crate::contact::surface::{Facet, edges};
+use crate::math::{Vec3, add, dot, norm, normalize, scale, sub};
+use crate::model::definition::Model;
+
+/// Half width of contact over the radius of curvature at which strains are no longer small: a line of contact has a largest pressure of half of that
+/// part of the contact modulus (Johnson 1985, eq. 4.43 and 4.45).
+const WIDEST: f64 = 0.2;
+
+/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`.
+const SHARP: f64 = 0.5;
+
+/// Part of all places, the nearest ones, that are looked at; at least this many.
+const NEAREST: f64 = 0.25;
+const LEAST: usize = 4;
+
+/// Cosine between directions from which on they are one.
+const ALONG: f64 = 0.7;
+
+/// Two facets beside each other.
+struct Bend {
+    facets: [usize; 2],
+    /// Between their centres, and the direction from one to the other.
+    x: Vec3,
+    along: Vec3,
+    /// Distance of the nodes along it `[m]`.
+    spacing: f64,
+    /// Positive where the body is convex `[1/m]`.
+    curvature: f64,
+}
+
+/// How a surface bends from facet to facet, but for edges of the body.
+fn bends(facets: &[&Facet], interface: &Interface) -> Vec<Bend> {
+    let mut shared: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+    for (f, facet) in facets.iter().enumerate() {
+        for edge in edges(facet.kind) {
+            let mut key: Vec<usize> = edge.iter().map(|&i| facet.nodes[i]).collect();
+            key.sort_unstable();
+            shared.entry(key).or_default().push(f);
+        }
+    }
+    let centre = |f: usize| {
+        let facet = facets[f];
+        let [s, t, _] = facet.kind.centre();
+        evaluate(facet.kind, &coordinates(interface, facet), [s, t])
+    };
+    let bend = |pair: &Vec<usize>| {
+        let &[i, j] = pair.as_slice() else {
+            return None;
+        };
+        let (a, b) = (centre(i), centre(j));
+        let (way, turn) = (sub(b.x, a.x), sub(b.normal, a.normal));
+        let along = normalize(way)?;
+        let length = norm(way);
+        let angle = 2.0 * (0.5 * norm(turn)).min(1.0).asin();
+        (angle < SHARP).then(|| Bend {
+            facets: [i, j],
+            x: scale(0.5, add(a.x, b.x)),
+            along,
+            spacing: length / facets[i].kind.order().max(1) as f64,
+            curvature: dot(turn, along).signum() * angle / length,
+        })
+    };
+    shared.values().filter_map(bend).collect()
+}
+
+/// Spacing and curvature opposite a place along a direction: of the facets there, or of an obstacle, which has no spacing.
+fn across(
+    interface: &Interface,
+    opposite: &mut Opposite,
+    bend: &Bend,
+    by_facet: &BTreeMap<usize, Vec<&Bend>>,
+) -> Option<(f64, f64, f64)> {
+    let nearest = opposite.nearest(bend.x)?;
+    let Primary::Facets(facets) = &interface.primary else {
+        let ends = [-0.5, 0.5].map(|s| add(bend.x, scale(s * bend.spacing, bend.along)));
+        let [a, b] = ends.map(|x| opposite.nearest(x));
+        let turn = sub(b?.normal, a?.normal);
+        let curvature = dot(turn, bend.along) / bend.spacing;
+        return Some((nearest.distance, 0.0, curvature));
+    };
+    let cosine = |b: &&Bend| dot(b.along, bend.along).abs();
+    let beside = by_facet.get(&nearest.facet).into_iter().flatten().copied();
+    let best = beside
+        .filter(|b| cosine(b) >= ALONG)
+        .max_by(|p, q| cosine(p).total_cmp(&cosine(q)));
+    Some(match best {
+        Some(best) => (nearest.distance, best.spacing, best.curvature),
+        None => (
+            nearest.distance,
+            spacing(interface, &facets[nearest.facet]),
+            0.0,
+        ),
+    })
+}
+
+pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Finding> {
+    if interface.laws.tied {
+        return None;
+    }
+    let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
+    let theirs: Vec<&Facet> = match &interface.primary {
+        Primary::Facets(facets) => facets.iter().collect(),
+        Primary::Rigid(..) => Vec::new(),
+    };
+    let (own, other) = (bends(&ours, interface), bends(&theirs, interface));
+    let mut by_facet: BTreeMap<usize, Vec<&Bend>> = BTreeMap::new();
+    for bend in &other {
+        for f in bend.facets {
+            by_facet.entry(f).or_default().push(bend);
+        }
+    }
+    let mut opposite = Opposite::new(interface, t);
+    // Distance, and for each side its spacing over the radius of what lies between the surfaces.
+    let mut places: Vec<(f64, [f64; 2])> = Vec::new();
+    for bend in &own {
+        if let Some((away, spacing, curvature)) = across(interface, &mut opposite, bend, &by_facet)
+        {
+            let relative = (bend.curvature + curvature).max(0.0);
+            places.push((away, [bend.spacing * relative, spacing * relative]));
+        }
+    }
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    places.truncate(((NEAREST * places.len() as f64) as usize).max(LEAST));
+    let part = [0, 1].map(|side| median(places.iter().map(|p| p.1[side]).collect()));
+    let side = usize::from(part[1] > part[0]);
+    let coarse = part[side];
+    (coarse > WIDEST).then(|| say(model, interface, side, coarse))
+}
+
+fn say(model: &Model, interface: &Interface, side: usize, coarse: f64) -> Finding {
+    let name = &interface.name;
+    let role = roles(interface)[side];
+    let body = sides(model, interface)[side].clone().unwrap_or_default();
+    let finding = Finding::new(
+        DoctorCause::CoarseContact,
+        Severity::Warning,
+        format!(
+            "interface {name}: the cells of the {role} (body {body}) are {coarse:.2} of the radius between the curved surfaces; contact that is as wide as small strains allow has fewer than three of its points across"
+        ),
+    );
+    finding
+        .blame(Guilty::interface(
+            name,
+            format!("cells {coarse:.2} of the radius"),
+        ))
+        .blame(super::super::places::body(model, &body, "coarse".into()))
+        .advise(format!(
+            "refine body {body} where it is touched: cells of a tenth of the radius are a beginning"
+        ))
+}

@@ -1,0 +1,150 @@
+//! Gaps that cannot close, overlaps that are too deep.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::common::{forced_by_loads, secondary, travel};
+use super::driven::flight;
+use super::measured::Measured;
+use crate::assess::view::View;
+use crate::contact::interface::{Interface, Primary, Start};
+use crate::contact::surface::{Facet, turns};
+
+/// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
+const DEEP: f64 = 0.5;
+const SHALLOW: f64 = 0.01;
+
+/// How far facets may stand off, relative to the overlap, and the overlap of surfaces that only touch, relative to the cell beneath.
+const FACETED: f64 = 0.1;
+const ROUNDING: f64 = 1e-9;
+
+/// By how much prescribed motion may be amplified by the bodies on its way to an interface.
+const LEVER: f64 = 10.0;
+
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
+    let finite = measured.gaps.iter().enumerate();
+    let mut gaps: Vec<(usize, f64)> = finite
+        .filter(|(_, g)| g.is_finite())
+        .map(|(i, &g)| (i, g))
+        .collect();
+    gaps.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let Some(&(first, smallest)) = gaps.first() else {
+        return vec![nothing_opposite(interface, measured)];
+    };
+    let model = view.model;
+    let mut out = Vec::new();
+    let size = interface.points[first].size;
+    // What is to be done with overlaps has been said where `initial` says it.
+    let meant = interface.initial.start != Start::AsMeshed;
+    if smallest < -SHALLOW * size && !(meant && smallest > -DEEP * size) {
+        let severity = match smallest < -DEEP * size {
+            true => Severity::Warning,
+            false => Severity::Note,
+        };
+        let overlapping = gaps.iter().filter(|(_, g)| *g < 0.0).count();
+        let mut finding = Finding::new(
+            DoctorCause::InitialOverlap,
+            severity,
+            format!(
+                "interface {}: {overlapping} points overlap at the start, by up to {:.3e}, {:.2} of the cell there",
+                interface.name,
+                -smallest,
+                -smallest / size
+            ),
+        );
+        for &(i, gap) in gaps.iter().take_while(|(_, g)| *g < -SHALLOW * size) {
+            finding = finding.blame(secondary(interface, i, format!("gap {gap:.3e}")));
+        }
+        out.push(match interface.initial.start {
+            Start::Ramp => finding
+                .advise("the fit is deeper than half a cell: take finer increments, or check the sizes of the bodies"),
+            Start::Offset | Start::Snap => finding
+                .advise("check the positions and sizes of the bodies: what is taken away is of the size of cells"),
+            Start::AsMeshed => finding
+                .advise("move a body by the overlap (`body.NAME.translate`) or mend the mesh")
+                .advise("if the overlap is an interference fit, resolve it over the first step (`initial = \"ramp\"`)"),
+        });
+    }
+    out.extend(faceted(interface, &gaps));
+    let reach = travel(view) + flight(model);
+    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(model) {
+        out.push(
+            Finding::new(
+                DoctorCause::InitialGap,
+                Severity::Warning,
+                format!(
+                    "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
+                    interface.name
+                ),
+            )
+            .blame(secondary(interface, first, format!("gap {smallest:.3e}")))
+            .blame(Guilty::interface(&interface.name, "stays open"))
+            .advise("move a body by the gap (`body.NAME.translate`), or check the units of its mesh"),
+        );
+    }
+    out
+}
+
+/// How far straight facets stand off the smooth surface that they stand for, on average `[m]`: an eighth of their length times the angle between
+/// them. Quadratic ones follow it.
+fn standing_off(facets: &[&Facet], interface: &Interface) -> f64 {
+    let straight: Vec<&Facet> = facets
+        .iter()
+        .copied()
+        .filter(|f| f.kind.order() == 1)
+        .collect();
+    let turns = turns(&straight, &interface.reference);
+    let count = turns.len().max(1) as f64;
+    let depths = turns.iter().map(|[angle, length]| angle * length / 8.0);
+    depths.sum::<f64>() / count
+}
+
+/// An overlap that is not much deeper than the facets of a curved surface are off it: the meshes have another fit than the bodies.
+fn faceted(interface: &Interface, gaps: &[(usize, f64)]) -> Option<Finding> {
+    let overlaps: Vec<f64> = gaps.iter().map(|g| -g.1).take_while(|&g| g > 0.0).collect();
+    let typical = overlaps[..].get(overlaps.len() / 2).copied()?;
+    let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
+    let theirs: Vec<&Facet> = match &interface.primary {
+        Primary::Facets(facets) => facets.iter().collect(),
+        Primary::Rigid(..) => Vec::new(),
+    };
+    let off = standing_off(&ours, interface) + standing_off(&theirs, interface);
+    let size = interface.points[gaps[0].0].size;
+    // Surfaces that only touch overlap by rounding.
+    if off <= FACETED * typical || typical <= ROUNDING * size || 2 * overlaps.len() < gaps.len() {
+        return None;
+    }
+    let name = &interface.name;
+    let part = 100.0 * off / typical;
+    Some(
+        Finding::new(
+            DoctorCause::CoarseFacets,
+            Severity::Warning,
+            format!(
+                "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
+            ),
+        )
+        .blame(Guilty::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
+        .advise("refine both surfaces, or use quadratic cells, until the facets are off by a twentieth of the overlap")
+        .advise("divide both surfaces alike: then the facets are off by the same"),
+    )
+}
+
+fn nothing_opposite(interface: &Interface, measured: &Measured) -> Finding {
+    let points = measured.nearest.iter().enumerate();
+    let near = points.filter_map(|(i, n)| Some((i, n.as_ref()?.distance)));
+    let near = near.min_by(|a, b| a.1.total_cmp(&b.1));
+    let mut finding = Finding::new(
+        DoctorCause::NothingOpposite,
+        Severity::Warning,
+        format!(
+            "interface {}: no point of the secondary has anything opposite",
+            interface.name
+        ),
+    )
+    .blame(Guilty::interface(&interface.name, "cannot close from here"));
+    if let Some((i, distance)) = near {
+        let remark = format!("the nearest facet is {distance:.3e} away, to the side");
+        finding = finding.blame(secondary(interface, i, remark));
+    }
+    finding
+        .advise("check the positions of the bodies and which surfaces the interface names; `stickslip check` lists the boxes of bodies")
+}

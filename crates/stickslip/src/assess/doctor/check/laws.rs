@@ -1,0 +1,145 @@
+//! Normal laws that are far softer or stiffer than the bodies, and functions that are no laws.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::common::{diameter, median};
+use crate::contact::interface::Interface;
+use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
+use crate::contact::law::normal::NormalLaw;
+use crate::model::scene::Scene;
+use crate::registry::Family;
+
+/// Strain of the cells beneath at the pressure by which laws are compared.
+const WORKING: f64 = 1e-3;
+
+/// Penetration at that pressure, relative to the largest body, of a law that is far too soft.
+const SOFT: f64 = 10.0;
+
+/// Stiffness at that pressure relative to that of the cells beneath of a law that is far too stiff: what is left of a double's digits.
+const STIFF: f64 = 1e10;
+
+/// Gaps and pressures at which functions are tried, relative to the height of the cells beneath and to their modulus.
+const TRIED: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+
+/// What is wrong with the laws of all interfaces.
+pub(in crate::assess::doctor) fn check(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
+    let bodies = model.elastic();
+    let largest = bodies.fold(0.0_f64, |m, b| {
+        m.max(diameter(&model.mesh.points[b.points.clone()]))
+    });
+    let elastic = scene.contact.interfaces.iter().filter(|i| !i.laws.tied);
+    elastic
+        .filter_map(|i| {
+            let own = function(i);
+            own.or_else(|| stiffness(i, largest))
+        })
+        .collect()
+}
+
+/// Median stiffness `[Pa/m]` and height `[m]` of the cells beneath.
+fn beneath(interface: &Interface) -> Option<(f64, f64)> {
+    let stiffness = median(interface.points.iter().map(|p| p.stiffness).collect());
+    let size = median(interface.points.iter().map(|p| p.size).collect());
+    (stiffness > 0.0 && size > 0.0 && stiffness.is_finite()).then_some((stiffness, size))
+}
+
+fn stiffness(interface: &Interface, largest: f64) -> Option<Finding> {
+    let law = interface.laws.normal_law();
+    law.pressure(0.0)?;
+    if interface.laws.user.normal.is_some() {
+        return None;
+    }
+    let (beneath, size) = beneath(interface)?;
+    let pressure = WORKING * beneath * size;
+    let at = law.gap(pressure);
+    let (depth, stiffness) = (-at.value, -1.0 / at.slope);
+    let name = &interface.name;
+    let kind = interface.laws.normal.kind();
+    let new = |message: String, remark: String| {
+        Finding::new(DoctorCause::LawOutOfRange, Severity::Warning, message)
+            .blame(Guilty::interface(name, remark))
+            .blame(Guilty::key(format!("interface.{name}.normal.{kind}"), ""))
+            .advise("check the parameters and units of the normal law: they have to suit the moduli, in Pa and m or in MPa and mm")
+    };
+    if depth > SOFT * largest && largest > 0.0 {
+        return Some(new(
+            format!(
+                "interface {name}: the normal law is far too soft: at a pressure that strains the bodies by a thousandth, {pressure:.3e}, surfaces penetrate by \
+                 {depth:.3e}, {:.1} times the largest body",
+                depth / largest
+            ),
+            format!("penetration {depth:.3e}"),
+        ));
+    }
+    let ratio = stiffness / beneath;
+    // An infinite ratio included, not a NaN.
+    (ratio > STIFF).then(|| {
+        new(
+            format!(
+                "interface {name}: the normal law is {ratio:.1e} times as stiff as the cells beneath at a pressure of {pressure:.3e}: rounding makes such a law \
+                 worthless"
+            ),
+            format!("stiffness {stiffness:.3e}"),
+        )
+        .advise("surfaces that do not penetrate are `normal.unilateral = {}`")
+    })
+}
+
+/// Laws of the program, tried at a few places.
+fn function(interface: &Interface) -> Option<Finding> {
+    let (stiffness, size) = beneath(interface)?;
+    let own = &interface.laws.user;
+    let name = &interface.name;
+    let new = |message: String, remark: String| {
+        Finding::new(DoctorCause::FaultyLaw, Severity::Warning, message)
+            .blame(Guilty::interface(name, remark))
+            .advise("a normal law gives pressures from gaps, positive and falling as the gap opens; a limit of friction is positive or zero")
+    };
+    if let Some(law) = &own.friction {
+        for part in TRIED {
+            let pressure = part * stiffness * size;
+            let limit = law.limit(&FrictionPoint {
+                pressure,
+                penetration: 0.0,
+                speed: 0.0,
+                sticking: true,
+            });
+            if limit.value.is_nan() || limit.value < 0.0 {
+                return Some(new(
+                    format!(
+                        "interface {name}: the function of friction gives the limit {:.4e} at a pressure of {pressure:.4e}; a limit is not negative",
+                        limit.value
+                    ),
+                    format!("limit {:.4e}", limit.value),
+                ));
+            }
+        }
+    }
+    let law = own.normal.as_ref()?;
+    for part in TRIED {
+        let pressure = |gap: f64| law.pressure(gap).map_or(f64::NAN, |s| s.value);
+        let (inside, outside) = (pressure(-part * size), pressure(part * size));
+        if inside.is_nan() || outside.is_nan() || inside < 0.0 || outside < 0.0 {
+            return Some(new(
+                format!(
+                    "interface {name}: the function of pressure gives {inside:.4e} at a gap of {:.4e} and {outside:.4e} at {:.4e}; pressures are not negative",
+                    -part * size,
+                    part * size
+                ),
+                "pressure that is none".into(),
+            ));
+        }
+        if outside > inside {
+            return Some(new(
+                format!(
+                    "interface {name}: the function of pressure grows with the gap, from {inside:.4e} at {:.4e} to {outside:.4e} at {:.4e}; gaps are positive \
+                     where surfaces are apart",
+                    -part * size,
+                    part * size
+                ),
+                "pressure that grows with the gap".into(),
+            ));
+        }
+    }
+    None
+}

@@ -1,0 +1,105 @@
+//! What can be told of a model before it runs.
+
+mod cells;
+mod common;
+mod conditions;
+mod curved;
+mod driven;
+mod friction;
+mod gaps;
+mod laws;
+mod locking;
+mod measured;
+mod meshes;
+mod motions;
+mod normals;
+mod released;
+mod schedules;
+mod speeds;
+mod strains;
+mod surfaces;
+mod units;
+mod unmoved;
+mod unused;
+
+pub(super) use meshes::disconnected;
+
+use super::finding::Finding;
+use super::unjoined::Unjoined;
+use crate::assess::view::View;
+use crate::model::definition::Model;
+use crate::model::scene::Scene;
+use measured::{Measured, measure};
+
+/// All findings about a model, given the gaps at its start by interface; worst first.
+pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Vec<Finding> {
+    let t = view.frame.state.t;
+    let interfaces = view.contact.interfaces.iter().zip(gaps);
+    let measured: Vec<Measured> = interfaces
+        .map(|(interface, gaps)| measure(interface, gaps, t))
+        .collect();
+    let model = view.model;
+    let mut out = roots(view);
+    out.extend(disconnected(model));
+    out.extend(motions::check(view, &measured));
+    for (interface, measured) in view.contact.interfaces.iter().zip(&measured) {
+        match normals::check(view, interface, measured) {
+            // Gaps to a surface that looks the other way mean nothing.
+            Some(finding) => out.push(finding),
+            None => {
+                let apart = speeds::apart(view, interface, measured);
+                match apart {
+                    // What is never in contact rubs on nothing and closes no gap.
+                    Some(finding) => out.push(finding),
+                    None => {
+                        out.extend(gaps::check(view, interface, measured));
+                        out.extend(friction::pressureless(view, interface, measured));
+                    }
+                }
+                out.extend(strains::pressed(view, interface, measured));
+                out.extend(meshes::check(view, interface, measured));
+                out.extend(surfaces::check(model, interface));
+                out.extend(curved::check(model, interface, t));
+            }
+        }
+        out.extend(friction::check(view, interface, measured));
+    }
+    out.extend(conditions::check(view, &measured));
+    out.extend(schedules::check(view));
+    out.extend(released::check(view));
+    out.extend(unmoved::check(view));
+    out.extend(unused::check(model));
+    out.extend(unjoined.check(view));
+    out.extend(strains::check(model));
+    out.extend(locking::check(model));
+    out.extend(units::check(model));
+    out.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    out
+}
+
+/// The first interface whose sides do not face each other, as far as the state of the run shows.
+pub(super) fn opposed(view: &View) -> Option<Finding> {
+    let interfaces = view.contact.interfaces.iter();
+    let mut found = interfaces.filter_map(|i| {
+        let measured = measure(i, &i.initial_gaps(), view.frame.state.t);
+        normals::check(view, i, &measured)
+    });
+    found.next()
+}
+
+/// Mistakes that may be why the iteration does not converge: sizes and numbers of single bodies that are those of no body, strains that are not small.
+pub(super) fn suspects(model: &Model) -> Vec<Finding> {
+    let mut out = units::impossible(model);
+    out.extend(strains::check(model));
+    out
+}
+
+/// Mistakes that keep a system from being solved, whatever is done to solve it: cells, laws, surfaces that are joined twice, units of velocities.
+pub(super) fn roots(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
+    let mut out = cells::slivers(model);
+    out.extend(laws::check(scene));
+    out.extend(surfaces::doubled(scene));
+    out.extend(speeds::fast(scene));
+    out
+}

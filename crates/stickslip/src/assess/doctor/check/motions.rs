@@ -1,0 +1,113 @@
+//! Motions of bodies as a whole that even contact cannot hold, and gaps that a body under force has to close.
+
+use super::super::balance::unbalanced;
+use super::super::finding::{DoctorCause, Finding, Severity};
+use super::super::motions::{loose, rows};
+use super::super::places::body;
+use super::super::surfaces::Opposite;
+use super::common::{forced, secondary};
+use super::measured::Measured;
+use crate::assess::view::View;
+use crate::contact::response::Status;
+
+/// Gap relative to the cell beneath from which nothing touches.
+const TOUCHING: f64 = 1e-6;
+
+/// Points of an interface that are asked, about; those that touch are all asked.
+const ASKED: usize = 2000;
+
+pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
+    let model = view.model;
+    let Some(step) = model.steps.first().filter(|s| s.dynamic.is_none()) else {
+        return Vec::new();
+    };
+    let t = step.start + 1e-9 * (step.end - step.start);
+    let (mut all, mut touching) = (Vec::new(), Vec::new());
+    for (interface, measured) in view.contact.interfaces.iter().zip(measured) {
+        if !interface.schedule.active(t) {
+            continue;
+        }
+        let status = match interface.laws.friction_law().frictional() {
+            true => Status::Stick,
+            false => Status::Slip,
+        };
+        let mut opposite = Opposite::new(interface, t);
+        let stride = interface.points.len().div_ceil(ASKED).max(1);
+        for (i, (&gap, beside)) in measured.gaps.iter().zip(&measured.nearest).enumerate() {
+            let Some(beside) = beside.filter(|_| gap.is_finite()) else {
+                continue;
+            };
+            let touches = gap <= TOUCHING * interface.points[i].size;
+            if !touches && !i.is_multiple_of(stride) {
+                continue;
+            }
+            let mut own = Vec::new();
+            rows(
+                interface,
+                &mut opposite,
+                (i, beside.normal, status),
+                &mut own,
+            );
+            if touches {
+                touching.extend(own.clone());
+            }
+            all.extend(own);
+        }
+    }
+    let free = loose(view, t, &all);
+    if !free.is_empty() {
+        let mut finding = Finding::new(
+            DoctorCause::FreeRigidMode,
+            Severity::Warning,
+            "bodies can move as a whole: neither supports, nor springs, nor contact can hold them",
+        );
+        for l in &free {
+            finding = finding.blame(body(model, &l.body, format!("{} is free", l.motion)));
+        }
+        return vec![
+            finding
+                .advise(
+                    "support these motions, or hold them by weak springs (`[load.NAME] spring`)",
+                )
+                .advise("friction holds a body along a surface, contact alone does not"),
+        ];
+    }
+    let statics = model.steps.iter().filter(|s| s.dynamic.is_none());
+    let mut out = Vec::new();
+    // Supports that come later may hold what is free now: the first step counts.
+    out.extend(statics.take(1).find_map(|s| unbalanced(view, s.end)));
+    let waiting = loose(view, t, &touching);
+    if waiting.is_empty() || !forced(model) {
+        return out;
+    }
+    // The nearest point of all interfaces of the bodies that wait.
+    let mut nearest: Option<(usize, usize, f64)> = None;
+    for (k, m) in measured.iter().enumerate() {
+        for (i, &gap) in m.gaps.iter().enumerate() {
+            if gap > 0.0 && gap.is_finite() && nearest.is_none_or(|n| gap < n.2) {
+                nearest = Some((k, i, gap));
+            }
+        }
+    }
+    let Some((k, i, gap)) = nearest else {
+        return out;
+    };
+    let interface = &view.contact.interfaces[k];
+    let severity = match gap > interface.points[i].size {
+        true => Severity::Warning,
+        false => Severity::Note,
+    };
+    let mut finding = Finding::new(
+        DoctorCause::InitialGap,
+        severity,
+        format!("bodies that contact has to hold do not touch yet: the smallest gap is {gap:.3e}"),
+    )
+    .blame(secondary(interface, i, format!("gap {gap:.3e}")))
+    .advise("move the bodies until they touch (`body.NAME.translate`), or prescribe a displacement instead of a force");
+    for l in &waiting {
+        let remark = format!("{} is held by nothing that touches", l.motion);
+        finding = finding.blame(body(model, &l.body, remark));
+    }
+    out.push(finding);
+    out
+}

@@ -1,0 +1,101 @@
+//! Surfaces that do not face each other.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::common::{roles, secondary, sides};
+use super::measured::Measured;
+use crate::assess::view::View;
+use crate::contact::interface::{Interface, Primary};
+use crate::math::dot;
+
+/// Cosine between outward normals below which two places face each other.
+const FACING: f64 = -0.3;
+
+/// Part of the points of a body inside an obstacle from which the obstacle is inside out.
+const INSIDE: f64 = 0.5;
+
+pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Option<Finding> {
+    let best = measured.nearest.iter().enumerate().filter_map(|(i, n)| {
+        let n = n.as_ref()?;
+        Some((i, dot(n.normal, interface.points[i].normal)))
+    });
+    let (i, cosine) = best.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let [ours, theirs] = sides(view.model, interface);
+    let ours = ours.unwrap_or_default();
+    let [own, other] = roles(interface);
+    let what = match &theirs {
+        Some(body) => format!("the {other} on body {body}"),
+        None => "the obstacle".to_string(),
+    };
+    if cosine > FACING {
+        let how = match cosine > -FACING {
+            true => "look the same way",
+            false => "stand at right angles",
+        };
+        let remark = format!("cosine between the outward normals {cosine:.2}; -1 is face to face");
+        let mut finding = Finding::new(
+            DoctorCause::NormalsNotOpposed,
+            Severity::Warning,
+            format!(
+                "interface {}: the {own} on body {ours} and {what} {how}: they cannot touch",
+                interface.name
+            ),
+        )
+        .blame(Guilty::interface(
+            &interface.name,
+            "its sides do not face each other",
+        ))
+        .blame(secondary(interface, i, remark));
+        if let Primary::Facets(facets) = &interface.primary
+            && let Some(facet) = facets.first()
+        {
+            let x = super::super::surfaces::coordinates(interface, facet);
+            finding = finding.blame(
+                Guilty {
+                    what: What::Facet,
+                    name: theirs.clone().unwrap_or_default(),
+                    id: Some(facet.cell),
+                    body: theirs,
+                    interface: Some(interface.name.clone()),
+                    remark: format!("a facet of the {other}"),
+                    ..Guilty::default()
+                }
+                .at(x[0]),
+            );
+        }
+        return Some(finding.advise(match interface.rigid() {
+            true => "turn the normal of the obstacle round, or name the surface that faces it",
+            false => "name the surfaces that face each other; `stickslip check` lists the sets of each body",
+        }));
+    }
+    inside_out(view, interface, &ours)
+}
+
+/// A body most of which lies within the obstacle it is meant to rest on.
+fn inside_out(view: &View, interface: &Interface, ours: &str) -> Option<Finding> {
+    let model = view.model;
+    if !interface.rigid() {
+        return None;
+    }
+    let body = model.bodies.iter().find(|b| b.name == ours)?;
+    let mut opposite = super::super::surfaces::Opposite::new(interface, view.frame.state.t);
+    let points = &model.mesh.points[body.points.clone()];
+    let inside = points.iter().filter(|x| {
+        let nearest = opposite.nearest(**x);
+        nearest.is_some_and(|n| n.gap < 0.0)
+    });
+    let share = inside.count() as f64 / points.len().max(1) as f64;
+    (share > INSIDE).then(|| {
+        Finding::new(
+            DoctorCause::NormalsNotOpposed,
+            Severity::Warning,
+            format!(
+                "interface {}: {:.0} % of body {ours} lies inside the obstacle: its normal points the wrong way, or the body is on the wrong side",
+                interface.name,
+                100.0 * share
+            ),
+        )
+        .blame(Guilty::interface(&interface.name, "its obstacle is inside out"))
+        .blame(super::super::places::body(model, ours, "inside the obstacle".into()))
+        .advise("turn the normal of the obstacle round (`inside` for a hole), or move the body to the other side")
+    })
+}

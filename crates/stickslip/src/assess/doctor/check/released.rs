@@ -1,0 +1,161 @@
+//! Steps that leave out what held a body or pressed it in the step before.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::places::body;
+use crate::assess::view::View;
+use crate::model::definition::{Body, Model, Step};
+use crate::model::unheld::{self, Mode, NO_PART};
+use crate::system::{Course, Schedule};
+
+/// What a step leaves out: its kind, its name, and the body.
+struct Dropped<'a> {
+    table: &'static str,
+    name: &'a str,
+    body: usize,
+}
+
+pub(super) fn check(view: &View) -> Vec<Finding> {
+    let model = view.model;
+    let mut out = Vec::new();
+    if !dropped_any(model) {
+        return out;
+    }
+    let modes = unheld::modes(model);
+    for pair in model.steps.windows(2) {
+        let [before, step] = pair else { continue };
+        // In motion letting go is how things begin.
+        if step.dynamic.is_some() || before.dynamic.is_some() {
+            continue;
+        }
+        let was = free(view, &modes, before.end);
+        let free = free(view, &modes, step.end);
+        let mut told = BTreeSet::new();
+        for dropped in supports(model, before, step) {
+            let name = |modes: &BTreeMap<usize, BTreeSet<String>>| {
+                modes.get(&dropped.body).cloned().unwrap_or_default()
+            };
+            let new: Vec<String> = name(&free).difference(&name(&was)).cloned().collect();
+            let led = loaded(model, dropped.body, step) && !loaded(model, dropped.body, before);
+            if !new.is_empty() && !led {
+                told.insert(dropped.body);
+                let what = format!("held against {}", new.join(" and "));
+                out.push(finding(model, &dropped, step, &what));
+            }
+        }
+        for dropped in loads(model, before, step) {
+            let only_contact = free.contains_key(&dropped.body);
+            if only_contact && !loaded(model, dropped.body, step) && !told.contains(&dropped.body) {
+                out.push(finding(model, &dropped, step, "loaded"));
+            }
+        }
+    }
+    out
+}
+
+/// Whether any step leaves out what the one before had.
+fn dropped_any(model: &Model) -> bool {
+    model.steps.windows(2).any(|w| {
+        let mut supports = model.supports.iter().map(|s| &s.schedule);
+        let mut loads = model.loads.iter().map(|l| &l.schedule);
+        supports.any(|s| s.active(w[0].end) && !s.active(w[1].end))
+            || loads.any(|l| left_out(l, &w[0], &w[1]))
+    })
+}
+
+/// Whether something acts at the end of a step.
+fn acts(schedule: &Schedule, step: &Step) -> bool {
+    schedule.active(step.end) && schedule.at(step.end) != 0.0
+}
+
+/// Whether a load acts at the end of a step and the next one does not list it: it falls to zero over that one. One that an amplitude takes away is meant to go.
+fn left_out(schedule: &Schedule, before: &Step, step: &Step) -> bool {
+    let piece = schedule.pieces.iter().find(|p| p.end == step.end);
+    let table = piece.is_some_and(|p| matches!(p.course, Course::Table(_)));
+    acts(schedule, before) && !acts(schedule, step) && !table
+}
+
+/// Motions as a whole that nothing but contact resists, by body.
+fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, BTreeSet<String>> {
+    let mut out: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+    for unheld in view.unheld(t, modes, false) {
+        for (mode, part) in modes.iter().zip(unheld) {
+            if part.abs() > NO_PART {
+                out.entry(mode.body).or_default().insert(mode.name.clone());
+            }
+        }
+    }
+    out
+}
+
+/// The bodies of some dofs.
+fn bodies(model: &Model, dofs: impl Iterator<Item = usize>) -> BTreeSet<usize> {
+    let points: BTreeSet<usize> = dofs.map(|dof| model.dofs.locate(dof).0).collect();
+    let touches =
+        |points: &BTreeSet<usize>, range: Range<usize>| points.range(range).next().is_some();
+    let of = |b: &Body| {
+        let hidden = b.rigid.map(|r| model.links.all()[r.link].hidden);
+        touches(&points, b.points.clone()) || hidden.is_some_and(|h| touches(&points, h..h + 2))
+    };
+    let all = model.bodies.iter().enumerate();
+    all.filter(|(_, b)| of(b)).map(|(i, _)| i).collect()
+}
+
+fn supports<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>> {
+    let gone = model.supports.iter();
+    let gone = gone.filter(|s| s.schedule.active(before.end) && !s.schedule.active(step.end));
+    gone.flat_map(|s| {
+        let held = bodies(model, s.entries.iter().map(|e| e.dof));
+        held.into_iter().map(|body| Dropped {
+            table: "support",
+            name: &s.name,
+            body,
+        })
+    })
+    .collect()
+}
+
+fn loads<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>> {
+    let gone = model.loads.iter();
+    let gone = gone.filter(|l| left_out(&l.schedule, before, step));
+    gone.flat_map(|l| {
+        let pressed = l.entries.iter().filter(|e| e.1 != 0.0);
+        let pressed = bodies(model, pressed.map(|e| e.0));
+        pressed.into_iter().map(|body| Dropped {
+            table: "load",
+            name: &l.name,
+            body,
+        })
+    })
+    .collect()
+}
+
+/// Whether a load acts on a body at the end of a step.
+fn loaded(model: &Model, body: usize, step: &Step) -> bool {
+    let acting = model.loads.iter().filter(|l| acts(&l.schedule, step));
+    let mut dofs = acting.flat_map(|l| l.entries.iter().filter(|e| e.1 != 0.0).map(|e| e.0));
+    let points = &model.bodies[body];
+    let hidden = points.rigid.map(|r| model.links.all()[r.link].hidden);
+    dofs.any(|dof| {
+        let point = model.dofs.locate(dof).0;
+        points.points.contains(&point) || hidden.is_some_and(|h| (h..h + 2).contains(&point))
+    })
+}
+
+fn finding(model: &Model, dropped: &Dropped, step: &Step, what: &str) -> Finding {
+    let Dropped { table, name, .. } = dropped;
+    let of = &model.bodies[dropped.body].name;
+    Finding::new(
+        DoctorCause::LetGo,
+        Severity::Note,
+        format!(
+            "step {} leaves out {table} {name}: body {of} is no longer {what}, and nothing but contact holds it there",
+            step.name
+        ),
+    )
+    .blame(Guilty::key(format!("{table}.{name}"), format!("not in `{table}s` of step {}", step.name)))
+    .blame(body(model, of, String::new()))
+    .advise(format!("if that is not meant, add \"{name}\" to `{table}s` of step {}: a step with a list has nothing else", step.name))
+}

@@ -1,0 +1,220 @@
+//! What acts when: factors that jump, tables of which the analysis sees a part, and what never acts at all.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use crate::model::definition::Model;
+use crate::model::scene::Scene;
+use crate::system::{Course, Schedule};
+
+/// Part of a step in which a factor may not change by half its range.
+const SHORT: f64 = 1e-3;
+
+/// Part of its largest value that a factor changes by when it jumps.
+const JUMP: f64 = 0.5;
+
+/// Part of the largest value of a table that counts as reached.
+const REACHED: f64 = 0.999;
+
+/// Something with a factor in time.
+struct Acting<'a> {
+    what: &'static str,
+    name: &'a str,
+    schedule: &'a Schedule,
+    /// Whether it is anything but zero at factor one.
+    counts: bool,
+    /// Whether the factor scales something.
+    scaled: bool,
+}
+
+fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
+    let model = scene.model;
+    let mut all = Vec::new();
+    for load in &model.loads {
+        all.push(Acting {
+            what: "load",
+            name: &load.name,
+            schedule: &load.schedule,
+            counts: load.entries.iter().any(|e| e.1 != 0.0),
+            scaled: true,
+        });
+    }
+    for support in &model.supports {
+        all.push(Acting {
+            what: "support",
+            name: &support.name,
+            schedule: &support.schedule,
+            counts: support.entries.iter().any(|e| !e.hold && e.value != 0.0),
+            scaled: true,
+        });
+    }
+    for interface in &scene.contact.interfaces {
+        all.push(Acting {
+            what: "interface",
+            name: &interface.name,
+            schedule: &interface.schedule,
+            counts: true,
+            scaled: false,
+        });
+    }
+    all
+}
+
+pub(super) fn check(scene: &Scene) -> Vec<Finding> {
+    let model = scene.model;
+    let mut out = Vec::new();
+    for acting in all(scene) {
+        match never(model, &acting) {
+            Some(finding) => out.push(finding),
+            None if acting.counts && acting.scaled => {
+                out.extend(unreached(model, &acting));
+                out.extend(jump(scene, &acting));
+                out.extend(ended(model, &acting));
+            }
+            None => {}
+        }
+    }
+    out
+}
+
+/// What is listed in no step, or has the factor zero throughout.
+fn never(model: &Model, acting: &Acting) -> Option<Finding> {
+    let Acting { what, name, .. } = acting;
+    let key = format!("{what}.{name}");
+    let new = |message| Finding::new(DoctorCause::NothingActs, Severity::Warning, message);
+    if model.steps.iter().all(|s| !acting.schedule.active(s.end)) {
+        let found = new(format!("{what} {name} acts in no step"))
+            .blame(Guilty::key(key, "listed in no step"));
+        return Some(found.advise(format!("add it to `{what}s` of a step, or remove it")));
+    }
+    let mut times = super::common::times(model).into_iter();
+    let zero = acting.scaled && acting.counts && times.all(|t| acting.schedule.at(t) == 0.0);
+    zero.then(|| {
+        let end = model.steps.last().map_or(0.0, |s| s.end);
+        new(format!(
+            "{what} {name} is zero throughout: its amplitude is zero at all times up to the end of the analysis, {end}"
+        ))
+        .blame(Guilty::key(format!("{key}.amplitude"), ""))
+        .advise("check the times of the amplitude: they count from the start of the analysis")
+    })
+}
+
+/// A table whose largest value lies beyond the end of the analysis.
+fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
+    let end = model.steps.last().map_or(0.0, |s| s.end);
+    let tables = acting
+        .schedule
+        .pieces
+        .iter()
+        .filter_map(|p| match &p.course {
+            Course::Table(table) => Some(table),
+            _ => None,
+        });
+    let rows = tables.into_iter().next()?.rows();
+    let largest = |inside: bool| {
+        let rows = rows
+            .iter()
+            .filter(|r| !inside || r[0] <= end * (1.0 + 1e-9));
+        rows.fold(0.0_f64, |m, r| m.max(r[1].abs()))
+    };
+    let all = largest(false);
+    let mut seen = largest(true);
+    for t in super::common::times(model) {
+        seen = seen.max(acting.schedule.at(t).abs());
+    }
+    if seen >= REACHED * all {
+        return None;
+    }
+    let last = rows.last().map_or(end, |r| r[0]);
+    let Acting { what, name, .. } = acting;
+    Some(
+        Finding::new(
+            DoctorCause::AmplitudeUnused,
+            Severity::Warning,
+            format!(
+                "the amplitude of {what} {name} goes on to time {last}, the analysis ends at {end}: only {:.3} of its largest value, {all}, is reached",
+                seen / all
+            ),
+        )
+        .blame(Guilty::key(format!("{what}.{name}.amplitude"), ""))
+        .blame(Guilty::key("step", format!("ends at {end}")))
+        .advise("make the steps as long as the amplitude, or scale its times"),
+    )
+}
+
+/// A factor that changes, in a quasi-static step, faster than any increment follows.
+fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
+    let model = scene.model;
+    let mut before = 0.0;
+    let rubs = scene
+        .contact
+        .interfaces
+        .iter()
+        .any(|i| i.laws.friction_law().frictional());
+    for (piece, step) in acting.schedule.pieces.iter().zip(&model.steps) {
+        let from = before;
+        before = acting.schedule.at(piece.end);
+        let Course::Table(table) = &piece.course else {
+            continue;
+        };
+        if step.dynamic.is_some() {
+            continue;
+        }
+        let largest = table.rows().iter().fold(0.0_f64, |m, r| m.max(r[1].abs()));
+        let length = piece.end - piece.start;
+        let mut rows = vec![[piece.start, from], [piece.start, table.at(piece.start)]];
+        let within = table.rows().iter();
+        rows.extend(within.filter(|r| r[0] > piece.start && r[0] <= piece.end));
+        let jumps = rows.windows(2).find(|w| {
+            let short = w[1][0] - w[0][0] < SHORT * length;
+            short && (w[1][1] - w[0][1]).abs() > JUMP * largest
+        });
+        let Some(w) = jumps else {
+            continue;
+        };
+        let severity = match rubs {
+            true => Severity::Warning,
+            false => Severity::Note,
+        };
+        let Acting { what, name, .. } = acting;
+        return Some(
+            Finding::new(
+                DoctorCause::SuddenChange,
+                severity,
+                format!(
+                    "the amplitude of {what} {name} jumps from {} to {} at time {:.4e}: one increment takes all of it, however small increments are, and \
+                     friction depends on the way there",
+                    w[0][1], w[1][1], w[1][0]
+                ),
+            )
+            .blame(Guilty::key(format!("{what}.{name}.amplitude"), format!("time {:.4e}", w[1][0])))
+            .advise("spread the change over a part of the step, or make the step dynamic"),
+        );
+    }
+    None
+}
+
+/// A table that ends within a dynamic step, after which its last value is held.
+fn ended(model: &Model, acting: &Acting) -> Option<Finding> {
+    let steps = acting.schedule.pieces.iter().zip(&model.steps);
+    let mut moving = steps.filter(|(_, step)| step.dynamic.is_some());
+    let (last, end) = moving.find_map(|(piece, step)| match &piece.course {
+        Course::Table(table) => {
+            let last = table.rows().last().filter(|_| table.rows().len() > 1)?;
+            let early = last[0] < step.end - 1e-9 * (step.end - step.start);
+            (early && last[1] != 0.0).then_some((last, step.end))
+        }
+        _ => None,
+    })?;
+    let Acting { what, name, .. } = acting;
+    Some(
+        Finding::new(
+            DoctorCause::AmplitudeUnused,
+            Severity::Note,
+            format!(
+                "the amplitude of {what} {name} ends at time {}, a dynamic step at {end}: its last value, {}, is held",
+                last[0], last[1]
+            ),
+        )
+        .blame(Guilty::key(format!("{what}.{name}.amplitude"), ""))
+        .advise("add a row where it should fall to zero"),
+    )
+}

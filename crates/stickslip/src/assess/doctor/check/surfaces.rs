@@ -1,0 +1,223 @@
+//! Surfaces in contact that something else claims as well: a support, a load, another interface.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::common::{roles, sides};
+use crate::contact::interface::{Interface, Primary};
+use crate::contact::projection::evaluate;
+use crate::math::Vec3;
+use crate::model::definition::{Body, Model};
+use crate::model::scene::Scene;
+
+/// Part of the points of a surface that is most of it.
+const MOST: f64 = 0.5;
+
+/// Component of a unit normal that a support has to hold to hold the point along it.
+const ALONG: f64 = 0.7;
+
+/// A surface of an interface: its side in words, its body, the points of the mesh on it and a normal at each.
+struct Surface<'a> {
+    side: &'static str,
+    body: &'a Body,
+    points: Vec<(usize, Vec3)>,
+}
+
+/// The surfaces of elastic bodies, that of the points first.
+fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
+    let names = sides(model, interface);
+    let [own, other] = roles(interface);
+    let mut normals: BTreeMap<usize, Vec3> = Default::default();
+    for p in &interface.points {
+        for &n in &p.nodes {
+            normals.entry(interface.nodes[n]).or_insert(p.normal);
+        }
+    }
+    let mut all = vec![(own, &names[0], normals)];
+    if let Primary::Facets(facets) = &interface.primary {
+        let mut normals: BTreeMap<usize, Vec3> = Default::default();
+        for facet in facets {
+            let x = super::super::surfaces::coordinates(interface, facet);
+            let normal = evaluate(facet.kind, &x, [0.0; 2]).normal;
+            for &n in &facet.nodes {
+                normals.entry(interface.nodes[n]).or_insert(normal);
+            }
+        }
+        all.push((other, &names[1], normals));
+    }
+    let surface =
+        |(side, name, normals): (&'static str, &Option<String>, BTreeMap<usize, Vec3>)| {
+            let body = model
+                .bodies
+                .iter()
+                .find(|b| Some(&b.name) == name.as_ref())?;
+            body.rigid.is_none().then(|| Surface {
+                side,
+                body,
+                points: normals.into_iter().collect(),
+            })
+        };
+    all.into_iter().filter_map(surface).collect()
+}
+
+pub(super) fn check(model: &Model, interface: &Interface) -> Vec<Finding> {
+    if interface.laws.tied {
+        return Vec::new();
+    }
+    let mut out = Vec::new();
+    for surface in surfaces(model, interface) {
+        out.extend(held(model, interface, &surface));
+        out.extend(loaded(model, interface, &surface));
+    }
+    out
+}
+
+/// A support that holds the surface itself along its normal, although the body behind it could move.
+fn held(model: &Model, interface: &Interface, surface: &Surface) -> Option<Finding> {
+    let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
+    for support in &model.supports {
+        let mut held: BTreeSet<(usize, usize)> = BTreeSet::new();
+        for e in &support.entries {
+            held.insert(model.dofs.locate(e.dof));
+        }
+        let along = |(point, normal): &&(usize, Vec3)| {
+            (0..3).any(|c| normal[c].abs() > ALONG && held.contains(&(*point, c)))
+        };
+        let count = surface.points.iter().filter(along).count();
+        if (count as f64) <= MOST * surface.points.len() as f64 {
+            continue;
+        }
+        // A body that is held everywhere stands for a rigid one.
+        let beyond = surface.body.points.clone();
+        let elsewhere = held
+            .iter()
+            .any(|(p, _)| beyond.contains(p) && !on.contains(p));
+        let both = model
+            .steps
+            .iter()
+            .any(|s| support.schedule.active(s.end) && interface.schedule.active(s.end));
+        if elsewhere || !both {
+            continue;
+        }
+        let (name, ours) = (&interface.name, &surface.body.name);
+        let node = surface.points.iter().find(along).map(|p| p.0);
+        let finding = Finding::new(
+            DoctorCause::SupportOnContact,
+            Severity::Warning,
+            format!(
+                "support {} holds the {} of interface {name} itself, on body {ours}: contact there moves nothing, and the body behind it feels nothing",
+                support.name, surface.side
+            ),
+        )
+        .blame(Guilty::key(format!("support.{}.set", support.name), format!("{count} of {} points of the surface", surface.points.len())))
+        .blame(Guilty::interface(name, format!("its {}", surface.side)));
+        return Some(
+            node.into_iter()
+                .fold(finding, |f, p| f.blame(point(model, surface.body, p)))
+                .advise("support the body where it is held in truth, away from the contact, or make it `rigid = true`"),
+        );
+    }
+    None
+}
+
+/// A load that acts on the surface of contact and nowhere else.
+fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Finding> {
+    let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
+    for load in &model.loads {
+        let acted: BTreeSet<usize> = load
+            .entries
+            .iter()
+            .filter(|e| e.1 != 0.0)
+            .map(|e| model.dofs.locate(e.0).0)
+            .collect();
+        let inside = acted.iter().filter(|p| on.contains(p)).count();
+        // A surface that is the whole of a body, or one point of it, may well be loaded.
+        let all = acted.len() < inside + 1 && on.len() < surface.body.points.len();
+        if inside < 2 || !all || (inside as f64) <= MOST * on.len() as f64 {
+            continue;
+        }
+        let (name, ours) = (&interface.name, &surface.body.name);
+        return Some(
+            Finding::new(
+                DoctorCause::LoadOnContact,
+                Severity::Warning,
+                format!(
+                    "load {} acts on the {} of interface {name} itself, on body {ours}: it pushes on the surface that contact pushes on",
+                    load.name, surface.side
+                ),
+            )
+            .blame(Guilty::key(format!("load.{}.set", load.name), format!("{inside} points of the surface")))
+            .blame(Guilty::interface(name, format!("its {}", surface.side)))
+            .advise("load the surface that the force comes from; the force of contact follows from balance"),
+        );
+    }
+    None
+}
+
+/// Two interfaces between the same surfaces that act at the same time.
+pub(in crate::assess::doctor) fn doubled(scene: &Scene) -> Option<Finding> {
+    let model = scene.model;
+    let sets: Vec<[BTreeSet<usize>; 2]> = scene.contact.interfaces.iter().map(nodes).collect();
+    for (b, second) in scene.contact.interfaces.iter().enumerate() {
+        for (a, first) in scene.contact.interfaces.iter().enumerate().take(b) {
+            // The two halves of two-sided contact are one interface of the problem.
+            if first.name == second.name || first.share < 1.0 || second.share < 1.0 {
+                continue;
+            }
+            let together = model
+                .steps
+                .iter()
+                .any(|s| first.schedule.active(s.end) && second.schedule.active(s.end));
+            let common = |x: usize, y: usize| {
+                let both = sets[a][x].intersection(&sets[b][y]).count();
+                both as f64 > MOST * sets[a][x].len().min(sets[b][y].len()) as f64 && both > 0
+            };
+            let opposite = match (&first.primary, &second.primary) {
+                (Primary::Rigid(s, m), Primary::Rigid(t, n)) => (s == t && m == n) && common(0, 0),
+                (Primary::Facets(_), Primary::Facets(_)) => {
+                    common(0, 0) && common(1, 1) || common(0, 1) && common(1, 0)
+                }
+                _ => false,
+            };
+            if together && opposite {
+                return Some(twice(first, second));
+            }
+        }
+    }
+    None
+}
+
+fn twice(first: &Interface, second: &Interface) -> Finding {
+    Finding::new(
+        DoctorCause::DoubledInterface,
+        Severity::Warning,
+        format!(
+            "interfaces {} and {} join the same surfaces at the same time: each closes the gap for itself, and friction counts twice",
+            first.name, second.name
+        ),
+    )
+    .blame(Guilty::interface(&first.name, ""))
+    .blame(Guilty::interface(&second.name, "the same surfaces"))
+    .advise("remove one of the two, or list them in different steps (`step.interfaces`); `step.change` changes the laws of one interface")
+}
+
+/// Points of the mesh on the secondary and on the primary.
+fn nodes(interface: &Interface) -> [BTreeSet<usize>; 2] {
+    let primary = interface.nodes[..interface.primary_nodes].iter();
+    let secondary = interface.points.iter().flat_map(|p| &p.nodes);
+    [
+        secondary.map(|&n| interface.nodes[n]).collect(),
+        primary.copied().collect(),
+    ]
+}
+
+fn point(model: &Model, body: &Body, point: usize) -> Guilty {
+    Guilty {
+        what: What::Node,
+        name: body.name.clone(),
+        id: Some(model.mesh.point_ids[point]),
+        body: Some(body.name.clone()),
+        ..Guilty::default()
+    }
+    .at(model.mesh.points[point])
+}

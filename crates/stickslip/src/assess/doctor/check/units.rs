@@ -1,0 +1,258 @@
+//! Numbers that smell of mixed units: metres with millimetres, pascals with megapascals, kilograms with tonnes.
+//!
+//! Three consistent systems are common: m, N, Pa, kg; mm, N, MPa, t; in, lbf, psi, lbf s²/in. In each of them the moduli of solids and the speed of
+//! sound in them lie in known ranges; what lies in none, or makes two bodies differ by the factor between units, is reported.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::common::diameter;
+use crate::body::Space;
+use crate::model::Body;
+use crate::model::definition::Model;
+
+/// Ratios between the units of length, stress and their squares.
+const FACTORS: [f64; 3] = [1e3, 1e6, 1e9];
+
+/// How near to such a ratio counts.
+const NEAR: f64 = 2.0;
+
+/// Moduli from soft gels to diamond `[Pa]`.
+const MODULI: [f64; 2] = [1e2, 2e12];
+
+/// Units of stress `[Pa]` and length `[m]`: of m, N, Pa; of mm, N, MPa; of in, lbf, psi.
+const SYSTEMS: [[f64; 2]; 3] = [[1.0, 1.0], [1e6, 1e-3], [6894.757, 0.0254]];
+
+/// Speeds of sound in solids `[m/s]`.
+const SPEEDS: [f64; 2] = [10.0, 2e4];
+
+/// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`.
+const HARD: f64 = 1e9;
+
+/// Speeds of sound in hard solids `[m/s]`: lead has 1200, a porous ceramic less.
+const HARD_SPEEDS: [f64; 2] = [500.0, 2e4];
+
+/// Densities of solids, foams included `[kg/m³]`.
+const DENSITIES: [f64; 2] = [1.0, 3e4];
+
+/// Densities that differ by less are those of materials of one kind.
+const ALIKE: f64 = 2.0;
+
+/// Thickness over the size of the largest body that is hardly in the same unit, both ways; one of exactly 1 is the unit of length.
+const THICK: f64 = 50.0;
+const THIN: f64 = 2e-4;
+
+/// Size of a body of hard material that is hardly a length in metres.
+const HUGE: f64 = 20.0;
+
+/// Size of a body with a modulus in megapascals that is hardly a length in millimetres.
+const TINY: f64 = 0.1;
+
+/// Ratio of the sizes of two bodies beyond which one of them is in other units.
+const SIZES: f64 = 300.0;
+
+/// A body in numbers.
+struct Numbers<'a> {
+    body: &'a Body,
+    modulus: f64,
+    density: f64,
+    size: f64,
+}
+
+pub(super) fn check(model: &Model) -> Vec<Finding> {
+    let all = numbers(model);
+    let mut out = Vec::new();
+    out.extend(moduli(model, &all));
+    out.extend(densities(model, &all));
+    out.extend(thickness(model, &all));
+    out.extend(impossible(model));
+    out
+}
+
+/// Bodies of impossible sizes or numbers.
+pub(super) fn impossible(model: &Model) -> Vec<Finding> {
+    let all = numbers(model);
+    let mut out: Vec<Finding> = sizes(model, &all).into_iter().collect();
+    // One finding for several bodies of the same material would say the same thing again.
+    let mut told = Vec::new();
+    for numbers in &all {
+        let key = (numbers.modulus.to_bits(), numbers.density.to_bits());
+        if !told.contains(&key) {
+            told.push(key);
+            out.extend(alone(model, numbers));
+        }
+    }
+    out
+}
+
+fn numbers(model: &Model) -> Vec<Numbers<'_>> {
+    let bodies = model.elastic().flat_map(|body| {
+        let size = diameter(&model.mesh.points[body.points.clone()]);
+        body.elastic.parts().iter().map(move |part| Numbers {
+            body,
+            modulus: body.elastic.constrained_modulus(part.block).unwrap_or(0.0),
+            density: part.density,
+            size,
+        })
+    });
+    bodies.collect()
+}
+
+fn finding(message: String) -> Finding {
+    Finding::new(DoctorCause::MixedUnits, Severity::Warning, message)
+        .advise("use one system throughout: m, N, Pa, kg/m³, or mm, N, MPa, t/mm³ (`body.NAME.scale` converts a mesh)")
+}
+
+/// Two bodies whose moduli differ by the ratio of two units.
+fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let hard = all.iter().max_by(|a, b| a.modulus.total_cmp(&b.modulus))?;
+    let soft = all.iter().min_by(|a, b| a.modulus.total_cmp(&b.modulus))?;
+    let ratio = hard.modulus / soft.modulus;
+    let factor = FACTORS
+        .into_iter()
+        .find(|f| ratio > f / NEAR && ratio < f * NEAR)?;
+    let remark = |n: &Numbers| format!("modulus {:.3e}", n.modulus);
+    let told = finding(format!(
+        "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
+        hard.body.name, soft.body.name
+    ));
+    // Metal on plastic is a common pair and differs by a thousand as well; plastics are light.
+    let alike = hard.density > 0.0 && soft.density > 0.0 && {
+        let ratio = hard.density / soft.density;
+        ratio.max(1.0 / ratio) < ALIKE
+    };
+    let doubtful = factor < 1e4 && !alike;
+    Some(
+        Finding {
+            severity: if doubtful {
+                Severity::Note
+            } else {
+                Severity::Warning
+            },
+            ..told
+        }
+        .blame(super::super::places::body(
+            model,
+            &soft.body.name,
+            remark(soft),
+        ))
+        .blame(super::super::places::body(
+            model,
+            &hard.body.name,
+            remark(hard),
+        )),
+    )
+}
+
+/// Two bodies whose densities differ by the ratio of two units.
+fn densities(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let given = || all.iter().filter(|n| n.density > 0.0);
+    let heavy = given().max_by(|a, b| a.density.total_cmp(&b.density))?;
+    let light = given().min_by(|a, b| a.density.total_cmp(&b.density))?;
+    let ratio = heavy.density / light.density;
+    let near = |f: &f64| ratio > f / NEAR && ratio < f * NEAR;
+    let factor = FACTORS.into_iter().chain([1e12]).find(near)?;
+    let remark = |n: &Numbers| format!("density {:.3e}", n.density);
+    Some(
+        finding(format!(
+            "the densities of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
+            heavy.body.name, light.body.name
+        ))
+        .blame(super::super::places::body(model, &heavy.body.name, remark(heavy)))
+        .blame(super::super::places::body(model, &light.body.name, remark(light))),
+    )
+}
+
+/// A thickness that is far from the size of all bodies.
+fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let (Space::PlaneStrain { thickness } | Space::PlaneStress { thickness }) = model.space else {
+        return None;
+    };
+    let largest = all.iter().map(|n| n.size).reduce(f64::max)?;
+    let ratio = thickness / largest;
+    let far = !(THIN..=THICK).contains(&ratio) && thickness != 1.0;
+    far.then(|| {
+        finding(format!(
+            "the thickness of {thickness} is {ratio:.3e} times the size of the largest body, {largest:.3e}: is one in millimetres and the other in metres?"
+        ))
+        .blame(Guilty::key("model.thickness", format!("{thickness}")))
+    })
+}
+
+/// Two bodies one of which is a thousand times as large.
+fn sizes(model: &Model, all: &[Numbers]) -> Option<Finding> {
+    let large = all.iter().max_by(|a, b| a.size.total_cmp(&b.size))?;
+    let small = all.iter().min_by(|a, b| a.size.total_cmp(&b.size))?;
+    let ratio = large.size / small.size;
+    if ratio.is_nan() || ratio < SIZES {
+        return None;
+    }
+    let remark = |n: &Numbers| format!("size {:.3e}", n.size);
+    Some(
+        finding(format!(
+            "body {} is {ratio:.0} times as large as body {}: is one mesh in millimetres and the other in metres?",
+            large.body.name, small.body.name
+        ))
+        .blame(super::super::places::body(model, &small.body.name, remark(small)))
+        .blame(super::super::places::body(model, &large.body.name, remark(large))),
+    )
+}
+
+/// One body whose numbers do not go together.
+fn alone(model: &Model, n: &Numbers) -> Option<Finding> {
+    let name = &n.body.name;
+    let within = |x: f64, [low, high]: [f64; 2]| x >= low && x <= high;
+    let plausible = |[stress, _]: &[f64; 2]| within(stress * n.modulus, MODULI);
+    let (si, mm) = (plausible(&SYSTEMS[0]), plausible(&SYSTEMS[1]));
+    let blame = |f: Finding, remark: String| {
+        f.blame(super::super::places::body(model, name, remark))
+            .blame(Guilty::key(format!("body.{name}.material"), ""))
+    };
+    if !SYSTEMS.iter().any(plausible) {
+        return Some(blame(
+            finding(format!(
+                "body {name}: a modulus of {:.3e} is that of no solid, neither in Pa nor in MPa nor in psi",
+                n.modulus
+            )),
+            format!("modulus {:.3e}", n.modulus),
+        ));
+    }
+    if n.density > 0.0 {
+        let speed = (n.modulus / n.density).sqrt();
+        let mut systems = SYSTEMS.iter().filter(|s| plausible(s));
+        if !systems.any(|[stress, length]| {
+            let speeds = match stress * n.modulus >= HARD {
+                true => HARD_SPEEDS,
+                false => SPEEDS,
+            };
+            let density = n.density * stress / (length * length);
+            within(length * speed, speeds) && within(density, DENSITIES)
+        }) {
+            return Some(blame(
+                finding(format!(
+                    "body {name}: a modulus of {:.3e} and a density of {:.3e} with a speed of sound of {speed:.3e} are those of no solid, in kg/m³, t/mm³ or lbf s²/in⁴",
+                    n.modulus, n.density
+                )),
+                format!("modulus {:.3e}, density {:.3e}", n.modulus, n.density),
+            ));
+        }
+    }
+    if n.modulus > HARD && si && !mm && n.size > HUGE {
+        return Some(blame(
+            finding(format!(
+                "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in millimetres and the modulus in Pa?",
+                n.size, n.modulus
+            )),
+            format!("size {:.3e}, modulus {:.3e}", n.size, n.modulus),
+        ));
+    }
+    let metal = within(1e6 * n.modulus, [1e10, MODULI[1]]);
+    if metal && n.size < TINY {
+        return Some(blame(
+            finding(format!(
+                "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in metres and the modulus in MPa?",
+                n.size, n.modulus
+            )),
+            format!("size {:.3e}, modulus {:.3e}", n.size, n.modulus),
+        ));
+    }
+    None
+}

@@ -1,0 +1,33 @@
+//! Tables of the problem file that nothing uses.
+
+use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use crate::model::definition::Model;
+
+pub(super) fn check(model: &Model) -> Option<Finding> {
+    let unused = &model.unused;
+    if unused.is_empty() {
+        return None;
+    }
+    // What nothing can touch lets bodies through.
+    let severity = match unused.iter().any(|key| key.starts_with("obstacle.")) {
+        true => Severity::Warning,
+        false => Severity::Note,
+    };
+    let tables = match unused.len() {
+        1 => "a table that nothing uses".to_string(),
+        n => format!("{n} tables that nothing uses"),
+    };
+    let finding = Finding::new(
+        DoctorCause::Unused,
+        severity,
+        format!("the problem has {tables}: {}", unused.join(", ")),
+    );
+    let finding = unused.iter().fold(finding, |f, key| {
+        let remark = match key.split('.').next() {
+            Some("obstacle") => "no interface has it as `primary`: bodies pass through it",
+            _ => "named nowhere",
+        };
+        f.blame(Guilty::key(key, remark))
+    });
+    Some(finding.advise("name it where it is meant to act, or remove it"))
+}

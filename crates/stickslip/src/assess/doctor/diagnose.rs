@@ -1,0 +1,435 @@
+//! From an attempt that failed to a finding.
+
+use super::check;
+use super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::friction::friction_coefficient;
+use super::motions::{Loose, Row, loose, rows};
+use super::places;
+use super::record::Chart;
+use super::signs::{prescribed_slip, signs, too_large_slip};
+use super::surfaces::Opposite;
+use super::{balance, coupling};
+use crate::assess::view::View;
+use crate::contact::interface::Interface;
+use crate::contact::response::Status;
+use crate::error::RunError;
+use crate::math::Vec3;
+use crate::system::{Cause, Evidence, StepFailure};
+use crate::time::Trial;
+
+/// Guilty points whose stiffness is looked at.
+const LOOKED_AT: usize = 5;
+
+/// What to try where memory is short.
+pub(crate) const MORE_MEMORY: &str = "a coarser mesh away from the contact, `solver.method = \"multigrid\"` in 3D, or a machine with more memory";
+
+/// A finding about an attempt that failed, the `attempt`-th of its increment.
+pub(crate) fn diagnose(
+    view: &View,
+    (trial, attempt, chart): (&Trial, usize, Chart),
+    failure: &StepFailure,
+) -> Finding {
+    let evidence: Vec<&Evidence> = failure
+        .culprits
+        .iter()
+        .filter_map(|c| c.evidence.as_deref())
+        .collect();
+    let root = root(view, &failure.cause);
+    let mut finding = root.unwrap_or_else(|| match failure.cause {
+        Cause::Singular => singular(view, trial, failure),
+        Cause::LinearSolver => linear(view, trial),
+        Cause::NotConverged => not_converged(view, trial, &evidence),
+        Cause::NotFinite => Finding::new(DoctorCause::NotFinite, Severity::Warning, "")
+            .advise("smaller increments; look for a stiffness or a load that is far too large"),
+        Cause::CollapsedCell => Finding::new(DoctorCause::CollapsedCell, Severity::Warning, "")
+            .advise("repair the mesh there, or take smaller increments"),
+        Cause::TooFar => Finding::new(DoctorCause::TooFar, Severity::Note, ""),
+        Cause::Reach => Finding::new(DoctorCause::BeyondReach, Severity::Note, ""),
+        Cause::Memory => {
+            Finding::new(DoctorCause::Stopped, Severity::Error, "").advise(MORE_MEMORY)
+        }
+        Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
+    });
+    finding = with_drivers(finding, view, trial);
+    if finding.message.is_empty() {
+        finding.message = failure.message.clone();
+    } else {
+        finding.message = format!("{}: {}", finding.message, failure.message);
+    }
+    for (culprit, e) in failure.culprits.iter().zip(&evidence) {
+        finding = finding.blame(point(e, culprit.what.clone()));
+    }
+    // What helps against the failure does not help against the mistake that led to it.
+    if !finding.cause.is_mistake() {
+        finding.advice.extend(failure.help.clone());
+    }
+    finding.tried = tried(view, trial, attempt, chart);
+    finding.step = Some(view.step_name().to_string());
+    finding.time = Some(trial.from);
+    finding
+}
+
+/// A mistake in the model that keeps any system from being solved.
+fn root(view: &View, cause: &Cause) -> Option<Finding> {
+    match cause {
+        Cause::TooFar | Cause::Reach | Cause::Event | Cause::Interrupted | Cause::Memory => {
+            return None;
+        }
+        Cause::Singular | Cause::LinearSolver | Cause::NotConverged | Cause::CollapsedCell => {}
+        Cause::NotFinite => {
+            // Laws of the families are finite wherever they are asked.
+            let own = view.contact.interfaces.iter().find(|i| i.laws.user.any());
+            let faulty = own.map(|i| {
+                Finding::new(
+                    DoctorCause::FaultyLaw,
+                    Severity::Warning,
+                    format!(
+                        "interface {}: a function that is used as a law gives something that is not finite, or a negative limit of friction",
+                        i.name
+                    ),
+                )
+                .blame(Guilty::interface(&i.name, "laws from functions"))
+                .advise("try the function at the gaps, pressures and speeds of the last increment")
+            });
+            return check::roots(view).into_iter().next().or(faulty);
+        }
+    }
+    check::roots(view).into_iter().next()
+}
+
+/// A run that ended for a reason of which there is no finding yet.
+pub(crate) fn stopped(view: &View, error: &RunError) -> Finding {
+    if let Some(mut finding) = check::roots(view).into_iter().next() {
+        finding.severity = Severity::Error;
+        finding.message = format!("{}: {}", finding.message, error.message);
+        finding.step = Some(view.step_name().to_string());
+        finding.time = Some(error.time);
+        return finding;
+    }
+    let mut finding = Finding::new(DoctorCause::Stopped, Severity::Error, error.message.clone());
+    for culprit in &error.culprits {
+        finding = finding.blame(Guilty::key("", culprit.clone()));
+    }
+    finding.advice.extend(error.help.clone());
+    finding.step = Some(view.step_name().to_string());
+    finding.time = Some(error.time);
+    finding
+}
+
+/// The evidence as a place.
+fn point(e: &Evidence, remark: String) -> Guilty {
+    Guilty {
+        what: What::Node,
+        name: e.interface.clone(),
+        id: e.node,
+        interface: Some(e.interface.clone()),
+        body: None,
+        position: None,
+        remark,
+    }
+    .at(e.position)
+}
+
+fn tried(view: &View, trial: &Trial, attempt: usize, chart: Chart) -> Vec<String> {
+    let now = &view.solver.newton.statistics;
+    let count = |now: usize, then: usize| now.saturating_sub(then);
+    let mut tried = vec![format!(
+        "increment {:.6e} to {:.6e}, attempt {attempt}: {} Newton iterations with line search",
+        trial.from,
+        trial.to,
+        count(now.iterations, chart.iterations)
+    )];
+    match count(now.augmentations, chart.augmentations) {
+        0 => {}
+        n => tried.push(format!("{n} updates of the multipliers")),
+    }
+    match count(now.continuations, chart.continuations) {
+        0 => {}
+        n => tried.push(format!(
+            "{n} continuations from soft stick to the law itself"
+        )),
+    }
+    tried
+}
+
+/// What contact holds in the state of the last evaluation.
+fn contact_rows(view: &View, t: f64) -> Vec<Row> {
+    let mut out = Vec::new();
+    for interface in &view.contact.interfaces {
+        if !interface.schedule.active(t) {
+            continue;
+        }
+        let mut opposite = Opposite::new(interface, t);
+        for (i, status) in interface.statuses().into_iter().enumerate() {
+            if status != Status::Open {
+                let normal = interface.evidence(i).normal;
+                rows(interface, &mut opposite, (i, normal, status), &mut out);
+            }
+        }
+    }
+    out
+}
+
+fn singular(view: &View, trial: &Trial, failure: &StepFailure) -> Finding {
+    let free = loose(view, trial.to, &contact_rows(view, trial.to));
+    let by_contact = loose(view, trial.to, &[]);
+    if !by_contact.is_empty()
+        && let Some(finding) = balance::unbalanced(view, trial.to)
+    {
+        return finding;
+    }
+    if !free.is_empty() {
+        // A body that contact cannot hold because its sides look the wrong way needs no other support.
+        let turned = check::opposed(view);
+        return turned.unwrap_or_else(|| free_mode(view, trial, &free, "is held by nothing"));
+    }
+    let model = view.model;
+    // A body in pieces is held only where its supports are.
+    if let Some(finding) = check::disconnected(model).into_iter().next() {
+        return finding;
+    }
+    // The points that were in contact at the end may not be those with which the system was singular.
+    match by_contact.is_empty() {
+        true => near_singular(view, failure),
+        false => free_mode(view, trial, &by_contact, "is held by contact alone"),
+    }
+}
+
+fn near_singular(view: &View, failure: &StepFailure) -> Finding {
+    let model = view.model;
+    let mut finding = Finding::new(
+        DoctorCause::NearSingularOperator,
+        Severity::Warning,
+        "the system is singular although every body is held",
+    )
+    .advise(
+        "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness",
+    );
+    if let Some(dof) = failure.dof {
+        let (point, component) = model.dofs.locate(dof);
+        if point < model.mesh.points.len() {
+            let direction = ["x", "y", "z"][component];
+            finding = finding.blame(node(view, point, format!("direction {direction}")));
+        }
+    }
+    finding
+}
+
+/// A point of the mesh.
+fn node(view: &View, point: usize, remark: String) -> Guilty {
+    let model = view.model;
+    let body = model.bodies.iter().find(|b| b.points.contains(&point));
+    let name = body.map_or(String::new(), |b| b.name.clone());
+    Guilty {
+        what: What::Node,
+        id: Some(model.mesh.point_ids[point]),
+        body: Some(name.clone()),
+        name,
+        remark,
+        ..Guilty::default()
+    }
+    .at(model.mesh.points[point])
+}
+
+/// Bodies that move as a whole, what drives them, and how far they are from what might hold them.
+fn free_mode(view: &View, trial: &Trial, free: &[Loose], how: &str) -> Finding {
+    let model = view.model;
+    let index = |l: &Loose| model.bodies.iter().position(|b| b.name == l.body);
+    let touching = free.iter().filter_map(index);
+    if let Some(body) = touching.into_iter().find(|&b| view.touches(b)) {
+        return lost(view, free, body);
+    }
+    let mut finding = Finding::new(
+        DoctorCause::FreeRigidMode,
+        Severity::Warning,
+        "a body is free to move as a rigid body",
+    );
+    for l in free {
+        let remark = format!("{} {how}", l.motion);
+        finding = finding.blame(places::body(model, &l.body, remark));
+    }
+    for interface in &view.contact.interfaces {
+        let Some((i, gap)) = smallest_gap(interface, trial.from) else {
+            continue;
+        };
+        let e = interface.evidence(i);
+        if gap > 0.0 {
+            finding = finding.blame(point(
+                &e,
+                format!("gap {gap:.3e}, the smallest at the last state"),
+            ));
+        }
+    }
+    finding
+        .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)")
+        .advise("move the bodies until they touch, or prescribe a displacement instead of a force")
+}
+
+/// Bodies that were in contact and move as a whole all the same.
+fn lost(view: &View, free: &[Loose], body: usize) -> Finding {
+    let model = view.model;
+    let name = &model.bodies[body].name;
+    let own = free.iter().find(|l| l.body == *name);
+    let motion = own.map_or("", |l| l.motion.as_str());
+    let mut finding = Finding::new(
+        DoctorCause::SlidesAway,
+        Severity::Warning,
+        format!(
+            "body {name} slides, rolls or lifts off as a whole ({motion}): contact and friction do not hold it"
+        ),
+    );
+    for l in free {
+        let remark = format!("{} is not resisted any more", l.motion);
+        finding = finding.blame(places::body(model, &l.body, remark));
+    }
+    finding
+        .advise("no equilibrium was found: lower what drives the body, raise friction or support the motion")
+        .advise("make the step dynamic if the body is meant to slide or take off")
+}
+
+/// A finding about a body that moves as a whole with what drives it, if it is not there yet.
+fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
+    let moves = matches!(
+        finding.cause,
+        DoctorCause::SlidesAway | DoctorCause::FreeRigidMode
+    );
+    let mut guilty = finding.guilty.iter();
+    if !moves || guilty.any(|g| g.what == What::Key) {
+        return finding;
+    }
+    let mut guilty = finding.guilty.iter();
+    let named = guilty.find(|g| g.what == What::Body).map(|g| &g.name);
+    let mut bodies = view.model.bodies.iter();
+    match named.and_then(|name| bodies.position(|b| b.name == *name)) {
+        Some(body) => driven(finding, view, body, trial),
+        None => finding,
+    }
+}
+
+/// With the loads, supports and obstacles that drive a body.
+fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
+    let drivers = view.drivers(body, trial.to).into_iter();
+    drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)))
+}
+
+/// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.
+fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
+    let accepted = interface.initial_gaps();
+    let finite = accepted.into_iter().enumerate();
+    let accepted = finite.filter(|(_, g)| g.is_finite());
+    if let Some(found) = accepted.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        return Some(found);
+    }
+    let mut opposite = Opposite::new(interface, t);
+    let gaps = interface.points.iter().enumerate().filter_map(|(i, p)| {
+        let nearest = opposite.nearest(p.position(&interface.reference))?;
+        Some((i, nearest.gap))
+    });
+    gaps.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+fn linear(view: &View, trial: &Trial) -> Finding {
+    let free = loose(view, trial.to, &contact_rows(view, trial.to));
+    if !free.is_empty() {
+        return free_mode(view, trial, &free, "is held by nothing");
+    }
+    let weak = loose(view, trial.to, &[]);
+    if weak.is_empty() {
+        return Finding::new(DoctorCause::LinearSolver, Severity::Warning, "")
+            .advise("set `solver.method = \"sparse\"`");
+    }
+    let mut finding = Finding::new(
+        DoctorCause::NearSingularOperator,
+        Severity::Warning,
+        "bodies are held by contact alone, and hardly by that",
+    )
+    .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)");
+    for l in weak {
+        let remark = format!("{} is held by contact alone", l.motion);
+        finding = finding.blame(places::body(view.model, &l.body, remark));
+    }
+    finding
+}
+
+fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding {
+    let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
+    let dynamic = view.model.steps[view.frame.step].dynamic.is_some();
+    if !dynamic {
+        let free = loose(view, trial.to, &contact_rows(view, trial.to));
+        if !free.is_empty()
+            && let Some(finding) = balance::unbalanced(view, trial.to)
+        {
+            return finding;
+        }
+        if let Some(first) = free.first() {
+            let mut finding = of(
+                DoctorCause::SlidesAway,
+                format!(
+                    "body {} slides or tips off as a whole ({}): contact and friction do not balance the loads",
+                    first.body, first.motion
+                ),
+            )
+            .advise("no equilibrium exists: lower the load, raise friction or support the motion")
+            .advise("make the step dynamic if the body is meant to take off");
+            for l in &free {
+                let remark = format!("{} is not resisted any more", l.motion);
+                finding = finding.blame(places::body(view.model, &l.body, remark));
+            }
+            return finding;
+        }
+    }
+    if let Some((mu, limit, e)) = beyond_coupling(view, evidence) {
+        return of(
+            DoctorCause::CoulombNonUniqueness,
+            format!(
+                "the coefficient of friction, {mu:.3}, is above the coupling limit {limit:.3} of interface {}: there may be several \
+                 solutions, or none",
+                e.interface
+            ),
+        )
+        .blame(point(
+            e,
+            format!("k_t / |k_tn| = {limit:.3}, friction {mu:.3}"),
+        ))
+        .advise(format!("a coefficient of friction below {limit:.3}"))
+        .advise("a dynamic step: inertia decides between solutions")
+        .advise("a regularised slip rule (`slip.regularised`)");
+    }
+    let signs = signs(evidence);
+    let told = signs
+        .as_ref()
+        .is_some_and(|f| f.cause != DoctorCause::Chatter);
+    let to_and_fro = signs.clone().filter(|_| !told);
+    let prescribed = match told {
+        true => None,
+        false => prescribed_slip(view, trial),
+    };
+    let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
+    prescribed
+        .or(signs.filter(|_| told))
+        .or_else(|| check::suspects(view.model).into_iter().next())
+        .or(to_and_fro)
+        .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
+}
+
+/// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.
+fn beyond_coupling<'a>(view: &View, evidence: &[&'a Evidence]) -> Option<(f64, f64, &'a Evidence)> {
+    let found = evidence.iter().take(LOOKED_AT).filter_map(|e| {
+        let interfaces = &view.contact.interfaces;
+        let interface = interfaces.iter().find(|i| i.name == e.interface)?;
+        let own = friction_coefficient(interface)?;
+        let now = if e.pressure > 0.0 {
+            e.limit / e.pressure
+        } else {
+            0.0
+        };
+        let mu = own.max(now);
+        let &[point] = e.points.as_slice() else {
+            return None;
+        };
+        let normal: Vec3 = e.normal;
+        let limit = coupling::limit(view, point, normal)?;
+        (mu >= limit).then_some((mu, limit, *e))
+    });
+    found.min_by(|a, b| (a.1).total_cmp(&b.1))
+}

@@ -1,0 +1,33 @@
+//! The doctor: what is wrong with a model or a run, who is guilty, and what to try.
+//!
+//! Before the run `examine` looks at the model: motions that nothing can hold, gaps and overlaps, surfaces that do not face each other, meshes
+//! that do not go together, numbers in mixed units. In the run every attempt that fails is turned into a [`Finding`]: the cause is read from what
+//! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from motions that nothing holds, and from the stiffness at the guilty
+//! points. Findings of both kinds are the same type; they go into `summary.json`, and their places into `culprits.vtu`.
+//!
+//! The doctor only looks: nothing here changes a result.
+
+mod balance;
+mod check;
+mod coupling;
+mod culprits;
+mod diagnose;
+mod finding;
+mod friction;
+mod motions;
+mod places;
+mod record;
+mod signs;
+mod surfaces;
+mod unjoined;
+mod watch;
+
+pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
+
+pub(crate) use check::examine;
+pub(crate) use culprits::write as write_culprits;
+pub(crate) use diagnose::{MORE_MEMORY, diagnose, stopped};
+pub(crate) use places::body as body_at;
+pub(crate) use record::{Chart, mistake, note};
+pub(crate) use unjoined::Unjoined;
+pub(crate) use watch::{Watch, watched};

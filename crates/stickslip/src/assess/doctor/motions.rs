@@ -1,0 +1,147 @@
+//! Motions of bodies as a whole that nothing holds, whatever is meant to hold them.
+
+use super::surfaces::Opposite;
+use crate::assess::view::View;
+use crate::contact::interface::{Interface, Primary};
+use crate::contact::projection::evaluate;
+use crate::contact::response::Status;
+use crate::math::{Vec3, symmetric_eigen};
+use crate::model::unheld::{self, Mode};
+
+/// Something that resists a motion: a linear function of the displacements by dof.
+pub(super) type Row = Vec<(usize, f64)>;
+
+/// Most modes that are looked at together.
+const MOST_MODES: usize = 90;
+
+/// What is left of a motion, relative to the stiffest of its body, that counts as held.
+const HELD: f64 = 1e-10;
+
+/// A motion that nothing holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Loose {
+    /// The body that takes the largest part in it.
+    pub body: String,
+    /// What it is: `translation x with rotation about z`.
+    pub motion: String,
+}
+
+/// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
+pub(super) fn loose(view: &View, t: f64, rows: &[Row]) -> Vec<Loose> {
+    let model = view.model;
+    let mut held = view.constraints(t).fixed;
+    for link in model.links.all() {
+        held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)].fill(false);
+    }
+    for spring in &model.springs {
+        for &(dof, stiffness) in spring.entries() {
+            held[dof] |= stiffness > 0.0;
+        }
+    }
+    let modes = unheld::modes(model);
+    if modes.len() > MOST_MODES {
+        return Vec::new();
+    }
+    let along = |mode: &Mode, row: &Row| -> f64 {
+        row.iter().map(|&(dof, w)| w * mode.at(model, dof)).sum()
+    };
+    let coupled: Vec<Row> = view
+        .contact
+        .couplings
+        .acting(t)
+        .map(|row| {
+            row.dofs
+                .iter()
+                .copied()
+                .zip(row.factors.iter().copied())
+                .collect()
+        })
+        .collect();
+    let at_rows = modes.iter().map(|m| {
+        let all = rows.iter().chain(&coupled);
+        all.map(|row| along(m, row)).collect::<Vec<f64>>()
+    });
+    let at_rows: Vec<Vec<f64>> = at_rows.collect();
+    let kept: Vec<usize> = (0..held.len()).filter(|&dof| held[dof]).collect();
+    let at_held = modes
+        .iter()
+        .map(|m| kept.iter().map(|&dof| m.at(model, dof)).collect());
+    let at_held: Vec<Vec<f64>> = at_held.collect();
+    let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+    let count = modes.len();
+    let gram: Vec<Vec<f64>> = (0..count)
+        .map(|i| {
+            let entry =
+                |j: usize| product(&at_rows[i], &at_rows[j]) + product(&at_held[i], &at_held[j]);
+            (0..count).map(entry).collect()
+        })
+        .collect();
+    let (values, vectors) = symmetric_eigen(&gram);
+    let largest = values.last().copied().unwrap_or(0.0).max(1.0);
+    let mut out = Vec::new();
+    for (k, _) in values
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| **v <= HELD * largest)
+    {
+        let share = |i: usize| vectors[i][k].abs();
+        let Some(first) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else {
+            continue;
+        };
+        let body = modes[first].body;
+        let parts: Vec<&str> = (0..count)
+            .filter(|&i| modes[i].body == body && share(i) > 0.1)
+            .map(|i| modes[i].name.as_str())
+            .collect();
+        out.push(Loose {
+            body: model.bodies[body].name.clone(),
+            motion: parts.join(" with "),
+        });
+    }
+    out
+}
+
+/// What a point of an interface resists: the motion along its normal, and all of it where it sticks.
+pub(super) fn rows(
+    interface: &Interface,
+    opposite: &mut Opposite,
+    (i, normal, status): (usize, Vec3, Status),
+    out: &mut Vec<Row>,
+) {
+    let dim = interface.dofs.dim;
+    let directions: Vec<Vec3> = match status {
+        Status::Open => return,
+        Status::Slip => vec![normal],
+        Status::Stick => (0..dim)
+            .map(|c| std::array::from_fn(|d| if c == d { 1.0 } else { 0.0 }))
+            .collect(),
+    };
+    let point = &interface.points[i];
+    let nearest = opposite.nearest(point.position(&interface.reference));
+    for direction in directions {
+        let mut row = Row::new();
+        let mut add = |local: usize, w: f64| {
+            for (c, d) in direction.iter().enumerate().take(dim) {
+                row.push((interface.dofs.of(interface.nodes[local], c), w * d));
+            }
+        };
+        for (&node, &w) in point.nodes.iter().zip(&point.weights) {
+            add(node, w);
+        }
+        if let Primary::Facets(facets) = &interface.primary
+            && let Some(nearest) = nearest
+        {
+            let facet = &facets[nearest.facet];
+            let x: Vec<Vec3> = facet
+                .nodes
+                .iter()
+                .map(|&n| interface.reference[n])
+                .collect();
+            let n = evaluate(facet.kind, &x, nearest.xi).n;
+            for (&node, w) in facet.nodes.iter().zip(n) {
+                add(node, -w);
+            }
+        }
+        out.push(row);
+    }
+}

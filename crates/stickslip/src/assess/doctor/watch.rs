@@ -1,0 +1,130 @@
+//! What interfaces did over a whole run: those that never carried anything, those whose contact is too small for their mesh.
+
+use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use crate::assess::view::View;
+use crate::contact::interface::{Interface, Resolution};
+
+/// What is remembered of an interface.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Watch {
+    /// The largest force so far `[N]`, its time and how finely contact was resolved then.
+    force: f64,
+    time: f64,
+    resolution: Option<Resolution>,
+    /// It has acted.
+    acted: bool,
+    /// The largest turn of normals that small sliding leaves out so far `[rad]`, and its time.
+    turn: f64,
+    turned_at: f64,
+}
+
+/// Turn of normals worth a word: shear over pressure is off by as much.
+const TURNED: f64 = 0.02;
+
+/// Part of the force that has to be carried where contact is three points across.
+const RESOLVED: f64 = 0.5;
+
+/// Part of the force that the displacements would make as strains below which a force is rounding.
+const NOTHING: f64 = 1e-11;
+
+impl Watch {
+    /// Looks at the last accepted state, of which `force` is the sum of the magnitudes of all forces.
+    pub fn note(&mut self, interface: &Interface, force: f64, (u, t): (&[f64], f64)) {
+        self.acted |= interface.schedule.active(t);
+        let turn = interface.normals_turned(u);
+        if turn > self.turn {
+            self.turn = turn;
+            self.turned_at = t;
+        }
+        if force > self.force {
+            self.force = force;
+            self.time = t;
+            self.resolution = interface.resolution();
+        }
+    }
+}
+
+/// What there is to say at the end of a run.
+pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
+    let interfaces = view.contact.interfaces.iter();
+    let pairs = interfaces.zip(watches);
+    let nothing = NOTHING * view.strain_force();
+    pairs
+        .filter(|(_, watch)| watch.acted)
+        .flat_map(|(interface, watch)| match watch.force > nothing {
+            // One half of a pair may be idle where the other one carries.
+            false if interface.share < 1.0 => [None, None],
+            false => [Some(never_carried(interface, view.model.moves())), None],
+            true => [coarse(interface, watch), turned(interface, watch)],
+        })
+        .flatten()
+        .collect()
+}
+
+fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
+    if watch.turn <= TURNED {
+        return None;
+    }
+    let name = &interface.name;
+    let finding = Finding::new(
+        DoctorCause::TurnedNormals,
+        Severity::Warning,
+        format!(
+            "interface {name}: its surfaces have turned by up to {:.3} rad where they press, and small sliding keeps the normals of the start: shear over pressure is off by up to {:.1} %",
+            watch.turn,
+            100.0 * watch.turn.tan()
+        ),
+    );
+    let finding = Finding {
+        time: Some(watch.turned_at),
+        ..finding
+    };
+    Some(
+        finding
+            .blame(Guilty::interface(name, "kinematics.small-sliding"))
+            .advise(format!("leave out `interface.{name}.kinematics.small-sliding`: the default follows the surfaces")),
+    )
+}
+
+fn never_carried(interface: &Interface, moves: bool) -> Finding {
+    let name = &interface.name;
+    // What is thrown may land later than anybody wants to know.
+    let severity = match moves {
+        true => Severity::Note,
+        false => Severity::Warning,
+    };
+    Finding::new(
+        DoctorCause::NeverCarried,
+        severity,
+        format!("interface {name} never carried anything in the whole run"),
+    )
+    .blame(Guilty::interface(name, "no force at any time"))
+    .advise("check that supports and loads press the two bodies together, and the gap between them (`stickslip check`)")
+    .advise("where the bodies do meet, choose the finer surface as secondary")
+}
+
+fn coarse(interface: &Interface, watch: &Watch) -> Option<Finding> {
+    let found = watch.resolution.filter(|r| r.resolved < RESOLVED)?;
+    let name = &interface.name;
+    let points = match found.points {
+        1 => "1 point".to_string(),
+        n => format!("{n} points"),
+    };
+    let finding = Finding::new(
+        DoctorCause::CoarseContact,
+        Severity::Warning,
+        format!(
+            "interface {name}: contact is resolved by fewer than three points across, {points} of {} in contact at its largest force",
+            found.of
+        ),
+    );
+    let mut finding = Finding {
+        time: Some(watch.time),
+        ..finding
+    }
+    .blame(Guilty::interface(name, format!("{points} in contact")));
+    finding = finding.advise(
+        "refine the secondary where it is touched: the force may be right, the pressure and its extent are not",
+    );
+    Some(finding)
+}

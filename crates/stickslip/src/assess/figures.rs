@@ -1,0 +1,352 @@
+//! The figures of the quality gate: what each is called and says, and how its worst value is found when the largest forces of the run are known.
+
+use std::collections::BTreeMap;
+
+use super::doctor::Finding;
+
+/// A figure of the gate: an amount of something that should not be, relative to a scale of the same kind. One row below, a limit in
+/// [`Limits`](crate::model::limits::Limits) and a call of [`Gate::note`](super::quality::Gate) make a figure.
+///
+/// Where next to nothing acts, rounding and tolerances are as large as what there is, and a ratio says nothing. So amount and scale are kept
+/// apart, and the scale counts as at least a part of the largest of the whole run, be it before or after.
+#[derive(Debug)]
+pub(crate) struct Kind {
+    /// Its name, and the key of its limit in `[quality]`.
+    pub name: &'static str,
+    /// The scale is at least this part of its largest value at the same place.
+    pub own: f64,
+    /// And this part of its largest value anywhere.
+    pub model: f64,
+    /// What is wrong, for a sentence.
+    pub what: &'static str,
+    /// What may help.
+    pub help: &'static str,
+}
+
+/// What may help with a figure. Advice about how a model is solved is withheld where findings say what is wrong with the model itself: of a body
+/// that hangs on the wrong interface the solver cannot do better.
+pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
+    let about_solver = help.contains("solver.tolerance");
+    match findings.iter().find(|f| about_solver && f.explains()) {
+        Some(f) => format!(
+            "look at the finding `{}` first: while it holds, the solver is not to blame",
+            f.cause
+        ),
+        None => help.to_string(),
+    }
+}
+
+/// All figures.
+pub(crate) static ALL: [&Kind; 15] = [
+    &PENETRATION_TO_SIZE,
+    &UNSEEN_TO_SIZE,
+    &UNSEEN_TO_APPROACH,
+    &PENETRATION_TO_APPROACH,
+    &FALSE_SLIP,
+    &COMPLEMENTARITY,
+    &OSCILLATION,
+    &EXCESS_SHEAR,
+    &ACTION_REACTION,
+    &MOMENT,
+    &EQUILIBRIUM,
+    &ROTATION,
+    &LOCAL_ROTATION,
+    &DISPLACEMENT,
+    &ENERGY,
+];
+
+/// Forces below this part of the largest of their interface or body are as good as none: figures judge down to a thousandth of the load.
+const LEAST: f64 = 1e-3;
+
+/// Forces of an interface below this part of the largest of the model are what the tolerance of Newton's method leaves.
+const TRACE: f64 = 1e-6;
+
+pub(crate) static PENETRATION_TO_SIZE: Kind = Kind {
+    name: "penetration-to-size",
+    own: 0.0,
+    model: 0.0,
+    what: "surfaces penetrate by this part of the cell beneath",
+    help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
+};
+
+// Of energies, which go with the square of forces.
+pub(crate) static PENETRATION_TO_APPROACH: Kind = Kind {
+    name: "penetration-to-approach",
+    own: LEAST * LEAST,
+    model: TRACE * TRACE,
+    what: "surfaces penetrate by this part of the elastic approach, and forces are wrong by about as much",
+    help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
+};
+
+pub(crate) static FALSE_SLIP: Kind = Kind {
+    name: "false-slip",
+    own: LEAST * LEAST,
+    model: TRACE * TRACE,
+    what: "points that stick have slipped by this part of the elastic approach",
+    help: "raise the `factor` or `tangential-factor` of the enforcement, or use enforcement.augmented-lagrangian",
+};
+
+pub(crate) static COMPLEMENTARITY: Kind = Kind {
+    name: "complementarity",
+    own: LEAST,
+    model: TRACE,
+    what: "pressure bridges an open gap of this part of the cells",
+    help: "lower `solver.tolerance` or the `error` of the enforcement",
+};
+
+// Of lengths. In every analysis the largest of the run are compared: while forces are small so is the contact, and any mesh is too coarse for it.
+pub(crate) static UNSEEN_TO_SIZE: Kind = Kind {
+    name: "unseen-to-size",
+    own: 0.0,
+    model: 0.0,
+    what: "between contact points the surfaces enter each other by this part of the cell beneath",
+    help: "choose the finer surface as secondary, or refine the secondary where it is touched",
+};
+
+pub(crate) static UNSEEN_TO_APPROACH: Kind = Kind {
+    name: "unseen-to-approach",
+    own: 0.0,
+    model: 0.0,
+    what: "contact points miss this part of the way by which the bodies approach, and forces are wrong by about as much",
+    help: "choose the finer surface as secondary, or refine both where they touch",
+};
+
+pub(crate) static OSCILLATION: Kind = Kind {
+    name: "oscillation",
+    own: LEAST,
+    model: TRACE,
+    what: "this part of the pressure goes up and down from point to point",
+    help: "choose the finer or softer surface as secondary, or match the meshes; forces may be right where pressures are not",
+};
+
+pub(crate) static EXCESS_SHEAR: Kind = Kind {
+    name: "excess-shear",
+    own: LEAST,
+    model: TRACE,
+    what: "the shear traction exceeds the limit of friction by this part",
+    help: "lower `solver.tolerance`",
+};
+
+pub(crate) static FRICTION_LAW: Kind = Kind {
+    name: "friction-law",
+    own: LEAST,
+    model: TRACE,
+    what: "points that slip carry another shear than their limit, or one along their slip, by this part of it",
+    help: "take smaller increments; if that does not help please report it",
+};
+
+pub(crate) static ACTION_REACTION: Kind = Kind {
+    name: "action-reaction",
+    own: LEAST,
+    model: TRACE,
+    what: "the forces on the two sides differ by this part",
+    help: "this should not happen: please report it",
+};
+
+pub(crate) static MOMENT: Kind = Kind {
+    name: "moment",
+    own: LEAST,
+    model: TRACE,
+    what: "the moments of the forces on the two sides differ by this part",
+    help: "surfaces that slide far need kinematics other than small-sliding, and curved ones cells that are small beside the area in contact",
+};
+
+// Newton's method balances all forces of the model together.
+pub(crate) static EQUILIBRIUM: Kind = Kind {
+    name: "equilibrium",
+    own: LEAST,
+    model: LEAST,
+    what: "forces and moments on the body are out of balance by this part",
+    help: "lower `solver.tolerance`",
+};
+
+// Angles and ways are what they are, however small the forces.
+pub(crate) static ROTATION: Kind = Kind {
+    name: "rotation",
+    own: 0.0,
+    model: 0.0,
+    what: "the body has turned by this angle in radians, and strains and rotations are taken as small",
+    help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far is beyond this program",
+};
+
+pub(crate) static LOCAL_ROTATION: Kind = Kind {
+    name: "local-rotation",
+    own: 0.0,
+    model: 0.0,
+    what: "a cell has turned by this angle in radians, and strains and rotations are taken as small",
+    help: "look for cells that hang together at a node or an edge only, or for a load or a stiffness in the wrong unit",
+};
+
+pub(crate) static DISPLACEMENT: Kind = Kind {
+    name: "displacement",
+    own: 1.0,
+    model: 0.0,
+    what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
+    help: "nothing holds it back: support it, or lower what drives it; if it is meant to go there, raise `quality.displacement`",
+};
+
+pub(crate) static ENERGY: Kind = Kind {
+    name: "energy",
+    own: 1.0,
+    model: 1.0,
+    what: "the balance of energies is open by this part",
+    help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps it is the ledger alone that is off: forces do not follow from it",
+};
+
+/// What a figure came to after an increment.
+#[derive(Debug, Clone, Copy, Default)]
+struct Noted {
+    amount: f64,
+    scale: f64,
+    time: f64,
+}
+
+/// Of all scales between two powers of two, the increments that may become the worst.
+#[derive(Debug, Clone, Copy)]
+struct Octave {
+    largest: Noted,
+    steepest: Noted,
+}
+
+/// A figure at a place through the run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Track {
+    /// The largest scale.
+    pub largest: f64,
+    /// By the power of two below the scale.
+    octaves: BTreeMap<i32, Octave>,
+    /// The largest amount in motion.
+    moving: Option<Noted>,
+}
+
+/// The power of two below a number that is not negative.
+fn octave(x: f64) -> i32 {
+    match x > 0.0 {
+        true => x.log2().floor() as i32,
+        false => i32::MIN,
+    }
+}
+
+fn ratio(amount: f64, scale: f64) -> f64 {
+    match amount == 0.0 || scale <= 0.0 {
+        true => 0.0,
+        false => amount / scale,
+    }
+}
+
+/// What is not a number is larger than everything, and so is what is compared with an infinity: beside that all would be nothing.
+fn largest_if_not_a_number(amount: f64, scale: f64) -> [f64; 2] {
+    match amount.is_nan() || !scale.is_finite() {
+        true => [f64::INFINITY, 1.0],
+        false => [amount, scale],
+    }
+}
+
+impl Track {
+    pub fn add(&mut self, amount: f64, scale: f64, time: f64) {
+        let [amount, scale] = largest_if_not_a_number(amount, scale);
+        let noted = Noted {
+            amount,
+            scale,
+            time,
+        };
+        self.largest = self.largest.max(scale);
+        let both = Octave {
+            largest: noted,
+            steepest: noted,
+        };
+        let worst = self.octaves.entry(octave(scale)).or_insert(both);
+        if amount > worst.largest.amount {
+            worst.largest = noted;
+        }
+        if ratio(amount, scale) > ratio(worst.steepest.amount, worst.steepest.scale) {
+            worst.steepest = noted;
+        }
+    }
+
+    pub fn add_in_motion(&mut self, amount: f64, scale: f64, time: f64) {
+        let [amount, scale] = largest_if_not_a_number(amount, scale);
+        self.largest = self.largest.max(scale);
+        if self.moving.is_none_or(|worst| amount > worst.amount) {
+            self.moving = Some(Noted {
+                amount,
+                scale,
+                time,
+            });
+        }
+    }
+
+    /// The worst ratio and its time, with every scale at least the power of two below `floor`.
+    pub fn worst(&self, floor: f64) -> (f64, f64) {
+        let least = octave(floor);
+        let of = |(&power, octave): (&i32, &Octave)| match power < least {
+            true => (
+                ratio(octave.largest.amount, f64::powi(2.0, least)),
+                octave.largest.time,
+            ),
+            false => {
+                let Noted {
+                    amount,
+                    scale,
+                    time,
+                } = octave.steepest;
+                (ratio(amount, scale), time)
+            }
+        };
+        let moving = self.moving.iter();
+        let moving = moving.map(|n| (ratio(n.amount, self.largest.max(floor)), n.time));
+        let all = self.octaves.iter().map(of).chain(moving);
+        // Of equal ones the last to be noted counts least: powers are in order.
+        all.fold(
+            (0.0, f64::NAN),
+            |worst, one| if one.0 > worst.0 { one } else { worst },
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_at_a_small_force_counts_until_it_is_small_beside_the_largest() {
+        let mut track = Track::default();
+        track.add(0.2, 1.0, 1.0);
+        assert_eq!(track.worst(1e-3 * track.largest), (0.2, 1.0));
+        // To a hundredth of what comes later it counts in full.
+        track.add(0.0, 100.0, 2.0);
+        assert_eq!(track.worst(1e-3 * track.largest), (0.2, 1.0));
+        // Beside what is a million times larger it is nothing, whichever comes first.
+        track.add(0.0, 1e6, 3.0);
+        let (value, time) = track.worst(1e-3 * track.largest);
+        assert!(value < 5e-4 && time == 1.0, "{value:e}");
+        let mut backwards = Track::default();
+        for (amount, scale, time) in [(0.0, 1e6, 3.0), (0.0, 100.0, 2.0), (0.2, 1.0, 1.0)] {
+            backwards.add(amount, scale, time);
+        }
+        assert_eq!(backwards.worst(1e3), track.worst(1e3));
+    }
+
+    #[test]
+    fn what_has_nothing_to_compare_with_is_compared_with_the_floor() {
+        let mut track = Track::default();
+        track.add(1e-20, 0.0, 1.0);
+        assert_eq!(track.worst(0.0).0, 0.0);
+        track.add(0.0, 1.0, 2.0);
+        assert!(track.worst(1e-3).0 < 1e-16);
+        track.add(f64::NAN, 1.0, 3.0);
+        assert_eq!(track.worst(1e-3), (f64::INFINITY, 3.0));
+        // Forces beyond all numbers do not make their errors small.
+        let mut track = Track::default();
+        track.add(2e225, f64::INFINITY, 4.0);
+        assert_eq!(track.worst(0.0), (f64::INFINITY, 4.0));
+    }
+
+    #[test]
+    fn in_motion_the_largest_is_compared_with_the_largest() {
+        let mut track = Track::default();
+        track.add_in_motion(1.0, 1.0, 1.0);
+        track.add_in_motion(0.5, 10.0, 2.0);
+        assert_eq!(track.worst(0.0), (0.1, 1.0));
+    }
+}

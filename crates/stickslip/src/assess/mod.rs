@@ -1,0 +1,14 @@
+//! What judges: quality gate, equilibrium, doctor. They look only, and nothing here changes a result.
+
+pub(crate) mod diagnosis;
+pub mod doctor;
+pub(crate) mod equilibrium;
+pub(crate) mod figures;
+pub(crate) mod quality;
+pub(crate) mod travel;
+pub(crate) mod unsupported;
+pub(crate) mod view;
+
+pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
+pub use quality::{Figure, Gate, InterfaceSummary, NumericalStiffness};
+pub use view::View;

@@ -1,0 +1,420 @@
+//! The quality gate: figures by which accepted increments are judged, and their limits.
+
+use serde::Serialize;
+
+use super::doctor::{Finding, Watch};
+use super::figures::{
+    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
+    FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
+    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+};
+use super::view::View;
+use crate::contact::interface::{Between, Interface, Quality};
+use crate::math::norm;
+use crate::model::ledger::EnergyQuality;
+use crate::model::limits::{GateMode, Limits};
+
+/// The outcome of the quality gate.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Gate {
+    /// What becomes of a figure above its limit.
+    pub gate: GateMode,
+    /// Whether all figures kept their limits.
+    pub met: bool,
+    /// The worst of each figure at each place.
+    pub figures: Vec<Figure>,
+    /// What the figures are made of, in their order.
+    #[serde(skip)]
+    tracks: Vec<Track>,
+}
+
+/// A figure at its worst.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Figure {
+    /// Its name: the key of its limit in `[quality]`.
+    pub figure: &'static str,
+    /// Where: `interface NAME`, `body NAME` or `model`.
+    pub place: String,
+    /// Its largest value `[-]`.
+    pub value: f64,
+    /// The limit; `null` where it is not judged.
+    pub limit: Option<f64>,
+    /// Whether the value does not exceed it.
+    pub met: bool,
+    /// Time of the increment that it comes from `[s]`.
+    pub time: f64,
+    #[serde(skip)]
+    kind: &'static Kind,
+}
+
+impl Figure {
+    /// Where, which, how much and how much too much.
+    pub fn brief(&self) -> String {
+        format!(
+            "{}: {} is {:.2e}, above its limit {:.1e}",
+            self.place,
+            self.figure,
+            self.value,
+            self.limit.unwrap_or(f64::INFINITY)
+        )
+    }
+
+    /// What is wrong and what may help, for a figure above its limit, in a run with these findings.
+    pub fn sentence(&self, findings: &[Finding]) -> String {
+        let (what, help) = (self.kind.what, figures::advice(self.kind.help, findings));
+        format!(
+            "{} (at time {:.4e}): {what}; {help}",
+            self.brief(),
+            self.time
+        )
+    }
+}
+
+impl Figure {
+    /// What it means that a figure is above its limit, and what may help in a run with these findings, by its name; `None` of one that is not known.
+    pub fn meaning(figure: &str, findings: &[Finding]) -> Option<(&'static str, String)> {
+        let kind = figures::ALL.iter().find(|kind| kind.name == figure)?;
+        Some((kind.what, figures::advice(kind.help, findings)))
+    }
+}
+
+impl Gate {
+    /// The figures above their limits.
+    pub fn violations(&self) -> impl Iterator<Item = &Figure> {
+        self.figures.iter().filter(|f| !f.met)
+    }
+
+    /// Whether the run has to end with an error.
+    pub fn failed(&self) -> bool {
+        self.gate == GateMode::Error && !self.met
+    }
+
+    /// Notes a figure after an increment: how much is wrong, and what there is to compare it with. What it comes to is found by
+    /// [`settle`](Self::settle), when the largest of the run is known.
+    pub(crate) fn note(
+        &mut self,
+        kind: &'static Kind,
+        place: &str,
+        [amount, scale]: [f64; 2],
+        limit: f64,
+        time: f64,
+    ) {
+        self.track(kind, place, limit).add(amount, scale, time);
+    }
+
+    /// The same for a figure in motion, where what it is relative to comes and goes: the largest amount of the run is compared with the largest
+    /// scale of the run.
+    pub(crate) fn note_in_motion(
+        &mut self,
+        kind: &'static Kind,
+        place: &str,
+        [amount, scale]: [f64; 2],
+        limit: f64,
+        time: f64,
+    ) {
+        (self.track(kind, place, limit)).add_in_motion(amount, scale, time);
+    }
+
+    fn track(&mut self, kind: &'static Kind, place: &str, limit: f64) -> &mut Track {
+        let mut known = self.figures.iter();
+        let known = known.position(|f| f.figure == kind.name && f.place == place);
+        let i = known.unwrap_or_else(|| {
+            self.tracks.push(Track::default());
+            self.figures.push(Figure {
+                figure: kind.name,
+                place: place.to_string(),
+                value: 0.0,
+                // An infinite limit is none, and JSON has no infinity.
+                limit: limit.is_finite().then_some(limit),
+                met: true,
+                time: 0.0,
+                kind,
+            });
+            self.figures.len() - 1
+        });
+        &mut self.tracks[i]
+    }
+
+    /// The largest scale of a figure so far, anywhere or at one place.
+    pub(crate) fn largest(&self, kind: &Kind, place: Option<&str>) -> f64 {
+        let both = self.figures.iter().zip(&self.tracks);
+        let same = both.filter(|(f, _)| f.figure == kind.name);
+        let there = same.filter(|(f, _)| place.is_none_or(|place| f.place == place));
+        there.map(|(_, t)| t.largest).fold(0.0, f64::max)
+    }
+
+    /// What `scale` is at least, at a place.
+    pub(crate) fn floor(&self, kind: &Kind, place: &str) -> f64 {
+        let own = kind.own * self.largest(kind, Some(place));
+        own.max(kind.model * self.largest(kind, None))
+    }
+
+    /// Works out all figures with the largest scales of the run so far: what looked bad beside small forces may be nothing beside those that came
+    /// later.
+    pub(crate) fn settle(&mut self) {
+        for i in 0..self.figures.len() {
+            let figure = &self.figures[i];
+            let floor = self.floor(figure.kind, &figure.place);
+            let (value, time) = self.tracks[i].worst(floor);
+            let figure = &mut self.figures[i];
+            figure.value = value;
+            if value > 0.0 {
+                figure.time = time;
+            }
+            // What is not a number is above every limit.
+            figure.met = figure.limit.is_none_or(|limit| value <= limit);
+        }
+        self.met = self.figures.iter().all(|f| f.met);
+    }
+}
+
+/// Residual of a quasi-static ledger over the energy in play above which a note says so.
+const OPEN: f64 = 1e-3;
+
+/// The same of what is not known of friction.
+const UNKNOWN: f64 = 1e-2;
+
+/// Energies below this part of what the model would store if it strained as far as it moves are rounding.
+const ROUNDED: f64 = 1e-13;
+
+/// Forces that move by less than this part of the size of the model do no work worth a balance.
+const STILL: f64 = 1e-6;
+
+fn ratio(value: f64, scale: f64) -> f64 {
+    if value == 0.0 || scale <= 0.0 {
+        0.0
+    } else {
+        value / scale
+    }
+}
+
+impl View<'_> {
+    /// Elastic energy of bodies and compliant interfaces `[J]`.
+    fn elastic_energy(&self) -> f64 {
+        let interfaces = self.contact.interfaces.iter();
+        let compliant = interfaces.map(Interface::law_energy).sum::<f64>();
+        self.frame.ledger.strain + compliant
+    }
+
+    /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
+    pub(crate) fn strain_force(&self) -> f64 {
+        let size = self.model.mesh.diameter();
+        let u = self
+            .frame
+            .state
+            .u
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        let blocks = 0..self.model.mesh.blocks.len();
+        let moduli = self.model.elastic().flat_map(|b| {
+            let of = |k: usize| b.elastic.constrained_modulus(k);
+            blocks.clone().filter_map(of)
+        });
+        let stiffest = moduli.fold(0.0_f64, f64::max);
+        stiffest * size.powi(self.model.mesh.dim as i32 - 2) * u
+    }
+
+    /// Judges the last accepted state.
+    pub(crate) fn judge_quality(&self, limits: &Limits, gate: &mut Gate) {
+        gate.gate = limits.gate;
+        if limits.gate != GateMode::Off {
+            self.judge_interfaces(limits, gate);
+            if self.explicit.is_none() {
+                self.judge_bodies(limits, gate);
+            }
+        }
+    }
+
+    /// Takes note of what interfaces do.
+    pub(crate) fn watch(&self, watches: &mut [Watch]) {
+        let (u, t) = (&self.frame.state.u, self.frame.state.t);
+        for (watch, interface) in watches.iter_mut().zip(&self.contact.interfaces) {
+            watch.note(interface, interface.resultant(u).carried, (u, t));
+        }
+    }
+
+    fn judge_interfaces(&self, limits: &Limits, gate: &mut Gate) {
+        let t = self.frame.state.t;
+        let energy = self.elastic_energy();
+        for interface in &self.contact.interfaces {
+            let q = interface.quality();
+            let r = interface.resultant(&self.frame.state.u);
+            let place = format!("interface {}", interface.name);
+            let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
+            let approach = match r.carried > 0.0 {
+                true => whole.max(q.layer),
+                false => 0.0,
+            };
+            let between = interface.between(&self.frame.state.u, t);
+            judge_between(interface, (between, approach), limits, (gate, &place, t));
+            if r.carried <= 0.0 {
+                continue;
+            }
+            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
+            if !interface.on_springs() {
+                let size = [q.relative_to_size, 1.0];
+                let bridged = [q.complementarity * q.pressed, q.pressed];
+                note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
+                note(&COMPLEMENTARITY, bridged, limits.complementarity);
+                // Of the elastic approach, 2 U / F or the compression of one layer of cells: both sides times the force.
+                let elastic = (2.0 * energy).max(r.carried * q.layer);
+                let pair = [q.penetration * r.carried, elastic];
+                let limit = limits.penetration_to_approach;
+                if self.inertia().is_some() {
+                    gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
+                } else {
+                    note(&PENETRATION_TO_APPROACH, pair, limit);
+                    let false_slip = [q.false_slip * r.carried, elastic];
+                    note(&FALSE_SLIP, false_slip, limits.false_slip);
+                }
+            }
+            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
+            let uneven = [q.oscillation * r.total, r.total];
+            note(&OSCILLATION, uneven, limits.oscillation);
+            let excess = [q.excess_shear * q.limit, q.limit];
+            note(&EXCESS_SHEAR, excess, limits.excess_shear);
+            let wrong = [q.friction_law * q.limit, q.limit];
+            note(&FRICTION_LAW, wrong, limits.friction_law);
+            let b = interface.balance(&self.frame.state.u);
+            if b.scale > 0.0 {
+                let force = [norm(b.force), b.scale];
+                let moment = [norm(b.moment), b.scale * b.size];
+                note(&ACTION_REACTION, force, limits.action_reaction);
+                note(&MOMENT, moment, limits.moment);
+            }
+        }
+    }
+
+    /// Judges the energy balance, once all is done; what a user should know of it goes to `notes`.
+    pub(crate) fn judge_energy(
+        &self,
+        limits: &Limits,
+        quality: &EnergyQuality,
+        gate: &mut Gate,
+        notes: &mut Vec<String>,
+    ) {
+        if limits.gate == GateMode::Off {
+            return;
+        }
+        let ledger = &self.frame.ledger;
+        let moves = self.model.moves();
+        let limit = limits.energy.unwrap_or(self.model.energy_limit);
+        // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
+        let forces = gate.largest(&EQUILIBRIUM, None);
+        let least = STILL * self.model.mesh.diameter() * forces;
+        let moved = self
+            .frame
+            .state
+            .u
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        let least = least.max(ROUNDED * self.strain_force() * moved);
+        let pair = [quality.largest, quality.scale.max(least)];
+        let t = self.frame.state.t;
+        let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
+        let unknown = ledger.uncertain;
+        if !moves && open > OPEN * scale {
+            notes.push(format!(
+                "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that; forces do not follow from them. Smaller increments make it less",
+                100.0 * open / scale
+            ));
+        }
+        if !moves && unknown > UNKNOWN * scale {
+            notes.push(format!(
+                "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
+                ledger.friction
+            ));
+        }
+        gate.note(&ENERGY, "model", pair, limit, t);
+        gate.settle();
+    }
+}
+
+/// Judges what lies between the points of an interface whose bodies have come nearer elastically by `approach`.
+fn judge_between(
+    interface: &Interface,
+    (between, approach): (Between, f64),
+    limits: &Limits,
+    (gate, place, t): (&mut Gate, &str, f64),
+) {
+    let mut missed = between.penetration.max(between.apart);
+    if approach == 0.0 && missed > 0.0 {
+        // Facets of curved surfaces may overlap in the meshes where nothing presses.
+        missed = (missed - interface.overlap_between(t)).max(0.0);
+    }
+    if missed > 0.0 || approach > 0.0 {
+        let size = [between.relative_to_size, 1.0];
+        gate.note(&UNSEEN_TO_SIZE, place, size, limits.unseen_to_size, t);
+        let part = [missed, missed + approach];
+        let limit = limits.unseen_to_approach;
+        gate.note_in_motion(&UNSEEN_TO_APPROACH, place, part, limit, t);
+    }
+}
+
+/// An interface at the end of a run.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct InterfaceSummary {
+    /// Name.
+    pub name: String,
+    /// Whether contact points are those of the side that the problem calls primary, see [`Interface::exchanged`].
+    ///
+    /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
+    pub exchanged: bool,
+    /// Largest unwanted penetration and false slip.
+    pub quality: Quality,
+    /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
+    /// force.
+    pub relative_to_approach: f64,
+    /// Out-of-balance between what the two sides receive, relative to the force.
+    pub action_reaction: f64,
+    /// Sum of the moments of what the two sides receive, relative to the force times the size of the interface.
+    pub moment: f64,
+    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
+    pub numerical_stiffness: Option<NumericalStiffness>,
+}
+
+/// How much a result depends on the numerical stiffness of an enforcement.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct NumericalStiffness {
+    /// The stiffness in use, the smallest of any point in contact, as a multiple of the bodies' own.
+    pub factor: f64,
+    /// By how much the force of the interface would rise, relative to what it is, if the stiffness became infinite and supports stayed where
+    /// they are. Bodies and the springs of the enforcement are in series: the violations `v` that are left are to the elastic
+    /// approach `2 U / F` as that rise is to the force, and so it is `Σ A (p |v_n| + |t| |v_t|) / 2 U` `[-]`.
+    pub independent_to: f64,
+}
+
+/// The interfaces at the last accepted state.
+pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
+    let energy = view.elastic_energy();
+    let all = view.contact.interfaces.iter();
+    all.map(|interface| {
+        let quality = interface.quality();
+        let r = interface.resultant(&view.frame.state.u);
+        let b = interface.balance(&view.frame.state.u);
+        let place = format!("interface {}", interface.name);
+        let floor = |kind| gate.floor(kind, &place);
+        let strain = view.frame.ledger.strain;
+        let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
+        let factor = interface.numerical_factor();
+        InterfaceSummary {
+            name: interface.name.clone(),
+            exchanged: interface.exchanged,
+            quality,
+            relative_to_approach: ratio(quality.penetration, whole),
+            action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),
+            moment: ratio(norm(b.moment), (b.scale * b.size).max(floor(&MOMENT))),
+            numerical_stiffness: factor
+                .filter(|_| energy > 0.0)
+                .map(|factor| NumericalStiffness {
+                    factor,
+                    independent_to: quality.violation_work / (2.0 * energy),
+                }),
+        }
+    })
+    .collect()
+}

@@ -1,0 +1,109 @@
+//! How far bodies have turned and moved: figures that see what the linear theory does not.
+
+use super::doctor::{self, DoctorCause, Finding, Guilty, Severity, What};
+use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION};
+use super::quality::Gate;
+use super::view::View;
+use crate::body::Turning;
+use crate::math::norm;
+use crate::model::definition::Body;
+use crate::model::limits::{GateMode, Limits};
+
+impl View<'_> {
+    /// Takes note of how far bodies have turned, the most in `largest`, and moved.
+    pub(crate) fn judge_travel(
+        &self,
+        limits: &Limits,
+        gate: &mut Gate,
+        largest: &mut f64,
+        findings: &mut Vec<Finding>,
+    ) {
+        let judged = limits.gate != GateMode::Off;
+        let size = self.model.mesh.diameter() + self.prescribed_way();
+        let t = self.frame.state.t;
+        let mut far = Vec::new();
+        for body in &self.model.bodies {
+            let place = format!("body {}", body.name);
+            let turning = self.turning(body);
+            *largest = largest.max(turning.mean);
+            if !judged {
+                continue;
+            }
+            gate.note(&ROTATION, &place, [turning.mean, 1.0], limits.rotation, t);
+            if body.rigid.is_none() {
+                let pair = [turning.largest, 1.0];
+                gate.note(&LOCAL_ROTATION, &place, pair, limits.local_rotation, t);
+            }
+            let way = self.way(body);
+            let moved = way / size.max(f64::MIN_POSITIVE);
+            if self.inertia().is_none() && self.explicit.is_none() {
+                gate.note(&DISPLACEMENT, &place, [way, size], limits.displacement, t);
+            } else if moved.is_nan() || moved > limits.displacement {
+                far.push((body.name.clone(), way, moved));
+            }
+        }
+        for (body, way, moved) in far {
+            self.note_far(&body, (way, moved), findings);
+        }
+    }
+
+    /// How far a body has turned at the last accepted state.
+    fn turning(&self, body: &Body) -> Turning {
+        let u = &self.frame.state.u;
+        match body.rigid {
+            Some(rigid) => Turning {
+                mean: norm(self.model.links.all()[rigid.link].rotation(self.model.dofs, u)),
+                ..Turning::default()
+            },
+            None => body.elastic.turning(u),
+        }
+    }
+
+    /// The largest displacement of a body `[m]`.
+    pub(crate) fn way(&self, body: &Body) -> f64 {
+        let dofs = self.model.dofs;
+        let ways = body
+            .points
+            .clone()
+            .map(|p| norm(dofs.vector(&self.frame.state.u, p)));
+        ways.fold(0.0, |m, way| if way > m || way.is_nan() { way } else { m })
+    }
+
+    /// How far supports and obstacles have gone by now, at most `[m]`.
+    fn prescribed_way(&self) -> f64 {
+        let constraints = self.constraints(self.frame.state.t);
+        let values = constraints.fixed.iter().zip(&constraints.values);
+        let held = values
+            .filter(|(fixed, _)| **fixed)
+            .map(|(_, value)| value.abs());
+        let mut way = held.fold(0.0, f64::max);
+        let start = self.model.steps.first().map_or(0.0, |s| s.start);
+        for interface in &self.contact.interfaces {
+            way = way.max(interface.obstacle_way(start, self.frame.state.t));
+        }
+        way
+    }
+
+    /// A body in motion that has left the model, once for each.
+    fn note_far(&self, body: &str, (way, moved): (f64, f64), findings: &mut Vec<Finding>) {
+        let known = |f: &Finding| {
+            let about = |g: &Guilty| g.what == What::Body && g.name == body;
+            f.cause == DoctorCause::FarAway && f.guilty.iter().any(about)
+        };
+        if findings.iter().any(known) {
+            return;
+        }
+        let mut finding = Finding::new(
+            DoctorCause::FarAway,
+            Severity::Warning,
+            format!(
+                "body {body} has moved by {way:.3e}, {moved:.2e} times the size of the model and the way that is prescribed"
+            ),
+        )
+        .blame(Guilty::body(body, "far from where it was"))
+        .advise("if it is not meant to fly or fall, look for an obstacle or a support that is missing, and for loads, masses and velocities in the wrong unit");
+        finding.step = Some(self.step_name().to_string());
+        finding.time = Some(self.frame.state.t);
+        doctor::note(findings, finding);
+    }
+}

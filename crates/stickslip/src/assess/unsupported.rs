@@ -1,0 +1,147 @@
+//! Bodies that nothing holds, for a person: before a step begins, and after an increment in which one could not be brought to rest.
+
+use super::doctor::{DoctorCause, Finding, Guilty, Severity, body_at};
+use super::view::View;
+use crate::error::RunError;
+use crate::model::drivers::named;
+use crate::model::unheld::{NO_PART, modes};
+use crate::system::StepFailure;
+use crate::time::Trial;
+
+/// What to do about a body that has lost its hold, and about one that waits for contact.
+const LOST: &str = "no equilibrium was found beyond this: lower what drives the body or raise friction, support the motion or hold it by weak \
+     springs (`[load.NAME] spring = { stiffness = [...] }`), or make the step dynamic if the body is meant to slide or take off";
+const WAITS: &str = "support these motions, hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`), move the bodies until \
+     they touch, or prescribe a displacement instead of a force";
+
+impl View<'_> {
+    /// What ends a quasi-static step before it begins: a motion is free in it that nothing can hold, whatever touches.
+    pub(crate) fn refuse_unheld(&self) -> Option<(Finding, RunError)> {
+        let step = &self.model.steps[self.frame.step];
+        let middle = 0.5 * (step.start + step.end);
+        let all = modes(self.model);
+        let mut refused = Vec::new();
+        for motion in self.unheld(middle, &all, true) {
+            let push = self.strongest(&all, &motion);
+            let driven = push.is_felt();
+            // Anchors keep a body that nothing drives where it is.
+            let mut parts = all
+                .iter()
+                .zip(&motion)
+                .filter(|(_, part)| part.abs() > NO_PART);
+            if driven || !parts.all(|(mode, _)| self.solver.floating.knows(mode.body)) {
+                refused.push((motion, push, driven));
+            }
+        }
+        // What is driven says more than what is merely free.
+        refused.sort_by_key(|(_, _, driven)| !driven);
+        let (first, push, driven) = refused.first()?;
+        let (body, what) = self.describe(&all, first);
+        let step = self.step_name().to_string();
+        let called = self.called();
+        let by = match driven {
+            true => format!(", and {} it", named(&push.drivers(), "drives", "drive")),
+            false => String::new(),
+        };
+        let message = format!(
+            "{called}: body {body} is free to move as a rigid body ({what}): neither supports nor springs nor contact can hold it{by}"
+        );
+        let mut finding = Finding::new(DoctorCause::FreeRigidMode, Severity::Error, message);
+        let mut culprits = Vec::new();
+        for (motion, push, driven) in &refused {
+            let (body, what) = self.describe(&all, motion);
+            let by: Vec<String> = match driven {
+                true => push
+                    .drivers()
+                    .iter()
+                    .map(|d| format!("{} {}", d.key, d.what))
+                    .collect(),
+                false => vec!["nothing drives it".into()],
+            };
+            let remark = format!(
+                "{what} is held neither by supports nor by springs nor by contact; {}",
+                by.join(", ")
+            );
+            culprits.push(format!("body {body}: {remark}"));
+            finding = finding.blame(body_at(self.model, &body, remark));
+        }
+        for driver in push.drivers().into_iter().filter(|_| *driven) {
+            finding = finding.blame(Guilty::key(driver.key, driver.what));
+        }
+        let help = "support these motions, or hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`); \
+             if the body is meant to fly or fall, make the step dynamic";
+        finding = finding.advise(help);
+        finding.step = Some(step);
+        finding.time = Some(self.frame.state.t);
+        let error = RunError {
+            message: finding.message.clone(),
+            time: self.frame.state.t,
+            culprits,
+            help: Some(help.into()),
+        };
+        Some((finding, error))
+    }
+
+    /// The error for a body that could not be brought to rest in an increment: what it does, and what drives it. `None` where no body is free.
+    pub(crate) fn explain_free(&self, failure: &StepFailure, trial: &Trial) -> Option<RunError> {
+        let free = self.free_bodies(trial.to);
+        let model = self.model;
+        // A body that has been in contact has lost its hold; others wait for theirs.
+        let touching: Vec<_> = free.iter().filter(|f| self.touches(f.body)).collect();
+        let lost = !touching.is_empty();
+        let told: Vec<_> = match lost {
+            true => touching,
+            false => free.iter().collect(),
+        };
+        let first = told.first()?;
+        let name = &model.bodies[first.body].name;
+        let called = self.called();
+        let drivers = self.drivers(first.body, trial.to);
+        let by = match drivers.is_empty() {
+            true => String::new(),
+            false => format!(", {} it", named(&drivers, "drives", "drive")),
+        };
+        let message = match lost {
+            true => format!(
+                "{called}: body {name} slides, rolls or lifts off as a whole: contact and friction do not hold it{by}"
+            ),
+            false => format!(
+                "{called}: body {name} is free to move as a rigid body: no contact holds it yet{by}"
+            ),
+        };
+        let mut culprits = Vec::new();
+        for f in &told {
+            let motions: Vec<&str> = f.motions.iter().map(|(name, _)| name.as_str()).collect();
+            let held = match lost {
+                true => "held by contact alone",
+                false => "held neither by supports nor by springs",
+            };
+            let name = &model.bodies[f.body].name;
+            culprits.push(format!("body {name}: {} is {held}", motions.join(", ")));
+        }
+        culprits.extend(drivers.iter().map(|d| format!("{} {}", d.key, d.what)));
+        if lost {
+            culprits.extend(failure.culprits.iter().take(3).map(ToString::to_string));
+        }
+        Some(RunError {
+            message,
+            time: self.frame.state.t,
+            culprits,
+            help: Some(match lost {
+                true => LOST.into(),
+                false => format!("{WAITS} ({})", self.smallest_gaps()),
+            }),
+        })
+    }
+
+    fn smallest_gaps(&self) -> String {
+        let gaps = self.contact.interfaces.iter().map(|i| {
+            let smallest = i.initial_gaps().into_iter().fold(f64::INFINITY, f64::min);
+            format!("{}: {smallest:.3e}", i.name)
+        });
+        match gaps.collect::<Vec<_>>().as_slice() {
+            [] => "there are no interfaces".into(),
+            gaps => format!("smallest gaps at the last state: {}", gaps.join(", ")),
+        }
+    }
+}

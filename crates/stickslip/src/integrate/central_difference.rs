@@ -1,0 +1,227 @@
+//! One explicit increment.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::explicit::{Explicit, unstable};
+use super::integrator::Integrator;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
+use crate::solve::accepted::Accepted;
+use crate::solve::solver::Solver;
+use crate::system::{Cause, Force, Stage, State, StepFailure};
+use crate::time::Trial;
+
+/// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
+const CHUNK: usize = 4096;
+
+/// Sums over one chunk.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    kinetic: f64,
+    strain: f64,
+    work: f64,
+    damped: f64,
+    /// `aᵀ m a` before and after.
+    turned: [f64; 2],
+    finite: bool,
+}
+
+impl Integrator for Explicit {
+    fn attempt(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        _solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let explicit = self;
+        let dt = trial.to - trial.from;
+        let step = &model.steps[frame.step];
+        if step.fixed {
+            let stable = explicit.stable(explicit.contact_frequency(model, frame, contact));
+            if dt > stable * (1.0 + 1e-9) {
+                let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
+                return Err(StepFailure {
+                    help: e.help,
+                    ..StepFailure::new(Cause::NotConverged, e.message)
+                });
+            }
+        }
+        let constraints = match &explicit.still {
+            Some(still) => Arc::clone(still),
+            None => Arc::new(frame.constraints(model, trial.to)),
+        };
+        let from = &frame.state;
+        let n = from.u.len();
+        let mut at = State {
+            t: trial.to,
+            u: vec![0.0; n],
+            v: vec![0.0; n],
+            a: vec![0.0; n],
+        };
+        at.u.par_chunks_mut(CHUNK)
+            .zip(at.v.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each(|(c, (u, v))| {
+                let first = c * CHUNK;
+                for (k, (u, v)) in u.iter_mut().zip(v).enumerate() {
+                    let i = first + k;
+                    if constraints.fixed[i] {
+                        *u = constraints.values[i];
+                        *v = (*u - from.u[i]) / dt;
+                    } else {
+                        *v = from.v[i] + 0.5 * dt * from.a[i];
+                        *u = from.u[i] + dt * *v;
+                    }
+                }
+            });
+        model.links.impose(&mut at.u);
+        model.links.impose(&mut at.v);
+        explicit.internal.apply(&at.u, &mut explicit.force);
+        for &(dof, k) in &explicit.springs {
+            explicit.force[dof] += k * at.u[dof];
+        }
+        model.links.transfer(&mut explicit.force);
+        explicit.damp(&at.v);
+        explicit.out.reset(false);
+        let stage = Stage {
+            from,
+            at: &at,
+            dt,
+            rate: None,
+        };
+        for interface in &mut contact.interfaces {
+            interface.begin();
+            interface.prepare(&stage);
+            interface.assemble(&stage, &mut explicit.out)?;
+        }
+        contact.couplings.assemble(&stage, &mut explicit.out)?;
+        model.links.transfer(&mut explicit.out.residual);
+        let external = if explicit.loaded {
+            frame.external(model, trial.to)
+        } else {
+            frame.load.clone()
+        };
+        let load_before = &frame.load;
+        let mut forces = vec![0.0; n];
+        let State { u, v, a, .. } = &mut at;
+        let u: &[f64] = u;
+        let Explicit {
+            mass,
+            inverse,
+            force,
+            damped,
+            damped_before,
+            out,
+            ..
+        } = &*explicit;
+        let sums: Vec<Sums> = v
+            .par_chunks_mut(CHUNK)
+            .zip(a.par_chunks_mut(CHUNK))
+            .zip(forces.par_chunks_mut(CHUNK))
+            .enumerate()
+            .map(|(c, ((v, a), r))| {
+                let first = c * CHUNK;
+                let mut sums = Sums {
+                    finite: true,
+                    ..Sums::default()
+                };
+                for (k, ((v, a), r)) in v.iter_mut().zip(a).zip(r).enumerate() {
+                    let i = first + k;
+                    let moved = u[i] - from.u[i];
+                    let balance = external[i] - force[i] - damped[i] - out.residual[i];
+                    if constraints.fixed[i] {
+                        *a = (*v - from.v[i]) / dt;
+                        *r = mass[i] * *a - balance;
+                        sums.work += *r * moved;
+                    } else {
+                        *a = inverse[i] * balance;
+                        *v += 0.5 * dt * *a;
+                        sums.turned[0] += mass[i] * from.a[i] * from.a[i];
+                        sums.turned[1] += mass[i] * *a * *a;
+                    }
+                    sums.work += 0.5 * (load_before[i] + external[i]) * moved;
+                    sums.damped += 0.5 * (damped_before[i] + damped[i]) * moved;
+                    sums.kinetic += mass[i] * *v * *v;
+                    sums.strain += force[i] * u[i];
+                }
+                sums.finite = sums.kinetic.is_finite();
+                sums
+            })
+            .collect();
+        let mut total = Sums {
+            finite: true,
+            ..Sums::default()
+        };
+        for s in sums {
+            total.kinetic += s.kinetic;
+            total.strain += s.strain;
+            total.work += s.work;
+            total.damped += s.damped;
+            total.turned[0] += s.turned[0];
+            total.turned[1] += s.turned[1];
+            total.finite &= s.finite;
+        }
+        for spin in &explicit.spins {
+            let range = spin.range();
+            let mut moment = [0.0; 3];
+            for (m, i) in moment.iter_mut().zip(range.clone()) {
+                *m = external[i] - force[i] - out.residual[i];
+            }
+            let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
+            let inertial = spin.force(turn);
+            let mut free = [spin.of(&from.a), turn];
+            for (k, i) in range.enumerate() {
+                if constraints.fixed[i] {
+                    forces[i] += inertial[k];
+                    total.work += inertial[k] * (u[i] - from.u[i]);
+                    free.iter_mut().for_each(|a| a[k] = 0.0);
+                } else {
+                    a[i] = turn[k];
+                    v[i] += 0.5 * dt * turn[k];
+                }
+            }
+            for (sum, a) in total.turned.iter_mut().zip(free) {
+                *sum += spin.square(a);
+            }
+            total.kinetic += spin.square(spin.of(v));
+        }
+        total.finite &= total.kinetic.is_finite();
+        model.links.impose(v);
+        model.links.impose(a);
+        if !total.finite {
+            return Err(StepFailure::new(
+                Cause::NotFinite,
+                "the motion has grown beyond all numbers: the increment was not stable",
+            )
+            .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
+        }
+        // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
+        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
+        Ok(Accepted {
+            tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
+            forces,
+            external,
+            flow: Flow {
+                work: total.work,
+                damped: total.damped,
+                // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
+                numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
+            },
+            kinetic: 0.5 * total.kinetic,
+            strain: 0.5 * total.strain,
+            state: at,
+            ..Accepted::default()
+        })
+    }
+
+    fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
+        let fixed = model.steps[frame.step].fixed;
+        (!fixed).then(|| self.stable_increment(model, frame, contact))
+    }
+}

@@ -1,0 +1,317 @@
+//! Explicit increments: central differences with lumped masses, no matrix and no equations.
+//!
+//! ```text
+//! v½ = v₀ + dt/2 a₀,   u₁ = u₀ + dt v½,   a₁ = (F₁ - f(u₁) - C v½ - R(u₁)) / m,   v₁ = v½ + dt/2 a₁
+//! ```
+
+use std::sync::Arc;
+
+use super::onset::{AFTER, initial_contact};
+use crate::body::internal::{InternalForce, largest_eigenvalue};
+use crate::error::{Error, RunError};
+use crate::model::contact::Contact;
+use crate::model::definition::{Dynamic, Model};
+use crate::model::frame::Frame;
+use crate::solve::inertia::lumped;
+use crate::solve::spin::{Spin, mobility};
+use crate::system::{Assembler, Constraints};
+use crate::time::scheme::Method;
+
+/// What explicit increments need beside the state.
+pub(crate) struct Explicit {
+    pub(crate) internal: InternalForce,
+    /// Masses and their inverses by dof; the inverse is zero where there is none, and at the points of rigid bodies what
+    /// [`mobility`] says.
+    pub(crate) mass: Vec<f64>,
+    pub(crate) inverse: Vec<f64>,
+    /// Rotations of rigid bodies, which have no mass among those by dof.
+    pub(crate) spins: Vec<Spin>,
+    /// Rayleigh factors by dof; empty without damping.
+    pub(crate) rayleigh: Vec<[f64; 2]>,
+    pub(crate) springs: Vec<(usize, f64)>,
+    /// Square of the highest frequency of the bodies.
+    pub(crate) frequency: f64,
+    pub(crate) safety: f64,
+    pub(crate) out: Assembler,
+    pub(crate) force: Vec<f64>,
+    /// Forces of Rayleigh damping, now and at the last accepted state; empty without damping.
+    pub(crate) damped: Vec<f64>,
+    pub(crate) damped_before: Vec<f64>,
+    /// Supports, if they do not move in this step.
+    pub(crate) still: Option<Arc<Constraints>>,
+    /// Mass added by mass scaling, relative to the mass there is.
+    pub mass_added: f64,
+    /// Longest stable increment at the start, with its safety; 0 where any is stable.
+    pub at_start: f64,
+    /// Whether any load acts.
+    pub(crate) loaded: bool,
+}
+
+impl Explicit {
+    pub fn new(model: &Model, method: Method) -> Self {
+        let Method::Explicit {
+            safety,
+            mass_scaling,
+        } = method
+        else {
+            unreachable!("an implicit method");
+        };
+        let dofs = model.dofs;
+        let bodies: Vec<_> = model.elastic().map(|b| &b.elastic).collect();
+        let mut internal = InternalForce::new(&bodies, dofs);
+        let mut mass: Vec<f64> = masses(model)
+            .into_iter()
+            .flat_map(|m| std::iter::repeat_n(m, dofs.dim))
+            .collect();
+        if let Some(step) = mass_scaling {
+            scale_masses(model, &mut mass, step / (2.0 * safety));
+        }
+        let mut rayleigh = Vec::new();
+        if model.bodies.iter().any(|b| b.rayleigh != [0.0; 2]) {
+            rayleigh = vec![[0.0; 2]; dofs.count()];
+            for body in &model.bodies {
+                for point in body.points.clone() {
+                    for i in 0..dofs.dim {
+                        rayleigh[dofs.of(point, i)] = body.rayleigh;
+                    }
+                }
+            }
+        }
+        let springs: Vec<(usize, f64)> = model
+            .springs
+            .iter()
+            .flat_map(|s| s.entries().iter().copied())
+            .collect();
+        let none = vec![false; dofs.count()];
+        let mut inverse: Vec<f64> = mass
+            .iter()
+            .map(|&m| if m > 0.0 { 1.0 / m } else { 0.0 })
+            .collect();
+        for (inverses, m) in inverse.chunks_exact_mut(dofs.dim).zip(mobility(model)) {
+            if m > 0.0 {
+                inverses.fill(m);
+            }
+        }
+        let stiffest = stiffest(model, &springs, &inverse);
+        let frequency = largest_eigenvalue(&mut internal, &mass, &none) + stiffest;
+        Explicit {
+            inverse,
+            spins: Spin::all(model),
+            internal,
+            rayleigh,
+            springs,
+            frequency,
+            safety,
+            out: Assembler::new(dofs.count()),
+            force: vec![0.0; dofs.count()],
+            damped: vec![0.0; dofs.count()],
+            damped_before: vec![0.0; dofs.count()],
+            still: None,
+            mass_added: 0.0,
+            at_start: 0.0,
+            loaded: true,
+            mass,
+        }
+    }
+
+    /// Works out the forces of Rayleigh damping at these velocities.
+    pub(crate) fn damp(&mut self, v: &[f64]) {
+        if self.rayleigh.is_empty() {
+            return;
+        }
+        let scaled: Vec<f64> = self.rayleigh.iter().zip(v).map(|(r, v)| r[1] * v).collect();
+        self.internal.apply(&scaled, &mut self.damped);
+        for (i, d) in self.damped.iter_mut().enumerate() {
+            *d += self.rayleigh[i][0] * self.mass[i] * v[i];
+        }
+    }
+
+    /// The longest stable increment with interfaces of this squared frequency.
+    pub(crate) fn stable(&self, contact: f64) -> f64 {
+        let omega = (self.frequency + contact).sqrt();
+        if omega == 0.0 {
+            // rigid bodies in free flight
+            return f64::INFINITY;
+        }
+        let stiffness = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[1]));
+        let mass = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[0]));
+        // damping lags by half an increment
+        let ratio = 0.5 * (stiffness * omega + mass / omega);
+        2.0 / omega / ((1.0 + ratio * ratio).sqrt() + ratio)
+    }
+
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let moved: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
+        let turned: f64 = self.spins.iter().map(|s| s.square(s.of(v))).sum();
+        0.5 * (moved + turned)
+    }
+}
+
+/// Lumped masses of elastic bodies and those of rigid ones, by point.
+fn masses(model: &Model) -> Vec<f64> {
+    let mut masses = lumped(model);
+    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+        masses[model.links.all()[rigid.link].hidden] += rigid.mass;
+    }
+    masses
+}
+
+/// The highest squared frequency of springs to ground: of each on its own, and of all on a rigid body together.
+fn stiffest(model: &Model, springs: &[(usize, f64)], inverse: &[f64]) -> f64 {
+    let mut highest = 0.0_f64;
+    let mut rigid = vec![0.0; model.links.all().len()];
+    for &(dof, k) in springs {
+        match model.links.of_point(model.dofs.locate(dof).0) {
+            None => highest = highest.max(k * inverse[dof]),
+            Some(body) => rigid[body] += k * inverse[dof],
+        }
+    }
+    rigid.into_iter().fold(highest, f64::max)
+}
+
+/// Raises masses until the frequency of every dof, by the sum of its row of the stiffness, allows increments of `2 half`.
+fn scale_masses(model: &Model, mass: &mut [f64], half: f64) {
+    let dim = model.dofs.dim;
+    let mut rows = vec![0.0; mass.len()];
+    for body in model.elastic() {
+        body.elastic.element_matrices(&mut |points, dense| {
+            let width = points.len() * dim;
+            for (a, row) in dense.chunks_exact(width).enumerate() {
+                let dof = points[a / dim] * dim + a % dim;
+                rows[dof] += row.iter().map(|k| k.abs()).sum::<f64>();
+            }
+        });
+    }
+    for (masses, rows) in mass.chunks_exact_mut(dim).zip(rows.chunks_exact(dim)) {
+        let largest = rows.iter().copied().fold(0.0, f64::max);
+        for m in masses {
+            *m = m.max(half * half * largest);
+        }
+    }
+}
+
+impl Explicit {
+    /// Begins an explicit step: masses, frequencies and the acceleration at the start.
+    pub fn begin(
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        dynamic: &Dynamic,
+    ) -> Result<Self, Error> {
+        let n = frame.state.u.len();
+        if frame.state.v.is_empty() {
+            frame.state.v = vec![0.0; n];
+        }
+        let mut explicit = Explicit::new(model, dynamic.method);
+        let plain: f64 = masses(model).iter().sum();
+        let scaled: f64 = explicit.mass.iter().step_by(model.dofs.dim).sum();
+        explicit.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
+        let before = frame.ledger.kinetic;
+        model.apply_initial_velocities(frame.step, &mut frame.state.v);
+        let energy = &mut frame.ledger;
+        energy.kinetic = explicit.kinetic_energy(&frame.state.v);
+        energy.initial += energy.kinetic - before;
+        let step = &model.steps[frame.step];
+        let soon = step.start + AFTER * (step.end - step.start);
+        let still = model.supports.iter().all(|s| {
+            !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
+        });
+        let constraints = frame.constraints(model, soon);
+        explicit.loaded = !model.loads.is_empty();
+        for interface in &mut contact.interfaces {
+            frame.ledger.initial += interface.use_springs(true);
+        }
+        let couplings = &mut contact.couplings;
+        couplings.use_springs(true);
+        couplings.fit_springs(&explicit.inverse, explicit.frequency, &model.links);
+        let stable = explicit.stable_increment(model, frame, contact);
+        let dt = stable.min(step.increments.largest);
+        let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));
+        let given = step.increments.initial;
+        if step.fixed && given > limit {
+            let t = frame.state.t;
+            return Err(unstable(&step.name, t, given, limit, step.end - step.start).into());
+        }
+        explicit.at_start = if stable.is_finite() { stable } else { 0.0 };
+        frame.load = frame.external(model, soon);
+        frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
+        explicit.start_forces(model, frame, contact);
+        explicit.start_acceleration(model, frame, &constraints);
+        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
+        explicit.still = still.then(|| Arc::new(constraints));
+        Ok(explicit)
+    }
+
+    /// Elastic and damping forces at the start, and the strain energy there.
+    fn start_forces(&mut self, model: &Model, frame: &mut Frame, contact: &Contact) {
+        self.internal.apply(&frame.state.u, &mut self.force);
+        let u = &frame.state.u;
+        for &(dof, k) in &self.springs {
+            self.force[dof] += k * u[dof];
+        }
+        // Without a matrix the energy of initial displacements is known only now.
+        let both = self.force.iter().zip(u);
+        let strain: f64 = 0.5 * both.map(|(f, u)| f * u).sum::<f64>();
+        let energy = &mut frame.ledger;
+        let strain = strain + contact.couplings.energy().stored;
+        energy.initial += strain - energy.strain;
+        energy.strain = strain;
+        model.links.transfer(&mut self.force);
+        self.damp(&frame.state.v);
+    }
+
+    /// Accelerations at the start.
+    fn start_acceleration(&self, model: &Model, frame: &mut Frame, constraints: &Constraints) {
+        let (load, contact) = (&frame.load, &frame.contact);
+        let mut a: Vec<f64> = (0..load.len())
+            .map(|i| match constraints.fixed[i] {
+                true => 0.0,
+                false => {
+                    let internal = self.force[i] + self.damped[i];
+                    self.inverse[i] * (load[i] - internal - contact[i])
+                }
+            })
+            .collect();
+        for spin in &self.spins {
+            let range = spin.range();
+            let mut moment = [0.0; 3];
+            for (m, i) in moment.iter_mut().zip(range.clone()) {
+                *m = load[i] - self.force[i] - contact[i];
+            }
+            let turn = spin.acceleration(moment, &constraints.fixed, [0.0; 3]);
+            let dim = range.len();
+            a[range].copy_from_slice(&turn[..dim]);
+        }
+        model.links.impose(&mut a);
+        frame.state.a = a;
+    }
+
+    /// Sum of the highest squared frequencies of interfaces and couplings now.
+    pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
+        let step = &model.steps[frame.step];
+        let all = contact.interfaces.iter();
+        let links = &model.links;
+        let interfaces: f64 = all.map(|i| i.highest_frequency(&self.inverse, links)).sum();
+        let t = frame.state.t + AFTER * (step.end - step.start);
+        interfaces + (contact.couplings).highest_frequency(t, &self.inverse, links)
+    }
+
+    /// The longest increment that is stable now, with its safety.
+    pub fn stable_increment(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
+        self.safety * self.stable(self.contact_frequency(model, frame, contact))
+    }
+}
+
+pub(crate) fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f64) -> RunError {
+    RunError {
+        message: format!(
+            "step {step}: the increment {dt:.4e} is above the stable one, {stable:.4e}"
+        ),
+        time,
+        culprits: Vec::new(),
+        help: Some(format!(
+            "use increments.fixed = {} or more, or leave `increments` out for automatic ones",
+            (duration / (0.95 * stable)).ceil()
+        )),
+    }
+}

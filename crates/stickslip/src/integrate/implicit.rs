@@ -1,0 +1,344 @@
+//! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
+
+use super::integrator::Integrator;
+use super::quasi_static::pairs;
+use crate::math::vector::dot;
+use crate::model::contact::Contact;
+use crate::model::definition::{ContactAt, Dynamic, Model};
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
+use crate::newton::{Converged, Origin};
+use crate::solve::accepted::Accepted;
+use crate::solve::checks::{check_candidates, check_change};
+use crate::solve::inertia::in_motion;
+use crate::solve::inertia::{Inertia, times};
+use crate::solve::iteration::{Load, Task};
+use crate::solve::solver::Solver;
+use crate::system::{Cause, Constraints, Rate, State, StepFailure};
+use crate::time::Trial;
+use crate::time::newmark::{Increment, error_factor};
+use crate::time::scheme::Alphas;
+
+/// Makes increments of a step in motion, each an equilibrium at the stage of a scheme.
+pub(crate) struct Implicit {
+    /// How the step is integrated.
+    pub dynamic: Dynamic,
+    /// The scheme.
+    pub alphas: Alphas,
+}
+
+/// One increment that has converged.
+struct Solved {
+    state: State,
+    /// Out-of-balance force at the stage: reactions at fixed dofs.
+    reactions: Vec<f64>,
+    contact: Vec<f64>,
+    external: Vec<f64>,
+    /// `K u`.
+    internal: Vec<f64>,
+}
+
+/// The forces of the bulk at the guess of an increment.
+struct Guess {
+    /// Displacements.
+    u: Vec<f64>,
+    /// `K u`.
+    internal: Vec<f64>,
+    /// Forces over the weight of the interfaces, without those of the interfaces at the end.
+    forces: Vec<f64>,
+    /// Size of what balances in them.
+    scale: f64,
+}
+
+impl Integrator for Implicit {
+    fn attempt(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let constraints = frame.constraints(model, trial.to);
+        let external = frame.external(model, trial.to);
+        let fixed = constraints.fixed.clone();
+        let inertia =
+            (solver.inertia.as_mut()).expect("a step in motion has begun with its masses");
+        let length = trial.to - trial.from;
+        let dt = inertia.ready(&solver.stiffness, self.alphas, length, self.weight());
+        let plain = inertia.plain(&fixed, &model.links);
+        let from = frame.state.clone();
+        let increment = Increment {
+            alphas: self.alphas,
+            dt,
+            from: &from,
+            plain: &plain,
+        };
+        let guess = self.guess(model, frame, solver, &increment, (&constraints, &external));
+        let (gain, shift) = increment.rate();
+        let rate = Rate {
+            gain: &gain,
+            shift: &shift,
+        };
+        let mut at = State {
+            t: trial.to,
+            u: guess.u.clone(),
+            ..State::default()
+        };
+        let task = (constraints, rate);
+        let (converged, internal) =
+            self.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
+        let inertia = in_motion(&solver.inertia);
+        (at.v, at.a) = increment.motion(&at.u);
+        for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
+            *a = 0.0;
+        }
+        model.links.impose(&mut at.v);
+        model.links.impose(&mut at.a);
+        let weight = self.weight();
+        let solved = Solved {
+            reactions: converged.forces.iter().map(|f| weight * f).collect(),
+            contact: converged.contact.clone(),
+            external,
+            internal,
+            state: at,
+        };
+        check_candidates(contact)?;
+        let (easy, travel) = self.judge(model, frame, inertia, dt, &solved)?;
+        self.locate(model, frame, contact, trial)?;
+        Ok(Accepted {
+            flow: self.flow(frame, inertia, &fixed, &solved),
+            rate: Some((gain, shift)),
+            kinetic: inertia.kinetic_energy(&solved.state.v),
+            strain: 0.5 * dot(&solved.state.u, &solved.internal),
+            forces: solved.reactions,
+            contact: solved.contact,
+            external: solved.external,
+            internal: Some(solved.internal),
+            travel,
+            hard: !easy,
+            state: solved.state,
+            ..Accepted::from_newton(&converged)
+        })
+    }
+}
+
+impl Implicit {
+    /// The weight that the forces of the interfaces at the end have in the balance at the stage.
+    fn weight(&self) -> f64 {
+        match self.dynamic.contact_at {
+            ContactAt::End => 1.0,
+            ContactAt::Stage => 1.0 - self.alphas.alpha_f,
+        }
+    }
+
+    /// Where the increment is expected to end, and the forces there.
+    fn guess(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        solver: &Solver,
+        increment: &Increment,
+        (constraints, external): (&Constraints, &[f64]),
+    ) -> Guess {
+        let mut u = increment.predict();
+        constraints.impose(&mut u);
+        model.links.impose(&mut u);
+        let internal = times(&solver.stiffness, &u);
+        let stage = mix(self.alphas.alpha_f, &frame.motion.internal, &internal);
+        let inertia = in_motion(&solver.inertia);
+        let (mut forces, scale) = self.balance(frame, inertia, increment, &u, &stage, external);
+        let weight = self.weight();
+        forces.iter_mut().for_each(|f| *f /= weight);
+        Guess {
+            u,
+            internal,
+            forces,
+            scale: scale / weight,
+        }
+    }
+
+    /// Finds the equilibrium at the stage; the forces there, and `K u` at the end.
+    fn solve(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        (guess, (constraints, rate)): (&Guess, (Constraints, Rate)),
+        at: &mut State,
+    ) -> Result<(Converged, Vec<f64>), StepFailure> {
+        let fixed = constraints.fixed.clone();
+        let condensed = solver.condense_in_motion(model, frame, contact, &fixed);
+        let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
+        (contact.couplings).fit(diagonal, &fixed, &model.links);
+        let origin = Origin {
+            at: guess.u.clone(),
+            forces: guess.forces.clone(),
+            scale: guess.scale,
+        };
+        let task = |load| Task {
+            load,
+            constraints,
+            rate: Some(rate),
+            from: &frame.state,
+        };
+        let mut converged = match condensed {
+            true => solver.solve_condensed(model, contact, task(Load::Known(origin)), at)?,
+            false => solver.solve_sparse(model, contact, task(Load::Known(origin)), at)?,
+        };
+        let moved = difference(&at.u, &guess.u);
+        let change = times(&solver.stiffness, &moved);
+        if condensed {
+            let stage = in_motion(&solver.inertia).stage_times(&moved, &change);
+            converged.forces = (0..moved.len())
+                .map(|i| guess.forces[i] + stage[i] + converged.contact[i])
+                .collect();
+            solver.check_in_motion(model, (&converged, guess.scale), &at.u, &fixed)?;
+        }
+        let both = guess.internal.iter().zip(&change);
+        Ok((converged, both.map(|(a, b)| a + b).collect()))
+    }
+
+    /// Whether the increment is small enough for the errors that are to be resolved, `false` if only just, and the farthest the bodies have been.
+    fn judge(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        inertia: &Inertia,
+        dt: f64,
+        solved: &Solved,
+    ) -> Result<(bool, f64), StepFailure> {
+        check_change(model, pairs(&solved.state.u, &frame.state.u))?;
+        let Some(limit) = self.dynamic.error else {
+            return Ok((true, 0.0));
+        };
+        let norm = |x: &[f64]| dot(x, &inertia.mass_times(x)).max(0.0).sqrt();
+        let moved = norm(&difference(&solved.state.u, &frame.motion.start));
+        let travel = frame.motion.travel.max(moved);
+        let turn = difference(&solved.state.a, &frame.state.a);
+        let error = error_factor(self.alphas.beta) * dt * dt * norm(&turn);
+        let relative = error / travel.max(f64::MIN_POSITIVE);
+        if relative > limit && 0.5 * dt >= model.steps[frame.step].increments.smallest {
+            return Err(StepFailure::new(
+                Cause::TooFar,
+                format!("local error {relative:.1e} of the motion, more than `error` allows"),
+            ));
+        }
+        // It grows with the square of the increment: twice the length would be too much.
+        Ok((relative <= 0.25 * limit, travel))
+    }
+
+    /// Rejects an increment over which points change status until it is as short as `events` asks for.
+    fn locate(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &Contact,
+        trial: Trial,
+    ) -> Result<(), StepFailure> {
+        let Some(tolerance) = self.dynamic.events else {
+            return Ok(());
+        };
+        let dt = trial.to - trial.from;
+        let smallest = model.steps[frame.step].increments.smallest;
+        let interfaces = contact.interfaces.iter();
+        let switched: usize = interfaces.map(|interface| interface.switched()).sum();
+        if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
+            return Err(StepFailure::new(
+                Cause::Event,
+                format!("{switched} points open, close, stick or slip: the time is being located"),
+            ));
+        }
+        Ok(())
+    }
+
+    /// The balance at the stage without the interfaces' forces at the end: forces with displacements `u` at the end and elastic forces `internal` at the
+    /// stage, and the size of what balances in them.
+    fn balance(
+        &self,
+        frame: &Frame,
+        inertia: &Inertia,
+        increment: &Increment,
+        u: &[f64],
+        internal: &[f64],
+        external: &[f64],
+    ) -> (Vec<f64>, f64) {
+        let Alphas {
+            alpha_m, alpha_f, ..
+        } = self.alphas;
+        let from = &frame.state;
+        let (v, a) = increment.motion(u);
+        let mut a = mix(alpha_m, &from.a, &a);
+        for (a, _) in a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
+            *a = 0.0;
+        }
+        let inertial = inertia.mass_times(&a);
+        let damping = inertia.damping_force(&mix(alpha_f, &from.v, &v));
+        let load = mix(alpha_f, &frame.load, external);
+        let old = 1.0 - self.weight();
+        let forces = (0..u.len())
+            .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * frame.contact[i])
+            .collect();
+        let size = |x: &[f64]| dot(x, x).sqrt();
+        let scale = size(&inertial).max(size(&load)).max(size(internal));
+        (forces, scale)
+    }
+
+    /// What flows in and out over the increment. With `Δ` for differences and bars for means of the two ends,
+    ///
+    /// ```text
+    /// ΔT + ΔU = v̄ᵀ M Δv + ūᵀ K Δu
+    /// ```
+    ///
+    /// and the balance at the stage times `Δu` gives what the scheme itself takes:
+    ///
+    /// ```text
+    /// D = Δuᵀ M a_m - v̄ᵀ M Δv + (½ - α_f) (Δuᵀ K Δu + Δvᵀ C Δu) + (w - ½) ΔRᵀ Δu - (½ - α_f) ΔFᵀ Δu
+    /// ```
+    ///
+    /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
+    fn flow(&self, frame: &Frame, inertia: &Inertia, fixed: &[bool], solved: &Solved) -> Flow {
+        let (alphas, weight) = (self.alphas, self.weight());
+        let (from, to) = (&frame.state, &solved.state);
+        let du = difference(&to.u, &from.u);
+        let dv = difference(&to.v, &from.v);
+        let mean_v: Vec<f64> = mix(0.5, &from.v, &to.v);
+        let stage_a = mix(alphas.alpha_m, &from.a, &to.a);
+        let half = 0.5 - alphas.alpha_f;
+        let mean_f = mix(0.5, &frame.load, &solved.external);
+        let mut work = dot(&mean_f, &du);
+        for (i, _) in fixed.iter().enumerate().filter(|(_, f)| **f) {
+            work += solved.reactions[i] * du[i];
+        }
+        let contact = difference(&solved.contact, &frame.contact);
+        let load = difference(&solved.external, &frame.load);
+        let mut numerical = dot(&du, &inertia.mass_times(&stage_a))
+            - dot(&mean_v, &inertia.mass_times(&dv))
+            + half * dot(&du, &difference(&solved.internal, &frame.motion.internal))
+            + (weight - 0.5) * dot(&contact, &du)
+            - half * dot(&load, &du);
+        let mut damped = 0.0;
+        if let Some(damping) = &inertia.damping {
+            damped = dot(&du, &times(damping, &mean_v));
+            numerical += half * dot(&dv, &times(damping, &du));
+        }
+        Flow {
+            work,
+            damped,
+            numerical,
+        }
+    }
+}
+
+/// `(1 - old) b + old a`.
+fn mix(old: f64, a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| old * a + (1.0 - old) * b)
+        .collect()
+}
+
+pub(crate) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}

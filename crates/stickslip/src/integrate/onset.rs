@@ -1,0 +1,290 @@
+//! The start of a dynamic step: masses, velocities, and the forces and accelerations from which the first increment goes on.
+
+use super::implicit::{Implicit, difference};
+use super::integrator::Integrator;
+use crate::body::couplings::Couplings;
+use crate::error::Error;
+use crate::math::vector::dot;
+use crate::model::contact::Contact;
+use crate::model::definition::{ContactAt, Dynamic, Model};
+use crate::model::frame::{Frame, Motion};
+use crate::solve::inertia::in_motion;
+use crate::solve::inertia::{Inertia, times};
+use crate::solve::solver::Solver;
+use crate::system::{Links, Stage, State, StepFailure};
+use crate::time::Trial;
+use crate::time::scheme::Alphas;
+
+/// Fraction of the duration of a step after its start at which loads that begin with the step are read.
+pub(crate) const AFTER: f64 = 1e-9;
+
+/// Lengths of the trial increments that find the forces of contact at the start, in first increments.
+const TRIALS: [f64; 2] = [0.1, 0.5];
+
+/// Part of themselves by which these forces may differ between the two: those of an impact, which take the same momentum out of bodies in any
+/// time, differ by four fifths.
+const SUDDEN: f64 = 0.5;
+
+/// The backward Euler method: no force of the start has a part in it.
+const BACKWARD: Alphas = Alphas {
+    alpha_m: 0.0,
+    alpha_f: 0.0,
+    beta: 1.0,
+    gamma: 1.0,
+};
+
+impl Implicit {
+    /// Begins an implicit step: masses, initial velocities, candidates, and the forces and accelerations at the start.
+    pub fn begin(
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        (dynamic, alphas): (Dynamic, Alphas),
+    ) -> Result<Self, Error> {
+        let implicit = Implicit { dynamic, alphas };
+        start_motion(model, frame, contact, solver, &dynamic);
+        solver.choose_candidates(model, frame, contact);
+        implicit.start_forces(model, frame, contact, solver)?;
+        Ok(implicit)
+    }
+
+    /// Finds the forces of the interfaces and the accelerations at the start of a dynamic step.
+    fn start_forces(
+        &self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+    ) -> Result<(), Error> {
+        let step = &model.steps[frame.step];
+        let (t, dt) = (
+            step.start + AFTER * (step.end - step.start),
+            step.increments.initial,
+        );
+        frame.load = frame.external(model, t);
+        let evaluated = initial_contact(model, frame, contact, t, dt).map_err(|e| e.at(t))?;
+        let before = std::mem::replace(&mut frame.contact, evaluated);
+        match self.tried_contact(model, frame, contact, solver, dt) {
+            Some(forces) => frame.contact = forces,
+            None => keep_light(model, frame, contact, solver, t, &before),
+        }
+        let lag = self.alphas.lag() * dt;
+        initial_acceleration(model, frame, contact, solver, (t, lag)).map_err(|e| e.at(t).into())
+    }
+
+    /// The forces of the interfaces at the end of a short increment with the method of Euler: pressure holds what would go through, points stick that
+    /// the limit holds and others carry it. `None` where nothing touches, where no equilibrium is found, and at an impact, whose force is not that of
+    /// an instant.
+    fn tried_contact(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        dt: f64,
+    ) -> Option<Vec<f64>> {
+        let t = frame.state.t;
+        let inertia = in_motion(&solver.inertia);
+        if !forces_are_sought(model, contact, inertia, t + AFTER * dt) {
+            return None;
+        }
+        let mut euler = Implicit {
+            dynamic: Dynamic {
+                contact_at: ContactAt::End,
+                error: None,
+                events: None,
+                ..self.dynamic
+            },
+            alphas: BACKWARD,
+        };
+        let couplings = contact.couplings.memory.clone();
+        let tried = TRIALS.map(|part| {
+            let trial = Trial {
+                from: t,
+                to: t + part * dt,
+            };
+            let tried = euler.attempt(model, frame, contact, solver, trial);
+            // Nobody is told of them.
+            solver.seen.clear();
+            let tried = tried.map(|accepted| {
+                let (to, u) = (trial.to, &accepted.state.u);
+                let add = |c: &Couplings, out: &mut [f64]| c.add_tried(to, u, out);
+                let coupled = coupling_forces(&contact.couplings, &model.links, u.len(), add);
+                difference(&accepted.contact, &coupled)
+            });
+            contact.couplings.memory = couplings.clone();
+            let interfaces = contact.interfaces.iter();
+            let after: Vec<_> = interfaces.map(|i| i.tried()).collect();
+            tried.map(|contact| (contact, after))
+        });
+        let [Ok((short, after)), Ok((long, _))] = tried else {
+            return None;
+        };
+        let change = difference(&short, &long);
+        if dot(&change, &change) > SUDDEN * SUDDEN * dot(&short, &short) {
+            return None;
+        }
+        for (interface, tried) in contact.interfaces.iter_mut().zip(&after) {
+            interface.adopt(tried);
+        }
+        let (u, at) = (&frame.state.u, t + AFTER * dt);
+        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, u, out);
+        let known = coupling_forces(&contact.couplings, &model.links, u.len(), add);
+        Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
+    }
+}
+
+/// Makes masses and initial velocities of a dynamic step ready.
+fn start_motion(
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &mut Solver,
+    dynamic: &Dynamic,
+) {
+    let n = frame.state.u.len();
+    if frame.state.v.is_empty() {
+        frame.state.v = vec![0.0; n];
+    }
+    frame.state.a = vec![0.0; n];
+    let inertia = match solver.inertia.take() {
+        Some(inertia) if inertia.suits(contact, dynamic) => inertia,
+        old => {
+            let keys = old.map_or(0, |inertia| inertia.keys());
+            Inertia::new((model, contact), &solver.stiffness, dynamic, keys)
+        }
+    };
+    let masses = inertia.at_points(model);
+    for interface in &mut contact.interfaces {
+        interface.set_masses(&masses);
+    }
+    let before = inertia.kinetic_energy(&frame.state.v);
+    model.apply_initial_velocities(frame.step, &mut frame.state.v);
+    let energy = &mut frame.ledger;
+    energy.kinetic = inertia.kinetic_energy(&frame.state.v);
+    energy.initial += energy.kinetic - before;
+    frame.motion = Motion {
+        internal: times(&solver.stiffness, &frame.state.u),
+        start: frame.state.u.clone(),
+        travel: 0.0,
+    };
+    solver.inertia = Some(inertia);
+}
+
+/// Forces of the interfaces at the start as the laws have them, slip at the velocities of the start. Where pressure or stick are multipliers the
+/// laws say nothing of them.
+pub(crate) fn initial_contact(
+    model: &Model,
+    frame: &Frame,
+    contact: &mut Contact,
+    t: f64,
+    dt: f64,
+) -> Result<Vec<f64>, StepFailure> {
+    let State { u, v, .. } = &frame.state;
+    let before = State {
+        t: t - dt,
+        u: u.iter().zip(v).map(|(u, v)| u - dt * v).collect(),
+        ..State::default()
+    };
+    let at = State {
+        t,
+        u: u.clone(),
+        ..State::default()
+    };
+    let stage = Stage {
+        from: &before,
+        at: &at,
+        dt,
+        rate: None,
+    };
+    let mut forces = vec![0.0; u.len()];
+    for interface in &mut contact.interfaces {
+        interface.add_initial(&stage, &mut forces)?;
+    }
+    (contact.couplings).add_initial(t, u, &mut forces);
+    model.links.transfer(&mut forces);
+    Ok(forces)
+}
+
+/// Whether points with mass touch where the laws alone do not tell the forces: a multiplier presses them, or they are those of a rigid body and
+/// may stick.
+fn forces_are_sought(model: &Model, contact: &Contact, inertia: &Inertia, t: f64) -> bool {
+    let links = &model.links;
+    contact.interfaces.iter().any(|interface| {
+        let first = |node: &usize| model.dofs.of(*node, 0);
+        let mut nodes = interface.nodes.iter();
+        let rigid = || interface.nodes.iter().any(|n| links.of_point(*n).is_some());
+        let mut heavy = || nodes.any(|n| !inertia.light[first(n)]);
+        let laws = &interface.laws;
+        let sought =
+            laws.needs_normal_stiffness() && heavy() || laws.friction_law().frictional() && rigid();
+        interface.schedule.active(t) && sought && interface.touches()
+    })
+}
+
+/// Forces of couplings by dof, those at rigid bodies where they move them.
+fn coupling_forces(
+    couplings: &Couplings,
+    links: &Links,
+    count: usize,
+    add: impl Fn(&Couplings, &mut [f64]),
+) -> Vec<f64> {
+    let mut out = vec![0.0; count];
+    add(couplings, &mut out);
+    links.transfer(&mut out);
+    out
+}
+
+/// Points without mass go on with the forces that they had at rest.
+fn keep_light(
+    model: &Model,
+    frame: &mut Frame,
+    contact: &Contact,
+    solver: &Solver,
+    t: f64,
+    before: &[f64],
+) {
+    if before.len() != frame.contact.len() {
+        return;
+    }
+    let light = &in_motion(&solver.inertia).light;
+    let interfaces = contact.interfaces.iter();
+    let acting = interfaces.filter(|i| i.schedule.active(t));
+    for node in acting.flat_map(|i| &i.nodes) {
+        for i in 0..model.dofs.dim {
+            let dof = model.dofs.of(*node, i);
+            if light[dof] {
+                frame.contact[dof] = before[dof];
+            }
+        }
+    }
+}
+
+/// `(M + h C) a₀ = f(u₀, v₀)` at time `t`, with the time `h` over which damping may have acted.
+fn initial_acceleration(
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &Solver,
+    (t, lag): (f64, f64),
+) -> Result<(), StepFailure> {
+    let inertia = in_motion(&solver.inertia);
+    let internal = &frame.motion.internal;
+    let damping = inertia.damping_force(&frame.state.v);
+    let force: Vec<f64> = (0..internal.len())
+        .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
+        .collect();
+    let fixed = frame.constraints(model, t).fixed;
+    let mut accelerate = inertia.accelerator(&fixed, lag);
+    frame.state.a = accelerate(&force)?;
+    // Prescribed dofs have no acceleration, which is as good as known; those of light points follow from the interfaces.
+    contact.couplings.start_motion(
+        (t, &model.links),
+        &inertia.light,
+        &mut accelerate,
+        (&mut frame.state.a, &mut frame.contact),
+    )?;
+    model.links.impose(&mut frame.state.a);
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! Quasi-static increments.
+
+use super::integrator::Integrator;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
+use crate::solve::accepted::Accepted;
+use crate::solve::checks::check_change;
+use crate::solve::iteration::{Load, Task};
+use crate::solve::solver::Solver;
+use crate::system::{State, StepFailure};
+use crate::time::Trial;
+
+/// Makes increments in which nothing has inertia.
+pub(crate) struct QuasiStatic;
+
+impl Integrator for QuasiStatic {
+    fn attempt(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let external = frame.external(model, trial.to);
+        let constraints = frame.constraints(model, trial.to);
+        (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);
+        if solver.condenser.at_rest().is_some() {
+            return solver.attempt_condensed(model, contact, (external, constraints), trial);
+        }
+        let mut at = frame.extrapolated(trial);
+        let fixed = constraints.fixed.clone();
+        let task = Task {
+            load: Load::External(external.clone()),
+            constraints,
+            rate: None,
+            from: &frame.state,
+        };
+        let converged = solver.solve_sparse(model, contact, task, &mut at)?;
+        check_change(model, pairs(&at.u, &frame.state.u))?;
+        Ok(Accepted {
+            flow: Flow {
+                work: frame.work(&fixed, (&at.u, &converged.forces), &external),
+                ..Flow::default()
+            },
+            strain: solver.strain_energy(&at.u),
+            forces: converged.forces.clone(),
+            contact: converged.contact.clone(),
+            external,
+            state: at,
+            ..Accepted::from_newton(&converged)
+        })
+    }
+}
+
+/// Two vectors, dof by dof.
+pub(crate) fn pairs<'a>(a: &'a [f64], b: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
+    a.iter().copied().zip(b.iter().copied())
+}
+
+impl Frame {
+    /// Where a quasi-static increment is expected to end: the last one goes on.
+    fn extrapolated(&self, trial: Trial) -> State {
+        let mut at = State {
+            t: trial.to,
+            u: self.state.u.clone(),
+            ..State::default()
+        };
+        if let Some((before, u)) = &self.previous {
+            let ratio = (trial.to - trial.from) / before;
+            for (a, (now, then)) in at.u.iter_mut().zip(self.state.u.iter().zip(u)) {
+                *a = now + ratio * (now - then);
+            }
+        }
+        at
+    }
+
+    /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly. It begins with what held the last
+    /// accepted state in balance, not with what an amplitude says of its time: a load that is there at once, or changes from one step to the next, is
+    /// taken from one equilibrium to the other like any other, and a support that lets go has done its part until then.
+    pub(crate) fn work(
+        &self,
+        fixed: &[bool],
+        (u, forces): (&[f64], &[f64]),
+        external: &[f64],
+    ) -> f64 {
+        let mut work = 0.0;
+        for (i, after) in external.iter().enumerate() {
+            let before = self.load[i] + self.forces[i];
+            let reaction = if fixed[i] { forces[i] } else { 0.0 };
+            work += 0.5 * (before + after + reaction) * (u[i] - self.state.u[i]);
+        }
+        work
+    }
+}

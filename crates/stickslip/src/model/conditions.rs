@@ -1,0 +1,108 @@
+//! What acts at a time: supports, and loads with the fading forces of supports that let go.
+
+use super::contact::Contact;
+use super::definition::{Model, Support};
+use super::frame::Frame;
+use crate::system::Constraints;
+
+impl Frame {
+    /// Begins the step that is set: exchanges the laws that change, and remembers from where supports that begin to act start, and with which
+    /// force those that end let go.
+    pub(crate) fn begin_step(&mut self, model: &Model, contact: &mut Contact) {
+        let step = &model.steps[self.step];
+        for (name, change) in &step.changes {
+            let all = contact.interfaces.iter_mut();
+            for interface in all.filter(|i| i.name == *name) {
+                self.ledger.initial += interface.change(change);
+            }
+        }
+        let middle = 0.5 * (step.start + step.end);
+        let before = self.step.checked_sub(1).map(|i| {
+            let s = &model.steps[i];
+            0.5 * (s.start + s.end)
+        });
+        let was = |s: &Support| before.is_some_and(|t| s.schedule.active(t));
+        let mut supported = vec![false; self.state.u.len()];
+        for support in &model.supports {
+            if support.schedule.active(middle) {
+                for e in &support.entries {
+                    supported[e.dof] = true;
+                }
+                if !was(support) {
+                    let entries = support.entries.iter();
+                    let start = entries.map(|e| self.state.u[e.dof]).collect();
+                    self.starts.insert(support.name.clone(), start);
+                }
+            }
+        }
+        self.previous = None;
+        self.released.clear();
+        let links = &model.links;
+        let released = &mut self.released;
+        let mut let_go = |dof: usize, force: f64| match links.row(dof) {
+            None => released.push((dof, force)),
+            Some(row) => released.extend(row.map(|(d, factor)| (d, factor * force))),
+        };
+        let span = (before, middle);
+        (contact.couplings).begin_step(span, &self.state.u, &mut let_go);
+        if step.dynamic.is_some() {
+            // In motion what lets go lets go at once.
+            self.released.clear();
+            return;
+        }
+        // What equations did, loads do from here on.
+        for &(dof, force) in &self.released {
+            self.load[dof] += force;
+        }
+        let mut seen = vec![false; self.state.u.len()];
+        for support in model.supports.iter().filter(|s| was(s)) {
+            for e in &support.entries {
+                if !supported[e.dof] && !seen[e.dof] {
+                    seen[e.dof] = true;
+                    self.released.push((e.dof, self.forces[e.dof]));
+                }
+            }
+        }
+    }
+
+    /// Constraints at a time.
+    pub(crate) fn constraints(&self, model: &Model, t: f64) -> Constraints {
+        let mut constraints = Constraints::none(model.dofs);
+        for support in &model.supports {
+            if !support.schedule.active(t) {
+                continue;
+            }
+            let s = support.schedule.at(t);
+            let held = self.starts.get(&support.name);
+            for (i, e) in support.entries.iter().enumerate() {
+                let start = held.and_then(|h| h.get(i)).copied().unwrap_or(0.0);
+                let value = if e.hold {
+                    start
+                } else if support.table {
+                    s * e.value
+                } else {
+                    start + s * (e.value - start)
+                };
+                constraints.prescribe(e.dof, value);
+            }
+        }
+        model.links.dependent(&mut constraints.fixed);
+        constraints
+    }
+
+    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
+    /// the bodies.
+    pub(crate) fn external(&self, model: &Model, t: f64) -> Vec<f64> {
+        let mut external = vec![0.0; self.state.u.len()];
+        for load in &model.loads {
+            load.external(t, &mut external);
+        }
+        model.links.transfer(&mut external);
+        let step = &model.steps[self.step];
+        let left = (step.end - t) / (step.end - step.start);
+        for &(dof, force) in &self.released {
+            external[dof] += left * force;
+        }
+        external
+    }
+}

@@ -1,0 +1,58 @@
+//! What is evaluated in every iteration: interfaces and couplings, with all that they remember.
+
+use super::definition::Step;
+use crate::body::couplings::Couplings;
+use crate::contact::interface::Interface;
+use crate::system::{Force, Stage, State};
+
+/// Interfaces and couplings: where bodies touch and what ties their points.
+pub struct Contact {
+    /// Interfaces.
+    pub interfaces: Vec<Interface>,
+    /// Equations between displacements and springs between points.
+    pub couplings: Couplings,
+}
+
+impl Contact {
+    /// All of them as forces.
+    pub(crate) fn forces(&mut self) -> Vec<&mut dyn Force> {
+        let interfaces = self.interfaces.iter_mut();
+        let mut forces: Vec<&mut dyn Force> = interfaces.map(|i| i as &mut dyn Force).collect();
+        if !self.couplings.is_empty() {
+            forces.push(&mut self.couplings);
+        }
+        forces
+    }
+
+    /// Tells all of them that an attempt is accepted.
+    pub(crate) fn commit(&mut self, stage: &Stage) {
+        for interface in &mut self.interfaces {
+            interface.commit(stage);
+        }
+        self.couplings.commit(stage);
+    }
+
+    /// Lets all of them act as springs, as explicit increments need it, or as they are; the energy that comes in by it `[J]`, one by one.
+    pub(crate) fn use_springs(&mut self, wanted: bool, mut bring: impl FnMut(f64)) {
+        for interface in &mut self.interfaces {
+            bring(interface.use_springs(wanted));
+        }
+        bring(self.couplings.use_springs(wanted));
+    }
+
+    /// Tells the interfaces that begin to act in the step at hand with which gaps they do.
+    pub(crate) fn begin_acting(&mut self, step: &Step, state: &State) {
+        let span = [step.start, step.end];
+        let mut at = state.clone();
+        at.t = step.start + 1e-9 * (step.end - step.start);
+        let stage = Stage {
+            from: state,
+            at: &at,
+            dt: at.t - state.t,
+            rate: None,
+        };
+        for interface in &mut self.interfaces {
+            interface.begin_acting(&stage, span);
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! What is simulated: bodies, supports, loads, steps.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::limits::Limits;
+use crate::body::loads::{Load, Spring};
+use crate::body::{Elastic, MassKind, Space};
+use crate::contact::interface::Change;
+use crate::math::Mat3;
+use crate::mesh::Mesh;
+use crate::newton::{BodyPoints, Settings};
+use crate::system::{Dofs, Fields, Links, Schedule, State};
+use crate::time::Increments;
+use crate::time::scheme::Method;
+pub use crate::time::{ContactAt, ContactMass};
+
+/// Everything that is simulated and does not change while it is.
+pub struct Model {
+    /// Title for reports.
+    pub title: String,
+    /// Kind of space.
+    pub space: Space,
+    /// All bodies in one mesh; bodies share no points.
+    pub mesh: Arc<Mesh>,
+    /// Numbering of the unknowns: the points of the mesh, then two hidden ones for each rigid body.
+    pub dofs: Dofs,
+    /// The rigid bodies.
+    pub links: Links,
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Springs to ground.
+    pub springs: Vec<Spring>,
+    /// Masses at points beside those of the cells `[kg]`.
+    pub masses: Vec<(usize, f64)>,
+    /// Supports and prescribed displacements.
+    pub supports: Vec<Support>,
+    /// Initial displacements and velocities.
+    pub initials: Vec<Initial>,
+    /// Steps, in order of time.
+    pub steps: Vec<Step>,
+    /// Quantities for the history.
+    pub probes: Vec<Probe>,
+    /// What is written when.
+    pub output: OutputPlan,
+    /// Settings of Newton's method.
+    pub settings: Settings,
+    /// How its systems are solved.
+    pub method: Solution,
+    /// Largest displacement increment relative to the size of the model.
+    pub largest_change: f64,
+    /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
+    pub energy_limit: f64,
+    /// Whether bodies that only contact can hold are followed until it does.
+    pub follow: bool,
+    /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
+    pub unused: Vec<String>,
+    /// What counts as a good solution.
+    pub quality: Limits,
+}
+
+/// A body: a range of points and blocks of the mesh.
+pub struct Body {
+    /// Name in the problem file.
+    pub name: String,
+    /// Its points.
+    pub points: Range<usize>,
+    /// Its blocks.
+    pub blocks: Range<usize>,
+    /// Its elasticity; of a rigid body only mass and volume count.
+    pub elastic: Elastic,
+    /// Its mass if it is rigid.
+    pub rigid: Option<Rigid>,
+    /// Rayleigh damping: factors of mass `[1/s]` and stiffness `[s]`.
+    pub rayleigh: [f64; 2],
+}
+
+/// What resists the motion of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigid {
+    /// Index of its link.
+    pub link: usize,
+    /// Mass `[kg]`.
+    pub mass: f64,
+    /// Moments of inertia about the centre of mass over the square of the length of the link `[kg]`, in the order of the dofs of its
+    /// second hidden point.
+    pub spin: Mat3,
+}
+
+impl Body {
+    /// Adds the fields of a state. In a rigid body there is no stress.
+    pub fn fields(&self, state: &State, out: &mut Fields) {
+        if self.rigid.is_none() {
+            self.elastic.fields(state, out);
+            return;
+        }
+        let at_rest = State {
+            t: state.t,
+            u: vec![0.0; state.u.len()],
+            ..State::default()
+        };
+        self.elastic.fields(&at_rest, out);
+    }
+}
+
+/// Initial values of some dofs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial {
+    /// Name in the problem file.
+    pub name: String,
+    /// Displacements at the start of the analysis, by dof `[m]`.
+    pub displacements: Vec<(usize, f64)>,
+    /// Velocities at the start of a step, by dof `[m/s]`.
+    pub velocities: Vec<(usize, f64)>,
+    /// The step, a dynamic one.
+    pub step: usize,
+}
+
+/// How the systems of Newton's method are solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Solution {
+    /// Whatever costs least by the counts of the symbolic factorisation.
+    #[default]
+    Automatic,
+    /// Bodies are factored once and felt at the contact candidates only.
+    Condensed,
+    /// The sparse matrix of everything is factored when the interfaces have changed much.
+    Sparse,
+    /// The sparse matrix of everything is solved by multigrid and GMRES: for bodies whose factors would be too large.
+    Multigrid,
+}
+
+impl Solution {
+    /// Whether bodies may be condensed.
+    pub fn condenses(self) -> bool {
+        !matches!(self, Solution::Sparse | Solution::Multigrid)
+    }
+}
+
+/// How a dynamic step is integrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dynamic {
+    /// The scheme.
+    pub method: Method,
+    /// How masses are given to points; always lumped in an explicit scheme.
+    pub mass: MassKind,
+    /// Whether points in contact have mass; `None`: only where the normal law is compliant.
+    pub contact_mass: Option<ContactMass>,
+    /// Where in the increment interfaces act.
+    pub contact_at: ContactAt,
+    /// Largest local error of the displacements relative to the motion so far `[-]`.
+    pub error: Option<f64>,
+    /// Time to which changes of status are located `[s]`.
+    pub events: Option<f64>,
+}
+
+impl Model {
+    /// Whether any step is dynamic.
+    pub fn moves(&self) -> bool {
+        self.steps.iter().any(|s| s.dynamic.is_some())
+    }
+
+    /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).
+    pub fn places(&self) -> BodyPoints {
+        let meshed = self.mesh.points.len();
+        let mut bodies = vec![self.bodies.len() as u32; self.dofs.points];
+        for (i, body) in self.bodies.iter().enumerate() {
+            bodies[body.points.clone()].fill(i as u32);
+        }
+        let mut coordinates = self.mesh.points.clone();
+        coordinates.resize(self.dofs.points, [0.0; 3]);
+        BodyPoints {
+            coordinates,
+            bodies,
+            elastic: meshed,
+        }
+    }
+
+    /// The bodies that deform.
+    pub fn elastic(&self) -> impl Iterator<Item = &Body> {
+        self.bodies.iter().filter(|b| b.rigid.is_none())
+    }
+
+    /// Sets the velocities that are given for the start of a step.
+    pub(crate) fn apply_initial_velocities(&self, step: usize, v: &mut [f64]) {
+        for initial in self.initials.iter().filter(|i| i.step == step) {
+            for &(dof, value) in &initial.velocities {
+                v[dof] = value;
+            }
+        }
+        self.links.impose(v);
+    }
+}
+
+/// Prescribed displacements of a set.
+#[derive(Debug, Clone)]
+pub struct Support {
+    /// Name in the problem file.
+    pub name: String,
+    /// The dofs and their values at factor 1.
+    pub entries: Vec<Prescribed>,
+    /// When it acts and with which factor.
+    pub schedule: Schedule,
+    /// `true` if the factor multiplies the value; `false` if it leads from the displacement at the start of the first step in
+    /// which it acts to the value.
+    pub table: bool,
+}
+
+/// One prescribed dof.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prescribed {
+    /// The dof.
+    pub dof: usize,
+    /// Displacement `[m]`; without meaning where held.
+    pub value: f64,
+    /// Stays where it is when the support begins to act.
+    pub hold: bool,
+}
+
+/// A step.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// Name.
+    pub name: String,
+    /// Start.
+    pub start: f64,
+    /// End.
+    pub end: f64,
+    /// Size of increments.
+    pub increments: Increments,
+    /// Times that increments must land on.
+    pub milestones: Vec<f64>,
+    /// Whether increments are of one given length.
+    pub fixed: bool,
+    /// How motion is integrated; `None` in a quasi-static step.
+    pub dynamic: Option<Dynamic>,
+    /// Interfaces, by name, whose laws change at its start.
+    pub changes: Vec<(String, Change)>,
+}
+
+impl Step {
+    /// Whether motion is integrated without solving equations.
+    pub fn is_explicit(&self) -> bool {
+        matches!(
+            self.dynamic,
+            Some(Dynamic {
+                method: Method::Explicit { .. },
+                ..
+            })
+        )
+    }
+}
+
+/// A point whose displacement and stress go into the history.
+#[derive(Debug, Clone)]
+pub struct Probe {
+    /// Name: the columns are `name.U1`, …
+    pub name: String,
+    /// The mesh point.
+    pub point: usize,
+}
+
+/// What is written when.
+#[derive(Debug, Clone, Default)]
+pub struct OutputPlan {
+    /// Fields after every so many increments; 0: only at `times` and at the end of steps.
+    pub every: usize,
+    /// Times of field output.
+    pub times: Vec<f64>,
+    /// A row of the history after every so many increments, and at times of output; at least 1.
+    pub history_every: usize,
+}

@@ -1,0 +1,166 @@
+//! The energy ledger: what there is, where it came from and where it went, and what is left of the balance.
+
+use serde::Serialize;
+
+use crate::system::Energy;
+
+/// Energy that flows over an increment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Flow {
+    /// Work of loads and reactions.
+    pub work: f64,
+    /// Dissipated by Rayleigh damping.
+    pub damped: f64,
+    /// Dissipated by the scheme.
+    pub numerical: f64,
+}
+
+/// Energies `[J]` (per unit of thickness or over 2π as the model has it).
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergyLedger {
+    /// Kinetic energy of the bodies.
+    pub kinetic: f64,
+    /// Elastic energy of the bodies and springs.
+    pub strain: f64,
+    /// Recoverable energy of the interfaces.
+    pub contact: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by damping of the interfaces.
+    pub contact_damping: f64,
+    /// Dissipated by Rayleigh damping.
+    pub rayleigh_damping: f64,
+    /// Dissipated by the scheme that integrates the motion; negative if it fed energy in.
+    pub numerical: f64,
+    /// Work that loads did on bodies on their way to where contact holds them, and that is lost there: the rule by which work is summed
+    /// up lets contact act over all of an increment, also over the part in which it was open. Negative if bodies came out of a
+    /// penetration.
+    pub artificial: f64,
+    /// Work of loads and supports.
+    pub external_work: f64,
+    /// Work of moving primary surfaces: obstacles, belts, and overlap that is resolved.
+    pub belt_work: f64,
+    /// The part of both that the trapezoidal rule misses in quasi-static increments: their forces do not grow in proportion where contact opens,
+    /// closes or begins to slide within an increment. It is found point by point, from pressure over gap and shear over slip.
+    pub path: f64,
+    /// By how much `friction` may be off at most in quasi-static increments, as nobody knows when within them points began to slide. It shows in
+    /// no balance; smaller increments make it smaller.
+    pub uncertain: f64,
+    #[serde(skip)]
+    passed: f64,
+    #[serde(skip)]
+    moved: f64,
+    #[serde(skip)]
+    exceeded: f64,
+    /// Energy brought in by initial velocities and displacements.
+    pub initial: f64,
+    /// What is left of the balance: supplied less stored and dissipated.
+    pub residual: f64,
+}
+
+/// How well the balance of energies closes over the whole analysis.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergyQuality {
+    /// Largest energy in play so far: stored and dissipated `[J]`.
+    pub scale: f64,
+    /// Largest residual so far `[J]`.
+    pub largest: f64,
+    /// The same relative to the energy in play `[-]`.
+    pub residual: f64,
+    /// What the residual should not exceed.
+    pub limit: f64,
+    /// Whether it did not.
+    pub met: bool,
+}
+
+impl EnergyLedger {
+    /// Enters an increment: its flows, and what is stored at its end.
+    /// `whole`: the trapezoidal rule is left as it is.
+    pub(crate) fn enter(
+        &mut self,
+        flow: Flow,
+        [kinetic, strain]: [f64; 2],
+        interfaces: &[Energy],
+        whole: bool,
+    ) {
+        self.rayleigh_damping += flow.damped;
+        self.numerical += flow.numerical;
+        self.kinetic = kinetic;
+        self.strain = strain;
+        let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
+        self.contact = sum(|e| e.stored);
+        self.friction = sum(|e| e.dissipated);
+        self.contact_damping = sum(|e| e.damped);
+        self.uncertain = sum(|e| e.uncertain);
+        let (passed, moved) = (sum(|e| e.path), sum(|e| e.work));
+        let missed = match whole {
+            true => 0.0,
+            false => passed - self.passed,
+        };
+        let excess = sum(|e| e.excess);
+        self.numerical -= excess - std::mem::replace(&mut self.exceeded, excess);
+        // Who drives has done it: in proportion, where several do.
+        let belt = moved - self.moved;
+        let all = flow.work.abs() + belt.abs();
+        let share = if all > 0.0 { belt.abs() / all } else { 0.0 };
+        self.external_work += flow.work + (1.0 - share) * missed;
+        self.belt_work += belt + share * missed;
+        self.path += missed;
+        (self.passed, self.moved) = (passed, moved);
+        self.close();
+    }
+
+    /// What the interfaces have entered: stored, dissipated and fed in.
+    pub(crate) fn of_interfaces(&self) -> f64 {
+        self.contact + self.friction + self.contact_damping - self.moved
+    }
+
+    /// Enters work lost on the way of bodies that were followed.
+    pub(crate) fn lose(&mut self, work: f64) {
+        self.artificial += work;
+        self.close();
+    }
+
+    /// Works out the residual.
+    pub(crate) fn close(&mut self) {
+        self.residual = self.initial + self.external_work + self.belt_work
+            - self.kinetic
+            - self.strain
+            - self.contact
+            - self.friction
+            - self.contact_damping
+            - self.rayleigh_damping
+            - self.numerical
+            - self.artificial;
+    }
+
+    /// Everything stored and dissipated.
+    fn in_play(&self) -> f64 {
+        self.kinetic
+            + self.strain
+            + self.contact
+            + self.friction
+            + self.contact_damping
+            + self.rayleigh_damping
+            + self.numerical.abs()
+    }
+}
+
+impl EnergyQuality {
+    /// Takes note of the ledger after an increment.
+    pub(crate) fn note(&mut self, ledger: &EnergyLedger) {
+        self.scale = self.scale.max(ledger.in_play());
+        // What is not a number is no small residual.
+        let open = match ledger.residual.is_nan() {
+            true => f64::INFINITY,
+            false => ledger.residual.abs(),
+        };
+        self.largest = self.largest.max(open);
+        if self.scale > 0.0 {
+            self.residual = self.largest / self.scale;
+        }
+        self.met = self.residual <= self.limit;
+    }
+}

@@ -1,0 +1,24 @@
+//! What is simulated and where it stands: data, and what acts at a time.
+
+pub(crate) mod conditions;
+pub(crate) mod contact;
+pub(crate) mod definition;
+pub(crate) mod drivers;
+pub(crate) mod frame;
+pub(crate) mod free_bodies;
+pub(crate) mod ledger;
+pub(crate) mod limits;
+pub(crate) mod scene;
+pub(crate) mod setup;
+pub(crate) mod unheld;
+
+pub use contact::Contact;
+pub use definition::{
+    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid,
+    Solution, Step, Support,
+};
+pub use frame::{Frame, Motion};
+pub use ledger::{EnergyLedger, EnergyQuality};
+pub use limits::{GateMode, Limits};
+pub use scene::Scene;
+pub use setup::Setup;

@@ -1,0 +1,89 @@
+//! What is simulated and where it stands.
+
+use super::contact::Contact;
+use super::definition::{Model, Step};
+use super::frame::Frame;
+use crate::system::Constraints;
+
+/// What is simulated and where it stands: enough to say what acts.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// What is simulated.
+    pub model: &'a Model,
+    /// Interfaces and couplings.
+    pub contact: &'a Contact,
+    /// The last accepted increment.
+    pub frame: &'a Frame,
+}
+
+impl<'a> Scene<'a> {
+    /// Constraints at a time.
+    pub(crate) fn constraints(&self, t: f64) -> Constraints {
+        self.frame.constraints(self.model, t)
+    }
+
+    /// External forces at a time.
+    pub(crate) fn external(&self, t: f64) -> Vec<f64> {
+        self.frame.external(self.model, t)
+    }
+
+    /// Dofs that are prescribed at the time of the state, by dof.
+    pub fn held_dofs(&self) -> Vec<bool> {
+        let t = self.frame.state.t;
+        self.frame.constraints(self.model, t).fixed
+    }
+
+    /// What acts on the points from outside, by dof `[N]`: loads, reactions of supports, and equations. In equilibrium it is what bodies,
+    /// springs and interfaces resist with.
+    pub fn external_forces(&self) -> Vec<f64> {
+        let both = self.frame.forces.iter().zip(&self.frame.load);
+        let mut out: Vec<f64> = both.map(|(reaction, load)| reaction + load).collect();
+        self.contact.couplings.add_equation_forces(&mut out);
+        out
+    }
+
+    /// The number of the point whose forces are farthest from balance, if any are.
+    pub fn worst_point(&self) -> Option<u64> {
+        let fixed = self.held_dofs();
+        let dofs = self.model.dofs;
+        let points = 0..self.model.mesh.points.len();
+        let size = |p: usize| -> f64 {
+            let free = (0..dofs.dim).map(|c| dofs.of(p, c)).filter(|&d| !fixed[d]);
+            free.map(|d| self.frame.forces[d].powi(2)).sum()
+        };
+        let worst = points
+            .map(|p| (size(p), p))
+            .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        (worst.0 > 0.0).then(|| self.model.mesh.point_ids[worst.1])
+    }
+
+    /// The step at hand; `None` in an analysis without steps.
+    pub fn step(&self) -> Option<&'a Step> {
+        self.model.steps.get(self.frame.step)
+    }
+
+    /// Its name.
+    pub fn step_name(&self) -> &'a str {
+        self.step().map_or("", |s| s.name.as_str())
+    }
+
+    /// Its index.
+    pub fn step_index(&self) -> usize {
+        self.frame.step
+    }
+
+    /// The step at hand, for a sentence.
+    pub(crate) fn called(&self) -> String {
+        match self.step_name() {
+            name if name.starts_with("step") => name.to_string(),
+            name => format!("step {name}"),
+        }
+    }
+
+    /// Whether a body is in contact at the last accepted state.
+    pub(crate) fn touches(&self, body: usize) -> bool {
+        let points = &self.model.bodies[body].points;
+        let mut all = self.contact.interfaces.iter();
+        all.any(|i| i.touched() && i.nodes.iter().any(|n| points.contains(n)))
+    }
+}

@@ -1,0 +1,177 @@
+//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`, and
+//! `culprits.vtu` where the doctor found something.
+
+use std::path::Path;
+
+use super::analysis::Analysis;
+use super::folder::{Claim, Folder, INTERFACES};
+use super::observer::{Event, Observer};
+use super::summary::Summary;
+use crate::assess::doctor;
+use crate::assess::view::View;
+use crate::error::Error;
+use crate::io::{csv, pvd, vtu, write_atomically};
+use crate::system::{Field, Fields, Location};
+
+/// Writes results into a directory as the run goes on; what is there at any time is complete.
+pub struct ResultFiles {
+    folder: Folder,
+    pvd: pvd::Collection,
+    history: Option<csv::History>,
+    count: usize,
+}
+
+impl ResultFiles {
+    /// Makes the directory and takes it for one run: until this is dropped no other gets it. Results of an earlier run are removed, files of others
+    /// are not touched, and `summary.json` says `running` until the end.
+    ///
+    /// # Errors
+    /// [`Error::Io`]: what the system says; another run is in the directory; a result would replace an input, or a file that no run has written.
+    pub fn new(directory: &Path, claim: &Claim) -> Result<Self, Error> {
+        Ok(ResultFiles {
+            folder: Folder::take(directory, claim)?,
+            pvd: pvd::Collection::new(&directory.join("fields.pvd")),
+            history: None,
+            count: 0,
+        })
+    }
+
+    /// What a user should know of what was in the directory.
+    pub fn notes(&self) -> &[String] {
+        &self.folder.notes
+    }
+
+    fn output(&mut self, view: &View) -> Result<(), Error> {
+        let fields = fields(view);
+        let name = format!("fields_{:05}.vtu", self.count);
+        self.count += 1;
+        let path = self.folder.directory.join(&name);
+        vtu::write(&path, &view.model.mesh, &fields, Some(&owners(view)))?;
+        self.pvd.push(view.frame.state.t, &name)?;
+        let folder = self.folder.directory.join(INTERFACES);
+        if !view.contact.interfaces.is_empty() {
+            std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+        }
+        for interface in &view.contact.interfaces {
+            let (names, columns) = interface.table(&view.frame.state.u);
+            let path = folder.join(format!("{}.csv", interface.name));
+            csv::write(&path, &csv::Table { names, columns })?;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, summary: &Summary) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(summary)
+            .map_err(|e| Error::io(&self.folder.directory, std::io::Error::other(e)))?;
+        let path = self.folder.directory.join("summary.json");
+        write_atomically(&path, text.as_bytes())?;
+        let places = self.folder.directory.join("culprits.vtu");
+        let findings = &summary.findings;
+        if findings.iter().all(|f| f.guilty.is_empty()) {
+            // Those of an earlier run would mislead.
+            return match std::fs::remove_file(&places) {
+                Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io(&places, e)),
+                _ => Ok(()),
+            };
+        }
+        doctor::write_culprits(&places, findings)
+    }
+}
+
+/// All fields of the last accepted state.
+pub fn fields(view: &View) -> Fields {
+    let model = view.model;
+    let mut fields = Fields::default();
+    let dofs = model.dofs;
+    let vectors = |values: &[f64]| -> Vec<f64> {
+        (0..model.mesh.points.len())
+            .flat_map(|p| dofs.vector(values, p))
+            .collect()
+    };
+    fields.all.push(Field {
+        name: "U".into(),
+        location: Location::Point,
+        components: 3,
+        values: vectors(&view.frame.state.u),
+    });
+    for (name, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
+        if model.moves() {
+            fields.all.push(Field {
+                name: name.into(),
+                location: Location::Point,
+                components: 3,
+                values: match values.is_empty() {
+                    true => vec![0.0; 3 * model.mesh.points.len()],
+                    false => vectors(values),
+                },
+            });
+        }
+    }
+    let fixed = view.held_dofs();
+    let reactions: Vec<f64> = view
+        .frame
+        .forces
+        .iter()
+        .zip(&fixed)
+        .map(|(f, &fixed)| if fixed { *f } else { 0.0 })
+        .collect();
+    fields.all.push(Field {
+        name: "RF".into(),
+        location: Location::Point,
+        components: 3,
+        values: vectors(&reactions),
+    });
+    for body in &model.bodies {
+        body.fields(&view.frame.state, &mut fields);
+    }
+    for interface in &view.contact.interfaces {
+        interface.fields(&mut fields);
+    }
+    fields
+}
+
+/// The number of its body for every cell.
+fn owners(view: &View) -> Vec<usize> {
+    let model = view.model;
+    let bodies = model.bodies.iter().enumerate();
+    bodies
+        .flat_map(|(i, body)| {
+            let blocks = &model.mesh.blocks[body.blocks.clone()];
+            let cells = blocks.iter().map(|b| b.cell_ids.len()).sum();
+            std::iter::repeat_n(i, cells)
+        })
+        .collect()
+}
+
+impl Observer for ResultFiles {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
+        // A run that was stopped may go on.
+        self.folder.resume()?;
+        if matches!(event, Event::Output | Event::End) {
+            self.folder.check()?;
+        }
+        match event {
+            Event::Increment(row) => {
+                if self.history.is_none() {
+                    let path = self.folder.directory.join("history.csv");
+                    self.history = Some(csv::History::create(&path, &row.names)?);
+                }
+                if let Some(history) = &mut self.history {
+                    history.row(&row.values)?;
+                }
+            }
+            Event::Output => self.output(analysis)?,
+            Event::End => {
+                let ended = self.end(analysis.summary);
+                self.folder.release();
+                ended?;
+            }
+            Event::Iteration(_)
+            | Event::Accepted(_)
+            | Event::Cutback(..)
+            | Event::Note(_)
+            | Event::Finding(_) => {}
+        }
+        Ok(())
+    }
+}

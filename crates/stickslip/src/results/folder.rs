@@ -1,0 +1,267 @@
+//! The folder of results: it belongs to one run at a time, what an earlier run left there goes before the first file is written, and no
+//! file is touched that a run of this program did not write.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::lock::{self, Lock, Refused};
+use super::summary::Status;
+use crate::error::{Error, IoError};
+use crate::io::write_atomically;
+
+/// What a run takes a folder with.
+#[derive(Debug, Clone, Default)]
+pub struct Claim {
+    /// The files that the problem is read from; none of them is ever written to.
+    pub inputs: Vec<PathBuf>,
+    /// Names of files that are written into the folder beside the usual ones.
+    pub also: Vec<String>,
+}
+
+/// A folder that belongs to this run.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    /// Where it is.
+    pub directory: PathBuf,
+    /// What the user should know of what was there.
+    pub notes: Vec<String>,
+    /// Nobody holds it when the run has ended.
+    lock: Option<Lock>,
+}
+
+impl Folder {
+    /// Makes the folder, takes it, and removes what an earlier run left. From now on its `summary.json` says that a run is going on.
+    ///
+    /// # Errors
+    /// [`Error::Io`]: what the system says; another run is in it; it holds an input, or files that no run has written, under names of results.
+    pub fn take(directory: &Path, claim: &Claim) -> Result<Folder, Error> {
+        fs::create_dir_all(directory).map_err(|e| no_folder(directory, e))?;
+        for input in &claim.inputs {
+            spare(directory, input, claim)?;
+        }
+        let lock = hold(directory)?;
+        let mut notes = Vec::new();
+        if let Some(holder) = &lock.stale {
+            notes.push(format!(
+                "{}: the run before ({holder}) was killed; what it left is removed",
+                directory.display()
+            ));
+        }
+        let folder = Folder {
+            directory: directory.to_path_buf(),
+            notes,
+            lock: Some(lock),
+        };
+        let old = folder.old(claim)?;
+        // Killed from here on, the run is known for that.
+        folder.say_running()?;
+        for path in &old {
+            fs::remove_file(path).map_err(|e| Error::io(path, e))?;
+        }
+        // Only if it is empty.
+        let _ = fs::remove_dir(directory.join(INTERFACES));
+        Ok(folder)
+    }
+
+    /// Gives the folder back: all is written.
+    pub fn release(&mut self) {
+        self.lock = None;
+    }
+
+    /// Whether it is still ours and what was written is still there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the folder, or the file that says whose it is, was removed.
+    pub fn check(&self) -> Result<(), Error> {
+        match &self.lock {
+            Some(lock) if !lock.stands() => Err(fault(
+                &self.directory,
+                format!(
+                    "the folder, or the {} in it, was removed while the run wrote to it: results before this time are lost; run again into another folder",
+                    lock::NAME
+                ),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes it once more: a run that was stopped goes on.
+    ///
+    /// # Errors
+    /// Those of [`Folder::take`].
+    pub fn resume(&mut self) -> Result<(), Error> {
+        if self.lock.is_none() {
+            self.lock = Some(hold(&self.directory)?);
+            self.say_running()?;
+        }
+        Ok(())
+    }
+
+    /// What is found in `summary.json` later, if the run is killed.
+    fn say_running(&self) -> Result<(), Error> {
+        let holder = lock::Holder::this();
+        let text = serde_json::json!({
+            "status": Status::Running,
+            "outcome": "running",
+            "completed": false,
+            "version": env!("CARGO_PKG_VERSION"),
+            "process": holder.process,
+            "host": holder.host,
+            "findings": [],
+        });
+        let path = self.directory.join("summary.json");
+        write_atomically(&path, format!("{text:#}\n").as_bytes())
+    }
+
+    /// The results of an earlier run, but for its summary.
+    fn old(&self, claim: &Claim) -> Result<Vec<PathBuf>, Error> {
+        let mut old = results(&self.directory, claim)?;
+        let summary = self.directory.join("summary.json");
+        let made_here = summary.is_file();
+        if let Some(first) = old.first().filter(|_| !made_here) {
+            return Err(fault(
+                first,
+                "it would be replaced, but there is no summary.json of a run beside it: choose another folder, or remove it".into(),
+            ));
+        }
+        old.retain(|path| *path != summary);
+        Ok(old)
+    }
+}
+
+fn hold(directory: &Path) -> Result<Lock, Error> {
+    Lock::take(directory).map_err(|refused| match refused {
+        Refused::Io(e) => Error::io(&directory.join(lock::NAME), e),
+        Refused::Taken(holder) => fault(
+            directory,
+            format!(
+                "another run writes into this folder ({holder}): wait for it, or choose another folder; if that run is over, remove {}",
+                lock::NAME
+            ),
+        ),
+    })
+}
+
+/// Whether a run is going on in a folder of results, and who runs it: `process 4711 on host`.
+pub fn running(directory: &Path) -> Option<String> {
+    Lock::holder(directory).map(|holder| holder.to_string())
+}
+
+/// The folder of the tables of interfaces.
+pub(crate) const INTERFACES: &str = "interfaces";
+
+const FILES: &[&str] = &[
+    "summary.json",
+    "history.csv",
+    "fields.pvd",
+    "culprits.vtu",
+    "problem.toml",
+    "report.html",
+];
+
+/// Whether a file in the folder has the name of a result.
+fn is_result(name: &str, claim: &Claim) -> bool {
+    let number = name
+        .strip_prefix("fields_")
+        .and_then(|n| n.strip_suffix(".vtu"));
+    let is_field =
+        number.is_some_and(|n| n.len() >= 5 && n.bytes().all(|byte| byte.is_ascii_digit()));
+    is_field || FILES.contains(&name) || claim.also.iter().any(|also| also == name)
+}
+
+/// All files in the folder that have names of results.
+fn results(directory: &Path, claim: &Claim) -> Result<Vec<PathBuf>, Error> {
+    let mut out = files(directory, |name| is_result(name, claim))?;
+    let tables = directory.join(INTERFACES);
+    if tables.is_dir() {
+        out.extend(files(&tables, |name| name.ends_with(".csv"))?);
+    }
+    out.sort();
+    Ok(out)
+}
+
+fn files(directory: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<PathBuf>, Error> {
+    let entries = fs::read_dir(directory).map_err(|e| Error::io(directory, e))?;
+    let mut out = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(|e| Error::io(directory, e))?;
+        let name = entry.file_name();
+        if name.to_str().is_some_and(&wanted) && !entry.path().is_dir() {
+            out.push(entry.path());
+        }
+    }
+    Ok(out)
+}
+
+/// Refuses a folder in which a result would replace an input.
+fn spare(directory: &Path, input: &Path, claim: &Claim) -> Result<(), Error> {
+    // What does not exist cannot be replaced.
+    let (Ok(folder), Ok(file)) = (directory.canonicalize(), input.canonicalize()) else {
+        return Ok(());
+    };
+    let name = file.file_name().and_then(|n| n.to_str());
+    let name = name.unwrap_or_default();
+    let replaced = match file.parent() {
+        Some(parent) if parent == folder => is_result(name, claim),
+        Some(parent) if parent == folder.join(INTERFACES) => name.ends_with(".csv"),
+        _ => false,
+    };
+    match replaced {
+        true => Err(fault(
+            input,
+            format!(
+                "the results would replace this file, from which the problem is read: choose another folder than {}",
+                directory.display()
+            ),
+        )),
+        false => Ok(()),
+    }
+}
+
+fn no_folder(directory: &Path, e: std::io::Error) -> Error {
+    use std::io::ErrorKind::{AlreadyExists, NotADirectory};
+    match e.kind() {
+        AlreadyExists | NotADirectory => fault(
+            directory,
+            "the results need a folder here, and a file or a link to nothing is in its way: choose another folder, or remove it".into(),
+        ),
+        _ => Error::io(directory, e),
+    }
+}
+
+/// A file that is written again and again by one process: no other may write it meanwhile. A file beside it, with `.lock` behind the name, says so; it
+/// is gone when this is dropped.
+#[derive(Debug)]
+pub struct FileClaim {
+    _lock: Lock,
+}
+
+impl FileClaim {
+    /// Takes the file, which need not exist.
+    ///
+    /// # Errors
+    /// [`Error::Io`]: what the system says; another process has it.
+    pub fn take(file: &Path) -> Result<FileClaim, Error> {
+        let mut beside = file.as_os_str().to_owned();
+        beside.push(".lock");
+        let beside = PathBuf::from(beside);
+        match Lock::take_file(beside.clone()) {
+            Ok(lock) => Ok(FileClaim { _lock: lock }),
+            Err(Refused::Io(e)) => Err(Error::io(&beside, e)),
+            Err(Refused::Taken(holder)) => Err(fault(
+                file,
+                format!(
+                    "{holder} writes this file: wait for it, or choose another; if that is over, remove {}",
+                    beside.display()
+                ),
+            )),
+        }
+    }
+}
+
+fn fault(path: &Path, message: String) -> Error {
+    Error::Io(IoError {
+        file: path.to_path_buf(),
+        message,
+    })
+}

@@ -1,0 +1,168 @@
+//! One row of numbers an increment: what happened, energies, interfaces, supports, probes.
+
+use crate::assess::view::View;
+use crate::body::Around;
+use crate::contact::interface::Resultant;
+use crate::model::definition::Support;
+use crate::system::Tally;
+use crate::time::Trial;
+
+/// A row of the history: names and values.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Row {
+    /// Column names.
+    pub names: Vec<String>,
+    /// Values.
+    pub values: Vec<f64>,
+}
+
+impl Row {
+    fn push(&mut self, name: impl Into<String>, value: f64) {
+        self.names.push(name.into());
+        self.values.push(value);
+    }
+
+    /// The value of a column.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        let i = self.names.iter().position(|n| n == name)?;
+        Some(self.values[i])
+    }
+}
+
+/// What an increment took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Multiplier updates.
+    pub rounds: usize,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
+}
+
+pub(crate) fn row(
+    view: &View,
+    around: &[Option<Around>],
+    trial: Trial,
+    effort: Effort,
+    (increment, attempt): (usize, usize),
+) -> Row {
+    let mut row = Row::default();
+    // the first columns as in the .sta file of Abaqus and CalculiX
+    row.push("STEP", view.step_index() as f64 + 1.0);
+    row.push("INC", increment as f64);
+    row.push("ATT", attempt as f64);
+    row.push("ITRS", effort.iterations as f64);
+    row.push("TIME", trial.to);
+    row.push("DT", trial.to - trial.from);
+    row.push("AUGMENTATIONS", effort.rounds as f64);
+    row.push("RESIDUAL", effort.residual);
+    row.push("OPEN", effort.tally.open as f64);
+    row.push("STICK", effort.tally.stick as f64);
+    row.push("SLIP", effort.tally.slip as f64);
+    let e = &view.frame.ledger;
+    row.push("ALLSE", e.strain);
+    row.push("ALLCE", e.contact);
+    row.push("ALLFD", e.friction);
+    row.push("ALLWK", e.external_work + e.belt_work);
+    row.push("ALLAE", e.artificial);
+    row.push("ERESIDUAL", e.residual);
+    if view.model.moves() {
+        row.push("ALLKE", e.kinetic);
+        row.push("ALLVD", e.rayleigh_damping);
+        row.push("ALLCD", e.contact_damping);
+        row.push("ALLND", e.numerical);
+        row.push("EINITIAL", e.initial);
+    }
+    let dim = view.model.dofs.dim;
+    for interface in &view.contact.interfaces {
+        let r = interface.resultant(&view.frame.state.u);
+        push_resultant(&mut row, &interface.name, &r, dim);
+        row.push(
+            format!("{}.ALLFD", interface.name),
+            interface.energy().dissipated,
+        );
+        if let Some(wear) = interface.wear() {
+            let [own, other] = wear.depth;
+            row.push(format!("{}.CWEARMAX", interface.name), own.max(other));
+            let volume = wear.volume[0] + wear.volume[1];
+            row.push(format!("{}.CWEARVOL", interface.name), volume);
+        }
+    }
+    for (name, force, sum) in view.contact.couplings.report(&view.frame.state.u) {
+        row.push(format!("{name}.F"), force);
+        row.push(format!("{name}.U"), sum);
+    }
+    for support in &view.model.supports {
+        push_reaction(&mut row, &support.name, view, support);
+    }
+    push_probes(&mut row, view, around);
+    row
+}
+
+fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
+    let dofs = view.model.dofs;
+    let mut sum = [0.0; 3];
+    if support.schedule.active(view.frame.state.t) {
+        for e in &support.entries {
+            let (point, component) = dofs.locate(e.dof);
+            // the moments that hold a rigid body are no forces
+            if !view.model.links.turns(point) {
+                sum[component] += view.frame.forces[e.dof];
+            }
+        }
+    }
+    for (c, s) in sum.iter().enumerate().take(dofs.dim) {
+        row.push(format!("{name}.RF{}", c + 1), *s);
+    }
+}
+
+fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
+    for c in 0..dim {
+        row.push(format!("{name}.CFN{}", c + 1), r.normal[c]);
+    }
+    for c in 0..dim {
+        row.push(format!("{name}.CFS{}", c + 1), r.shear[c]);
+    }
+    for c in 0..dim {
+        row.push(format!("{name}.XN{}", c + 1), r.centre[c]);
+    }
+    row.push(format!("{name}.CAREA"), r.area);
+    row.push(format!("{name}.CPRESSMAX"), r.peak);
+}
+
+fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
+    let model = view.model;
+    let dim = model.dofs.dim;
+    for (probe, around) in model.probes.iter().zip(around) {
+        let point = probe.point;
+        let u = model.dofs.vector(&view.frame.state.u, point);
+        for (c, u) in u.iter().enumerate().take(dim) {
+            row.push(format!("{}.U{}", probe.name, c + 1), *u);
+        }
+        if model.moves() {
+            for (letter, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
+                let x = match values.is_empty() {
+                    true => [0.0; 3],
+                    false => model.dofs.vector(values, point),
+                };
+                for (c, x) in x.iter().enumerate().take(dim) {
+                    row.push(format!("{}.{letter}{}", probe.name, c + 1), *x);
+                }
+            }
+        }
+        // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
+        let stress = match around {
+            Some(around) => around.stress(model.dofs, &view.frame.state.u),
+            None => [0.0; 6],
+        };
+        for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
+            if dim == 2 && k >= 4 {
+                continue;
+            }
+            row.push(format!("{}.S{name}", probe.name), stress[k]);
+        }
+    }
+}

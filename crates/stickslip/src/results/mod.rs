@@ -1,0 +1,17 @@
+//! What comes of an analysis: history, fields, summary, files, and their comparison with what is expected.
+
+pub(crate) mod analysis;
+pub mod compare;
+pub(crate) mod files;
+pub(crate) mod folder;
+pub(crate) mod history;
+pub(crate) mod lock;
+pub(crate) mod observer;
+pub(crate) mod summary;
+
+pub use analysis::Analysis;
+pub use files::{ResultFiles, fields};
+pub use folder::{Claim, FileClaim, running};
+pub use history::Row;
+pub use observer::{Advance, Event, Observer};
+pub use summary::{Phases, Status, Summary};

@@ -1,0 +1,52 @@
+//! Who looks on while an analysis runs, and what they are told.
+
+use super::analysis::Analysis;
+use super::history::Row;
+use crate::assess::doctor::Finding;
+use crate::error::Error;
+use crate::newton::Progress;
+use crate::system::{StepFailure, Tally};
+use crate::time::Trial;
+
+/// What observers are told.
+pub enum Event<'a> {
+    /// A Newton iteration.
+    Iteration(&'a Progress),
+    /// An increment was accepted. What comes of it may be told later, with others.
+    Accepted(&'a Advance),
+    /// What came of an accepted increment: the history row.
+    Increment(&'a Row),
+    /// Something a user should know.
+    Note(&'a str),
+    /// What the doctor found in the model before the first step.
+    Finding(&'a Finding),
+    /// Fields are due at the state of the simulation.
+    Output,
+    /// An increment failed and will be tried again, smaller.
+    Cutback(&'a Trial, &'a StepFailure),
+    /// The run is over, well or not.
+    End,
+}
+
+/// An accepted increment at a glance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    /// Attempts it took.
+    pub attempt: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Its end `[s]`.
+    pub time: f64,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
+}
+
+/// Looks on while a simulation runs.
+pub trait Observer {
+    /// Something happened. An error ends the run.
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error>;
+}

@@ -1,0 +1,194 @@
+use serde::Serialize;
+
+use crate::assess::doctor::Finding;
+use crate::assess::quality::{Gate, InterfaceSummary};
+use crate::error::Error;
+use crate::machine::peak_memory;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::ledger::{EnergyLedger, EnergyQuality};
+use crate::newton::{Fallback, Statistics};
+
+/// What `summary.json` holds.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Summary {
+    /// Title of the problem.
+    pub title: String,
+    /// Version of stickslip.
+    pub version: &'static str,
+    /// How far the run has come. In the file it says `running` from the first moment on, so that a run that was killed is found out.
+    pub status: Status,
+    /// `done`, or why not.
+    pub outcome: String,
+    /// Whether the run reached its end.
+    pub completed: bool,
+    /// What the doctor found, in the order in which it happened; 200 at most.
+    pub findings: Vec<Finding>,
+    /// How the systems of equations were solved.
+    pub method: String,
+    /// Why so.
+    pub method_reason: String,
+    /// What else a user should know.
+    pub notes: Vec<String>,
+    /// Size of the problem.
+    pub size: Size,
+    /// Accepted increments.
+    pub increments: usize,
+    /// Newton iterations of accepted increments.
+    pub iterations: usize,
+    /// Attempts rejected to locate changes of status in time.
+    pub events: usize,
+    /// Attempts rejected for other reasons.
+    pub cutbacks: usize,
+    /// Why, one line each.
+    pub cutback_reasons: Vec<String>,
+    /// What was tried when plain iteration had failed, in this order, attempt by attempt. When nothing helped the increment was cut back.
+    pub fallbacks: Vec<FallbackSummary>,
+    /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
+    pub stable_increment: f64,
+    /// Mass added by mass scaling, relative to the mass there is.
+    pub mass_added: f64,
+    /// Largest rotation of a body so far `[rad]`, an elastic one by its mean displacement gradient at the rows of the history. Rotations are
+    /// linearised about the start: above about 0.1 it shows, as the body grows by the half of its square.
+    pub largest_rotation: f64,
+    /// Increments in which bodies that only contact can hold were moved or anchored.
+    pub followed: usize,
+    /// Energy left in the anchors that held such bodies in the last of them, over the strain energy.
+    pub artificial_energy: f64,
+    /// Counts and times of the solver.
+    pub solver: Statistics,
+    /// Seconds by phase.
+    pub phases: Phases,
+    /// Seconds that one assembly, ordering, factorisation and solution of the same bodies takes, as measured in this run; 0 if nothing was
+    /// factored.
+    pub linear_solve: f64,
+    /// The whole analysis without writing, over that.
+    pub relative_to_linear: f64,
+    /// Largest memory of the process `[bytes]`; 0 if the system does not tell.
+    pub peak_memory: u64,
+    /// Threads used.
+    pub threads: usize,
+    /// Energies at the end.
+    pub energy: EnergyLedger,
+    /// How well the balance of energies closes.
+    pub energy_quality: EnergyQuality,
+    /// How good the solution is, and whether that is enough.
+    pub quality: Gate,
+    /// Interfaces at the end.
+    pub interfaces: Vec<InterfaceSummary>,
+    /// Last row of the history.
+    pub last: std::collections::BTreeMap<String, f64>,
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It goes on, or was killed.
+    #[default]
+    Running,
+    /// It reached its end. Whether the result is good enough is another question: see `quality`.
+    Done,
+    /// It ended with an error.
+    Failed,
+    /// It was asked to stop.
+    Interrupted,
+}
+
+/// A way other than plain iteration by which an increment was tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct FallbackSummary {
+    /// Step.
+    pub step: String,
+    /// Start of the increment `[s]`.
+    pub from: f64,
+    /// Its end `[s]`.
+    pub to: f64,
+    /// Which way, and what came of it.
+    #[serde(flatten)]
+    pub tried: Fallback,
+}
+
+/// Size of a problem.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Size {
+    /// Points.
+    pub points: usize,
+    /// Cells.
+    pub cells: usize,
+    /// Displacement dofs.
+    pub dofs: usize,
+    /// Points of secondary surfaces.
+    pub contact_points: usize,
+}
+
+/// Seconds by phase.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Phases {
+    /// Reading and meshing.
+    pub read: f64,
+    /// Assembly of the bulk.
+    pub assemble: f64,
+    /// Ordering and symbolic factorisation.
+    pub order: f64,
+    /// Numeric factorisation.
+    pub factor: f64,
+    /// Inverses of what partial factorisations leave.
+    pub condense: f64,
+    /// Linear systems of Newton's method.
+    pub iterate: f64,
+    /// Search, pairing and assembly of interfaces.
+    pub contact: f64,
+    /// Interiors of condensed bodies, and the check that they balance.
+    pub recover: f64,
+    /// Writing results.
+    pub write: f64,
+    /// Wall time of the run.
+    pub total: f64,
+}
+
+impl Summary {
+    /// An empty summary of this model.
+    pub fn new(model: &Model, contact: &Contact) -> Self {
+        Summary {
+            title: model.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            size: Size {
+                points: model.mesh.points.len(),
+                cells: model.mesh.blocks.iter().map(|b| b.cell_ids.len()).sum(),
+                dofs: model.dofs.count(),
+                contact_points: contact.interfaces.iter().map(|i| i.points.len()).sum(),
+            },
+            threads: rayon::current_num_threads(),
+            ..Summary::default()
+        }
+    }
+
+    pub(crate) fn finish(&mut self, solver: &Statistics, total: f64, error: Option<&Error>) {
+        self.solver = *solver;
+        self.phases.order = solver.seconds_order;
+        self.phases.factor = solver.seconds_factor;
+        self.phases.condense = solver.seconds_condense;
+        self.phases.iterate = solver.seconds_solve;
+        self.phases.recover = solver.seconds_recover;
+        self.phases.contact = solver.seconds_contact;
+        self.phases.total = total;
+        self.linear_solve = solver.linear_solve + self.phases.assemble;
+        if self.linear_solve > 0.0 && solver.linear_solve > 0.0 {
+            self.relative_to_linear =
+                (total + self.phases.assemble - self.phases.write) / self.linear_solve;
+        }
+        self.completed = error.is_none();
+        self.status = match error {
+            None => Status::Done,
+            Some(Error::Interrupted(_)) => Status::Interrupted,
+            Some(_) => Status::Failed,
+        };
+        self.outcome = error.map_or("done".into(), Error::to_string);
+        self.peak_memory = peak_memory();
+    }
+}

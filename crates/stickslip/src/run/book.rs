@@ -1,0 +1,90 @@
+//! How an accepted increment becomes the last state, and enters the ledger.
+
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
+use crate::results::history::Effort;
+use crate::results::summary::Summary;
+use crate::solve::accepted::Accepted;
+
+/// Makes it the last state, and enters it into the ledger.
+pub(crate) fn book(
+    model: &Model,
+    contact: &Contact,
+    frame: &mut Frame,
+    summary: &mut Summary,
+    accepted: Accepted,
+) -> Effort {
+    let effort = effort(&accepted);
+    let first = summary.increments == 0;
+    let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
+    let contact_work = match followed {
+        true => contact_work(&accepted, frame),
+        false => 0.0,
+    };
+    frame.state = accepted.state;
+    frame.forces = accepted.forces;
+    frame.contact = accepted.contact;
+    frame.load = accepted.external;
+    if let Some(internal) = accepted.internal {
+        frame.motion.internal = internal;
+        frame.motion.travel = accepted.travel;
+    }
+    summary.increments += 1;
+    summary.iterations += effort.iterations;
+    let turned = model.links.largest_rotation(&frame.state.u);
+    // Elastic bodies are looked at where there is a row of the history.
+    summary.largest_rotation = summary.largest_rotation.max(turned);
+    // The energy of couplings counts with that of the bodies.
+    let couplings = &contact.couplings;
+    let (stored, coupled) = (couplings.energy().stored, couplings.work());
+    let coupled_before = std::mem::replace(&mut frame.coupled, stored);
+    let flow = Flow {
+        work: accepted.flow.work + coupled,
+        ..accepted.flow
+    };
+    let interfaces: Vec<_> = contact.interfaces.iter().map(|i| i.energy()).collect();
+    let ledger = &mut frame.ledger;
+    let before = ledger.of_interfaces();
+    let energies = [accepted.kinetic, accepted.strain + stored];
+    ledger.enter(flow, energies, &interfaces, followed);
+    if followed {
+        // Less what the interfaces have entered of it.
+        let entered = ledger.of_interfaces() - before + stored - coupled_before - coupled;
+        ledger.lose(contact_work - entered);
+    }
+    summary.energy_quality.note(ledger);
+    summary.energy = *ledger;
+    effort
+}
+
+/// What it took.
+fn effort(accepted: &Accepted) -> Effort {
+    Effort {
+        iterations: accepted.iterations,
+        rounds: accepted.rounds,
+        residual: accepted.residual,
+        tally: accepted.tally,
+    }
+}
+
+/// Work that contact took over an increment by the trapezoidal rule, as that of loads is entered.
+fn contact_work(accepted: &Accepted, frame: &Frame) -> f64 {
+    let mut work = 0.0;
+    for (i, after) in accepted.contact.iter().enumerate() {
+        let before = frame.contact.get(i).copied().unwrap_or(0.0);
+        work += 0.5 * (before + after) * (accepted.state.u[i] - frame.state.u[i]);
+    }
+    work
+}
+
+/// Whether an increment at rest begins with a normal law that presses where the gap is zero. Surfaces that touch as they are meshed are not in
+/// balance at the very start then, and the way to where they are costs nothing.
+fn pressed_at_start(model: &Model, contact: &Contact, frame: &Frame) -> bool {
+    model.steps[frame.step].dynamic.is_none()
+        && contact.interfaces.iter().any(|i| {
+            let touching = i.laws.normal.as_dyn().pressure(0.0);
+            touching.is_some_and(|p| p.value > 0.0)
+        })
+}

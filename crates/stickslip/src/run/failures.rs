@@ -1,0 +1,117 @@
+//! What is made of attempts that fail: notes for the summary, findings of the doctor, and the error in the end.
+
+use super::simulation::{Simulation, view};
+use crate::assess::diagnosis;
+use crate::assess::doctor;
+use crate::error::RunError;
+use crate::results::summary::FallbackSummary;
+use crate::system::{Cause, StepFailure};
+use crate::time::Trial;
+
+/// Most reasons of cut-backs that the summary lists.
+const MOST_REASONS: usize = 200;
+
+impl Simulation {
+    /// Takes note of what was tried beside plain iteration.
+    pub(crate) fn note_fallbacks(&mut self, trial: &Trial) {
+        let step = &self.model.steps[self.frame.step];
+        let summary = &mut self.summary;
+        for tried in self.solver.newton.fallbacks.drain(..) {
+            let outcome = if tried.converged {
+                "converged"
+            } else {
+                "failed"
+            };
+            // Once of each kind is enough for people; the list has them all.
+            if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
+                self.solver.log.notes.push(format!(
+                    "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations (`fallbacks` of the summary lists all of them)",
+                    step.name, trial.from, tried.kind.name(), tried.iterations
+                ));
+            }
+            if summary.fallbacks.len() < MOST_REASONS {
+                summary.fallbacks.push(FallbackSummary {
+                    step: step.name.clone(),
+                    from: trial.from,
+                    to: trial.to,
+                    tried,
+                });
+            }
+        }
+    }
+
+    /// Lets the doctor look at an attempt that failed.
+    pub(crate) fn examine(
+        &mut self,
+        trial: &Trial,
+        (attempt, chart): (usize, doctor::Chart),
+        failure: &StepFailure,
+    ) {
+        if failure.cause != Cause::Event {
+            let finding = doctor::diagnose(&view!(self), (trial, attempt, chart), failure);
+            doctor::note(&mut self.summary.findings, finding);
+        }
+    }
+
+    /// Sees to it that there is a finding about what ended the run; the error says the same.
+    pub(crate) fn conclude(&mut self, error: RunError) -> RunError {
+        let findings = &self.summary.findings;
+        if findings
+            .iter()
+            .any(|f| f.severity >= doctor::Severity::Error)
+        {
+            return error;
+        }
+        let finding = doctor::stopped(&view!(self), &error);
+        let error = match finding.cause.is_mistake() {
+            true => doctor::mistake(&finding, error.time),
+            false => error,
+        };
+        doctor::note(&mut self.summary.findings, finding);
+        error
+    }
+
+    /// Takes note of an attempt that failed.
+    pub(crate) fn reject(&mut self, trial: &Trial, failure: &StepFailure) {
+        // What the last increment did is no guide any more.
+        self.forget_direction();
+        let summary = &mut self.summary;
+        if failure.cause == Cause::Event {
+            summary.events += 1;
+            return;
+        }
+        summary.cutbacks += 1;
+        if summary.cutback_reasons.len() < MOST_REASONS {
+            summary.cutback_reasons.push(format!(
+                "{} ({:.6e} to {:.6e}): {}",
+                self.model.steps[self.frame.step].name, trial.from, trial.to, failure.message
+            ));
+        }
+    }
+
+    /// The error of an increment that cannot be made smaller.
+    pub(crate) fn give_up(&mut self, failure: StepFailure, trial: &Trial) -> RunError {
+        let t = self.frame.state.t;
+        if let Some(finding) = self.summary.findings.last_mut() {
+            finding.severity = doctor::Severity::Error;
+            if finding.cause.is_mistake() {
+                return doctor::mistake(finding, t);
+            }
+        }
+        let view = self.view();
+        if failure.cause == Cause::Singular {
+            let free = view.explain_free(&failure, trial);
+            return free.unwrap_or_else(|| diagnosis::explain_singular(&view, &failure));
+        }
+        if failure.cause == Cause::Memory {
+            let help = Some(doctor::MORE_MEMORY.to_string());
+            return StepFailure { help, ..failure }.at(t);
+        }
+        let message = format!(
+            "{}: {}; the increment cannot be made smaller",
+            view.called(),
+            failure.message
+        );
+        StepFailure { message, ..failure }.at(t)
+    }
+}

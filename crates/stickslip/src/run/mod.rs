@@ -1,0 +1,12 @@
+//! The driver: steps, attempts, cut-backs and pending increments.
+
+mod book;
+mod failures;
+mod pending;
+mod position;
+mod queue;
+mod simulation;
+mod steps;
+
+pub use simulation::Simulation;
+pub use steps::Interrupt;

@@ -1,0 +1,207 @@
+//! Accepted increments on their way into the results.
+
+use super::queue::{Pending, Recovered};
+use std::time::Instant;
+
+use super::book::book;
+use super::simulation::{Simulation, view};
+use crate::contact::interface::History;
+use crate::error::Error;
+use crate::newton::Progress;
+use crate::results::history;
+use crate::results::observer::{Event, Observer};
+use crate::solve::choice::TOGETHER;
+use crate::system::State;
+
+impl Simulation {
+    /// Goes on from an accepted increment: at once, or with others in one sweep.
+    pub(crate) fn go_on(
+        &mut self,
+        mut pending: Pending,
+        last: bool,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        let Simulation {
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        let Pending {
+            accepted, trial, ..
+        } = &pending;
+        let Some(condensed) = solver.condenser.at_rest() else {
+            contact.commit(&accepted.stage(&frame.state, *trial));
+            frame.previous = Some((trial.to - trial.from, frame.state.u.clone()));
+            return self.report(pending, observers);
+        };
+        contact.commit(&accepted.stage(&condensed.state, *trial));
+        pending.found = solver.move_ahead(accepted, *trial);
+        pending.seen = std::mem::take(&mut solver.seen);
+        let interfaces = contact.interfaces.iter();
+        pending.histories = interfaces.map(|i| i.history.clone()).collect();
+        pending.couplings = contact.couplings.memory.clone();
+        self.pending.push(pending);
+        if last || self.pending.len() >= TOGETHER {
+            self.recover_pending();
+        }
+        Ok(())
+    }
+
+    /// Finds the interiors of all pending increments and reports them.
+    pub(crate) fn flush(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        self.recover_pending();
+        while self.report_next(observers)? {}
+        Ok(())
+    }
+
+    /// Finds the interiors of all pending increments.
+    pub(crate) fn recover_pending(&mut self) {
+        if self.pending.is_empty() {
+            return;
+        }
+        let mut pending = std::mem::take(&mut self.pending);
+        let unknown = pending.iter_mut();
+        let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
+        self.solver.recover(unknown);
+        // The interfaces tell what they knew after each of them.
+        let interfaces = self.contact.interfaces.iter_mut();
+        self.recovered = Some(Recovered {
+            queue: pending.into(),
+            now: interfaces.map(|i| std::mem::take(&mut i.history)).collect(),
+            coupled: std::mem::take(&mut self.contact.couplings.memory),
+        });
+    }
+
+    /// Reports the next of the increments whose interiors are known; `false` if there is none.
+    pub(crate) fn report_next(
+        &mut self,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let Some(mut recovered) = self.recovered.take() else {
+            return Ok(false);
+        };
+        let mut outcome = Ok(());
+        if let Some(mut one) = recovered.queue.pop_front() {
+            self.remember(std::mem::take(&mut one.histories));
+            self.contact.couplings.memory = std::mem::take(&mut one.couplings);
+            outcome = self.complete(&mut one);
+            if outcome.is_ok() {
+                outcome = self.report(one, observers);
+            }
+        }
+        if recovered.queue.is_empty() || outcome.is_err() {
+            self.remember(recovered.now);
+            self.contact.couplings.memory = recovered.coupled;
+        } else {
+            self.recovered = Some(recovered);
+        }
+        outcome.map(|()| true)
+    }
+
+    fn remember(&mut self, histories: Vec<History>) {
+        for (interface, history) in self.contact.interfaces.iter_mut().zip(histories) {
+            interface.history = history;
+        }
+    }
+
+    /// Completes an increment whose interior has been found.
+    fn complete(&mut self, one: &mut Pending) -> Result<(), Error> {
+        if one.found.is_none() {
+            return Ok(());
+        }
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        let completed = solver.complete(model, frame, contact, &mut one.accepted);
+        completed.map_err(|e| e.at(one.trial.to).into())
+    }
+
+    /// Enters an increment into the ledger and tells the observers.
+    fn report(
+        &mut self,
+        pending: Pending,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        self.tell_iterations(&pending.seen, observers);
+        let counts = (pending.increment, pending.attempt);
+        let Simulation {
+            model,
+            contact,
+            frame,
+            summary,
+            ..
+        } = self;
+        let effort = book(model, contact, frame, summary, pending.accepted);
+        let started = Instant::now();
+        if pending.row {
+            let row = history::row(&view!(self), &self.around, pending.trial, effort, counts);
+            let named = row.names.iter().cloned().zip(row.values.iter().copied());
+            self.summary.last = named.collect();
+            self.judge();
+            self.tell(observers, || Event::Increment(&row))?;
+        }
+        if pending.fields {
+            let State { u, t, .. } = &self.frame.state;
+            for interface in &mut self.contact.interfaces {
+                interface.measure(u, *t);
+            }
+            self.tell(observers, || Event::Output)?;
+        }
+        self.summary.phases.write += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Judges the last accepted increment.
+    fn judge(&mut self) {
+        let limits = &self.model.quality;
+        let view = view!(self);
+        let summary = &mut self.summary;
+        view.watch(&mut self.watches);
+        view.judge_quality(limits, &mut summary.quality);
+        view.judge_travel(
+            limits,
+            &mut summary.quality,
+            &mut summary.largest_rotation,
+            &mut summary.findings,
+        );
+        summary.quality.settle();
+        self.unjoined.judge(&view, &mut summary.findings);
+    }
+
+    /// Tells observers about iterations.
+    pub(crate) fn tell_iterations(&self, seen: &[Progress], observers: &mut [&mut dyn Observer]) {
+        for p in seen {
+            for observer in observers.iter_mut() {
+                // An observer that cannot keep up with iterations does not stop the run.
+                let _ = observer.see(&self.analysis(), Event::Iteration(p));
+            }
+        }
+    }
+
+    /// Tells observers what has been noted.
+    pub(crate) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let log = &mut self.solver.log;
+        self.summary.method = log.method.into();
+        self.summary.method_reason.clone_from(&log.reason);
+        for note in std::mem::take(&mut log.notes) {
+            self.tell(observers, || Event::Note(&note))?;
+            // Which method was chosen and why has a place of its own in the summary.
+            let reason = &self.summary.method_reason;
+            if reason.is_empty() || !note.ends_with(reason.as_str()) {
+                self.summary.notes.push(note);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the last increment did is no guide for the next.
+    pub(crate) fn forget_direction(&mut self) {
+        self.frame.previous = None;
+        self.solver.condenser.forget_direction();
+    }
+}

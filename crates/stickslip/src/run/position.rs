@@ -1,0 +1,49 @@
+//! How far an analysis has come.
+
+use crate::assess::doctor;
+use crate::model::definition::Step;
+use crate::system::StepFailure;
+use crate::time::{Stepper, Trial};
+
+/// How far an analysis has come.
+#[derive(Default)]
+pub(crate) struct Steps {
+    pub(super) begun: bool,
+    pub(super) over: bool,
+    /// The next step to begin.
+    pub(super) next: usize,
+    /// Increments of the step at hand.
+    pub(super) running: Option<Increments>,
+}
+
+/// Increments of a step.
+pub(super) struct Increments {
+    pub(super) stepper: Stepper,
+    pub(super) accepted: usize,
+    pub(super) attempt: usize,
+    /// An attempt that failed, kept until the increments before it are reported.
+    pub(super) failed: Option<Failed>,
+}
+
+/// An attempt that failed.
+pub(super) struct Failed {
+    pub(super) trial: Trial,
+    /// Counts from before it.
+    pub(super) chart: doctor::Chart,
+    pub(super) failure: StepFailure,
+}
+
+impl Increments {
+    pub fn of(step: &Step) -> Self {
+        let stepper = Stepper::new(step.start, step.milestones.clone(), step.increments);
+        Increments {
+            stepper: match step.dynamic {
+                Some(_) => stepper.doubling(),
+                None => stepper,
+            },
+            accepted: 0,
+            attempt: 1,
+            failed: None,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Accepted increments that wait for their interiors, or to be reported.
+
+use std::collections::VecDeque;
+
+use crate::body::couplings::CouplingsMemory;
+use crate::contact::interface::History;
+use crate::newton::Progress;
+use crate::results::observer::Advance;
+use crate::solve::accepted::Accepted;
+use crate::solve::condensed::Candidates;
+use crate::time::Trial;
+
+/// An accepted increment that nobody has been told of.
+pub(crate) struct Pending {
+    pub trial: Trial,
+    pub accepted: Accepted,
+    /// Number of the increment in its step, and of the attempt.
+    pub increment: usize,
+    pub attempt: usize,
+    /// Whether fields, and a row of the history, are due.
+    pub fields: bool,
+    pub row: bool,
+    /// Newton iterations nobody has been told of.
+    pub(super) seen: Vec<Progress>,
+    /// The histories of the interfaces after it; empty if it is reported at once.
+    pub(super) histories: Vec<History>,
+    /// The same of the couplings.
+    pub(super) couplings: CouplingsMemory,
+    /// What the interior of a condensed increment follows from; `None` where it is known.
+    pub(super) found: Option<Candidates>,
+}
+
+impl Pending {
+    /// An increment and attempt of these numbers, for which fields and a row of the history are due or not.
+    pub fn new(
+        trial: Trial,
+        accepted: Accepted,
+        (increment, attempt): (usize, usize),
+        (fields, row): (bool, bool),
+    ) -> Self {
+        Pending {
+            trial,
+            accepted,
+            increment,
+            attempt,
+            fields,
+            row,
+            seen: Vec::new(),
+            histories: Vec::new(),
+            couplings: CouplingsMemory::default(),
+            found: None,
+        }
+    }
+
+    /// It at a glance.
+    pub fn advance(&self) -> Advance {
+        Advance {
+            increment: self.increment,
+            attempt: self.attempt,
+            iterations: self.accepted.iterations,
+            time: self.trial.to,
+            residual: self.accepted.residual,
+            tally: self.accepted.tally,
+        }
+    }
+}
+
+/// Increments whose interiors are known, on their way to the observers.
+pub(crate) struct Recovered {
+    pub(super) queue: VecDeque<Pending>,
+    /// The histories of the interfaces after the last of them.
+    pub(super) now: Vec<History>,
+    /// And the couplings.
+    pub(super) coupled: CouplingsMemory,
+}

@@ -1,0 +1,238 @@
+//! An analysis that is run: who owns what, how it begins and ends.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::position::Steps;
+use super::queue::{Pending, Recovered};
+use crate::assess::diagnosis::{CheckReport, start_gaps};
+use crate::assess::doctor::{self, Finding, Watch};
+use crate::assess::quality;
+use crate::assess::view::View;
+use crate::body::Around;
+use crate::error::Error;
+use crate::integrate::integration::Integration;
+use crate::integrate::quasi_static::QuasiStatic;
+use crate::model::Setup;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::scene::Scene;
+use crate::newton::condensed::Library;
+use crate::results::analysis::Analysis;
+use crate::results::observer::{Event, Observer};
+use crate::results::summary::{Phases, Summary};
+use crate::solve::solver::Solver;
+use crate::system::State;
+
+/// A model being run.
+pub struct Simulation {
+    /// What is simulated.
+    pub model: Model,
+    /// Interfaces and couplings.
+    pub contact: Contact,
+    /// Where it stands: the last increment that was reported.
+    pub frame: Frame,
+    /// Counts, energies and findings so far.
+    pub summary: Summary,
+    pub(crate) solver: Solver,
+    pub(crate) integration: Integration,
+    pub(crate) steps: Steps,
+    /// Accepted increments whose interiors are not known yet.
+    pub(crate) pending: Vec<Pending>,
+    /// Those whose interiors are known, on their way to the observers.
+    pub(crate) recovered: Option<Recovered>,
+    /// What interfaces did so far.
+    pub(crate) watches: Vec<Watch>,
+    /// Bodies that no interface joins.
+    pub(crate) unjoined: doctor::Unjoined,
+    /// Cells at the probes; `None` at rigid bodies.
+    pub(crate) around: Vec<Option<Around>>,
+    pub(crate) started: Instant,
+}
+
+/// What looks at a simulation, with its summary and what judges remember left free.
+macro_rules! view {
+    ($simulation:ident) => {
+        $crate::assess::view::View {
+            scene: $crate::model::scene::Scene {
+                model: &$simulation.model,
+                contact: &$simulation.contact,
+                frame: &$simulation.frame,
+            },
+            solver: &$simulation.solver,
+            explicit: $simulation.integration.explicit(),
+        }
+    };
+}
+pub(crate) use view;
+
+impl Simulation {
+    /// Assembles the bulk and checks the model's own consistency.
+    pub fn new(setup: Setup) -> Result<Self, Error> {
+        let library = Library::new(Library::small_limit());
+        Simulation::with_library(setup, Arc::new(library))
+    }
+
+    /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
+    /// same bits, whoever made the factors.
+    pub fn with_library(setup: Setup, library: Arc<Library>) -> Result<Self, Error> {
+        let started = Instant::now();
+        let Setup {
+            model,
+            mut contact,
+            notes,
+        } = setup;
+        let mut solver = Solver::new(&model, library);
+        solver.log.notes = notes;
+        let frame = start(&model, &mut contact, &solver);
+        let probed = |point| model.elastic().find_map(|b| b.elastic.around(point));
+        let mut summary = Summary::new(&model, &contact);
+        summary.energy = frame.ledger;
+        summary.energy_quality.limit = model.energy_limit;
+        summary.energy_quality.met = true;
+        summary.quality.gate = model.quality.gate;
+        summary.quality.met = true;
+        summary.phases.assemble = started.elapsed().as_secs_f64();
+        let scene = Scene {
+            model: &model,
+            contact: &contact,
+            frame: &frame,
+        };
+        Ok(Simulation {
+            around: model.probes.iter().map(|p| probed(p.point)).collect(),
+            unjoined: doctor::Unjoined::new(&scene),
+            watches: vec![Watch::default(); contact.interfaces.len()],
+            integration: Integration::QuasiStatic(QuasiStatic),
+            steps: Steps::default(),
+            pending: Vec::new(),
+            recovered: None,
+            model,
+            contact,
+            frame,
+            summary,
+            solver,
+            started,
+        })
+    }
+
+    /// Runs all steps, or what is left of them.
+    ///
+    /// # Errors
+    /// [`Error::Run`] if the analysis cannot go on, [`Error::Interrupted`] if it was asked to stop (see [`Simulation::set_interrupt`]), and
+    /// what observers return. In each case the results so far stay, and the observers have seen [`Event::End`].
+    pub fn run(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        while self.advance(observers)? {}
+        Ok(())
+    }
+
+    /// The simulation to look at.
+    pub fn view(&self) -> View<'_> {
+        view!(self)
+    }
+
+    /// The simulation to look at, with what has come of it.
+    pub fn analysis(&self) -> Analysis<'_> {
+        Analysis {
+            view: self.view(),
+            summary: &self.summary,
+        }
+    }
+
+    /// Tells observers.
+    pub(crate) fn tell<'e>(
+        &self,
+        observers: &mut [&mut dyn Observer],
+        event: impl Fn() -> Event<'e>,
+    ) -> Result<(), Error> {
+        for observer in observers.iter_mut() {
+            observer.see(&self.analysis(), event())?;
+        }
+        Ok(())
+    }
+
+    /// Looks at the model without running it.
+    pub fn check(&mut self) -> CheckReport {
+        let (gaps, findings) = self.look();
+        self.view().check(&gaps, findings)
+    }
+
+    /// Gaps at the start by interface, and what the doctor finds in the model.
+    pub(crate) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
+        let gaps = start_gaps(&self.model, &self.frame, &mut self.contact);
+        let findings = doctor::examine(&view!(self), &self.unjoined, &gaps);
+        (gaps, findings)
+    }
+
+    /// What is to be said at the end, well or not.
+    pub(crate) fn close(
+        &mut self,
+        outcome: Result<bool, Error>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let outcome = outcome.map_err(|e| match e {
+            Error::Run(error) => Error::Run(self.conclude(error)),
+            e => e,
+        });
+        let total = self.elapsed();
+        let view = view!(self);
+        let summary = &mut self.summary;
+        let statistics = &self.solver.newton.statistics;
+        summary.finish(statistics, total, outcome.as_ref().err());
+        summary.energy = self.frame.ledger;
+        let strain = self.frame.ledger.strain;
+        summary.artificial_energy = self.solver.floating.artificial_energy(strain);
+        summary.interfaces = quality::interfaces(&view, &summary.quality);
+        if summary.completed {
+            for finding in doctor::watched(&view, &self.watches) {
+                doctor::note(&mut summary.findings, finding);
+            }
+        }
+        let mut notes = Vec::new();
+        if summary.increments > 0 {
+            let (limits, energy) = (&self.model.quality, &summary.energy_quality);
+            view.judge_energy(limits, energy, &mut summary.quality, &mut notes);
+        }
+        self.solver.log.notes.extend(notes);
+        self.tell_notes(observers)?;
+        self.tell(observers, || Event::End)?;
+        outcome
+    }
+
+    /// Seconds since the run started.
+    pub fn elapsed(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    /// Times of the phases so far.
+    pub fn phases(&mut self) -> &mut Phases {
+        &mut self.summary.phases
+    }
+}
+
+/// Where an analysis begins.
+fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
+    let n = model.dofs.count();
+    let mut u = vec![0.0; n];
+    for &(dof, value) in model.initials.iter().flat_map(|i| &i.displacements) {
+        u[dof] = value;
+    }
+    model.links.impose(&mut u);
+    let t = model.steps.first().map_or(0.0, |s| s.start);
+    let mut frame = Frame {
+        forces: vec![0.0; n],
+        contact: vec![0.0; n],
+        load: vec![0.0; n],
+        ..Frame::default()
+    };
+    let strain = solver.strain_energy(&u) + contact.couplings.begin_analysis(t, &u);
+    frame.coupled = contact.couplings.energy().stored;
+    frame.ledger.initial = strain;
+    frame.ledger.strain = strain;
+    frame.state = State {
+        t,
+        u,
+        ..State::default()
+    };
+    frame
+}

@@ -1,0 +1,414 @@
+//! The way through the steps, an increment at a time: [`Simulation::advance`].
+
+use super::position::{Failed, Increments};
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::queue::Pending;
+use super::simulation::{Simulation, view};
+use crate::assess::doctor;
+use crate::error::Error;
+use crate::integrate::explicit::Explicit;
+use crate::integrate::implicit::Implicit;
+use crate::integrate::integration::Integration;
+use crate::integrate::quasi_static::QuasiStatic;
+use crate::model::definition::Step;
+use crate::model::frame::Motion;
+use crate::model::scene::Scene;
+use crate::results::observer::{Event, Observer};
+use crate::solve::accepted::Accepted;
+use crate::system::{Cause, StepFailure};
+use crate::time::Trial;
+use crate::time::scheme::Method;
+
+/// Asked between increments and between Newton iterations whether the analysis shall stop.
+pub type Interrupt = Arc<dyn Fn() -> bool + Send + Sync>;
+
+impl Simulation {
+    /// Lets the analysis stop when `interrupt` says so: it is asked between increments and between Newton iterations, on the thread that calls
+    /// [`Simulation::advance`]. The increment at hand is given up, and those before it stay; the analysis can go on from there.
+    pub fn set_interrupt(&mut self, interrupt: Interrupt) {
+        self.solver.newton.interrupt = Some(interrupt);
+    }
+
+    /// Goes on by at most one increment that is reported; `false` at the end. [`Simulation::run`] is a loop over this, and gives the same bits.
+    ///
+    /// After it returns, [`Simulation::frame`] is that of the increment reported last. Not every call reports one: a step may begin, an
+    /// increment may fail, and increments of condensed bodies are found together. Where bodies that only contact can hold are moved,
+    /// several may be reported by one call.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`]. After [`Error::Interrupted`] the analysis goes on with the next call, after any other it is over.
+    pub fn advance(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        if self.steps.over {
+            return Ok(false);
+        }
+        if !self.steps.begun {
+            self.steps.begun = true;
+            self.started = Instant::now();
+            self.ask_first(observers)?;
+        }
+        let outcome = self.next(observers);
+        if matches!(outcome, Ok(true)) {
+            return outcome;
+        }
+        self.steps.over = !matches!(outcome, Err(Error::Interrupted(_)));
+        self.close(outcome, observers)
+    }
+
+    /// Looks at the model before the first step: what the doctor finds in it does not stop the run, but is told and kept.
+    fn ask_first(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let (_, findings) = self.look();
+        for finding in findings {
+            self.tell(observers, || Event::Finding(&finding))?;
+            doctor::note(&mut self.summary.findings, finding);
+        }
+        Ok(())
+    }
+
+    fn next(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        if self.report_next(observers)? {
+            return Ok(true);
+        }
+        if self.solver.newton.interrupted() {
+            return Err(self.stop(observers));
+        }
+        let running = match self.steps.running.take() {
+            Some(running) => running,
+            None if self.steps.next < self.model.steps.len() => {
+                let step = self.steps.next;
+                self.steps.next += 1;
+                self.begin_step(step)?;
+                self.tell_notes(observers)?;
+                Increments::of(&self.model.steps[step])
+            }
+            None => return Ok(false),
+        };
+        self.steps.running = self.next_attempt(running, observers)?;
+        Ok(true)
+    }
+
+    /// Reports what has been accepted; the error of an analysis that was asked to stop.
+    fn stop(&mut self, observers: &mut [&mut dyn Observer]) -> Error {
+        match self.flush(observers) {
+            Ok(()) => Error::Interrupted(self.frame.state.t),
+            Err(e) => e,
+        }
+    }
+
+    /// Begins a step.
+    fn begin_step(&mut self, step: usize) -> Result<(), Error> {
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            summary,
+            ..
+        } = self;
+        frame.step = step;
+        frame.begin_step(model, contact);
+        contact.begin_acting(&model.steps[step], &frame.state);
+        let Some(dynamic) = model.steps[step].dynamic else {
+            return self.begin_rest();
+        };
+        solver.condenser.drop_at_rest();
+        contact.use_springs(false, |energy| frame.ledger.initial += energy);
+        self.integration = match dynamic.method {
+            Method::Implicit(alphas) => {
+                let scheme = (dynamic, alphas);
+                Integration::Implicit(Implicit::begin(model, frame, contact, solver, scheme)?)
+            }
+            Method::Explicit { .. } => {
+                solver.include_all(model, contact);
+                let explicit = Explicit::begin(model, frame, contact, &dynamic)?;
+                summary.mass_added = explicit.mass_added;
+                summary.stable_increment = explicit.at_start;
+                Integration::Explicit(Box::new(explicit))
+            }
+        };
+        Ok(())
+    }
+
+    /// Begins a quasi-static step: it knows no velocities, what motion there was ends.
+    fn begin_rest(&mut self) -> Result<(), Error> {
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        let energy = &mut frame.ledger;
+        energy.numerical += energy.kinetic;
+        energy.kinetic = 0.0;
+        frame.state.v.clear();
+        frame.state.a.clear();
+        frame.motion = Motion::default();
+        solver.inertia = None;
+        for interface in &mut contact.interfaces {
+            interface.set_masses(&[]);
+        }
+        contact.use_springs(false, |energy| frame.ledger.initial += energy);
+        self.integration = Integration::QuasiStatic(QuasiStatic);
+        solver.find_floating_bodies(model, frame, contact);
+        if let Some((finding, error)) = view!(self).refuse_unheld() {
+            doctor::note(&mut self.summary.findings, finding);
+            return Err(error.into());
+        }
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        solver.choose_candidates(model, frame, contact);
+        solver.condense(model, frame, contact);
+        Ok(())
+    }
+
+    /// The step at hand.
+    pub(crate) fn step(&self) -> &Step {
+        &self.model.steps[self.frame.step]
+    }
+
+    /// One attempt and what follows from it; `None` at the end of the step.
+    fn next_attempt(
+        &mut self,
+        mut running: Increments,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Option<Increments>, Error> {
+        if let Some(failed) = running.failed.take() {
+            self.cut_back(&mut running, failed, observers)?;
+            return Ok(Some(running));
+        }
+        let integrator = self.integration.as_dyn();
+        match integrator.bound(&self.model, &self.frame, &self.contact) {
+            Some(bound) if running.attempt == 1 => running.stepper.bound(bound),
+            Some(bound) => running.stepper.bound_again(bound),
+            None => {}
+        }
+        let Some(trial) = running.stepper.next() else {
+            return Ok(None);
+        };
+        if self.step().dynamic.is_none() {
+            self.prepare_floating(trial, observers)?;
+        }
+        let chart = doctor::Chart::of(&self.solver.newton.statistics);
+        let outcome = self.attempt(trial, observers)?;
+        match outcome {
+            Ok(_) if self.restarts(trial, observers)? => {}
+            Ok(accepted) => self.accept(&mut running, trial, accepted, observers)?,
+            Err(failure) if failure.cause == Cause::Interrupted => {
+                // The same increment is tried again if the analysis goes on.
+                self.steps.running = Some(running);
+                return Err(self.stop(observers));
+            }
+            // With half the increment it takes the same memory.
+            Err(failure) if failure.cause == Cause::Memory => {
+                self.flush(observers)?;
+                self.examine(&trial, (running.attempt, chart), &failure);
+                return Err(self.give_up(failure, &trial).into());
+            }
+            Err(failure) if failure.cause == Cause::Reach => {
+                self.flush(observers)?;
+                let Simulation {
+                    model,
+                    contact,
+                    frame,
+                    solver,
+                    ..
+                } = self;
+                solver.widen(model, frame, contact);
+                self.tell_notes(observers)?;
+            }
+            Err(failure) if self.anchors_again(trial, &failure, observers)? => {}
+            Err(failure) => {
+                // The increments before it are reported first, each in a turn of its own.
+                self.recover_pending();
+                running.failed = Some(Failed {
+                    trial,
+                    chart,
+                    failure,
+                });
+            }
+        }
+        Ok(Some(running))
+    }
+
+    /// Makes one attempt, and tells what happened in it.
+    fn attempt(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Result<Accepted, StepFailure>, Error> {
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            integration,
+            ..
+        } = self;
+        solver.seen.clear();
+        let integrator = integration.as_dyn_mut();
+        let outcome = integrator.attempt(model, frame, contact, solver, trial);
+        if !self.waits() {
+            let seen = std::mem::take(&mut self.solver.seen);
+            self.tell_iterations(&seen, observers);
+        }
+        let notes = self.solver.factors.notes();
+        self.solver.log.notes.extend(notes);
+        self.note_fallbacks(&trial);
+        self.tell_notes(observers)?;
+        let scene = Scene {
+            model: &self.model,
+            contact: &self.contact,
+            frame: &self.frame,
+        };
+        let outcome = self.solver.floating.judge(scene, outcome, trial);
+        if self.solver.floating.went_astray() {
+            self.forget_direction();
+        }
+        Ok(outcome)
+    }
+
+    /// Whether accepted increments wait for their interiors.
+    pub(crate) fn waits(&self) -> bool {
+        self.solver.condenser.at_rest().is_some()
+    }
+
+    /// Moves floating bodies that touch nothing until they do, and notes where they are.
+    fn prepare_floating(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        let solver = &mut self.solver;
+        if solver.has_gaps_to_close(&self.model, &self.frame, &self.contact) {
+            self.flush(observers)?;
+            let Simulation {
+                model,
+                contact,
+                frame,
+                solver,
+                ..
+            } = self;
+            solver.close_gaps(model, frame, contact, trial);
+            self.tell_notes(observers)?;
+        }
+        let waiting = !self.pending.is_empty();
+        (self.solver).set_out(&self.frame, &mut self.contact, (trial, waiting));
+        Ok(())
+    }
+
+    /// Whether an increment is computed again from where floating bodies have come.
+    fn restarts(
+        &mut self,
+        trial: Trial,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let followed = &mut self.summary.followed;
+        if !self.solver.floating.wants_restart(followed) {
+            return Ok(false);
+        }
+        self.flush(observers)?;
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        solver.restart_from_rigid_motion(model, frame, contact, trial);
+        self.tell_notes(observers)?;
+        Ok(true)
+    }
+
+    /// Whether an increment that failed is computed again with floating bodies anchored, or anchored more stiffly.
+    fn anchors_again(
+        &mut self,
+        trial: Trial,
+        failure: &StepFailure,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<bool, Error> {
+        let stiffer = self.solver.floating.wants_stiffer_anchors(failure);
+        if stiffer {
+            self.forget_direction();
+        } else if !self.solver.floating.may_follow(self.step(), failure) {
+            return Ok(false);
+        }
+        self.flush(observers)?;
+        let Simulation {
+            model,
+            contact,
+            frame,
+            solver,
+            ..
+        } = self;
+        match stiffer {
+            true => solver.anchor(model, frame, contact, trial),
+            false => solver.follow(model, frame, contact, trial),
+        }
+        self.tell_notes(observers)?;
+        Ok(true)
+    }
+
+    /// Goes on from an increment that was accepted.
+    fn accept(
+        &mut self,
+        running: &mut Increments,
+        trial: Trial,
+        accepted: Accepted,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        running.accepted += 1;
+        let increment = running.accepted;
+        let iterations = if accepted.hard {
+            usize::MAX
+        } else {
+            accepted.iterations
+        };
+        running.stepper.accept(trial, iterations);
+        let plan = &self.model.output;
+        let last = running.stepper.next().is_none();
+        let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
+        let row = due || increment.is_multiple_of(plan.history_every);
+        let pending = Pending::new(trial, accepted, (increment, running.attempt), (due, row));
+        if pending.row {
+            let advance = pending.advance();
+            self.tell(observers, || Event::Accepted(&advance))?;
+        }
+        self.go_on(pending, last, observers)?;
+        if self.step().milestones.contains(&trial.to) {
+            // Tables have their corners here.
+            self.forget_direction();
+        }
+        running.attempt = 1;
+        Ok(())
+    }
+
+    /// Makes an increment that failed smaller.
+    fn cut_back(
+        &mut self,
+        running: &mut Increments,
+        failed: Failed,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        let Failed {
+            trial,
+            chart,
+            failure,
+        } = failed;
+        let seen = std::mem::take(&mut self.solver.seen);
+        self.tell_iterations(&seen, observers);
+        self.examine(&trial, (running.attempt, chart), &failure);
+        running.attempt += 1;
+        self.reject(&trial, &failure);
+        if !running.stepper.reject(trial) {
+            return Err(self.give_up(failure, &trial).into());
+        }
+        self.tell(observers, || Event::Cutback(&trial, &failure))
+    }
+}

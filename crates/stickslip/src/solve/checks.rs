@@ -1,0 +1,91 @@
+//! Solutions that are refused although Newton's method has found them.
+
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::system::{Cause, StepFailure};
+
+/// Out-of-balance force relative to the forces in play that rounding may leave in a recovered interior.
+const LEFT: f64 = 1e-6;
+
+/// Forces that are none, relative to the largest there were in the analysis.
+const NOTHING: f64 = 1e-8;
+
+/// Roundings of stiffness times displacement that may be left.
+const ROUNDINGS: f64 = 1e4;
+
+/// The forces of an increment whose interior was found from that of its contact candidates.
+pub(crate) struct Recovered<'a> {
+    /// Out of balance: what is left at free dofs, reactions at fixed ones `[N]`.
+    pub forces: &'a [f64],
+    /// Displacements `[m]`.
+    pub u: &'a [f64],
+    /// Diagonal of the matrix `[N/m]`.
+    pub diagonal: &'a [f64],
+    /// Prescribed dofs.
+    pub fixed: &'a [bool],
+    /// Sum of the squares of the forces of interfaces `[N²]`, and that of what else balances.
+    pub contact: f64,
+    pub others: f64,
+}
+
+impl Recovered<'_> {
+    /// Refuses an interior that is not in balance: what is left at free dofs is compared with the largest of reactions, contact and what else
+    /// balances, each as the root of its squares. `largest` is the largest of these in the analysis so far: where a path passes through the unloaded
+    /// state, there is nothing but rounding in play.
+    pub fn check(&self, tolerance: f64, largest: &mut f64) -> Result<(), StepFailure> {
+        let (mut left, mut rounding, mut reactions) = (0.0, 0.0, 0.0_f64);
+        for (i, f) in self.forces.iter().enumerate() {
+            if self.fixed[i] {
+                reactions += f * f;
+            } else {
+                left += f * f;
+                rounding += (self.diagonal[i] * self.u[i]).powi(2);
+            }
+        }
+        let size = reactions.max(self.contact).max(self.others).sqrt();
+        let limit = ((10.0 * tolerance).max(LEFT) * size)
+            .max(ROUNDINGS * f64::EPSILON * rounding.sqrt())
+            .max(NOTHING * *largest);
+        if left.sqrt() > limit || left.is_nan() {
+            return Err(StepFailure::new(
+                Cause::LinearSolver,
+                format!(
+                    "the recovered interior is not in balance: {:.1e} of the forces in play",
+                    left.sqrt() / size
+                ),
+            )
+            .help("set `solver.method = \"sparse\"`"));
+        }
+        // Forces of an attempt that is refused are none.
+        *largest = largest.max(size);
+        Ok(())
+    }
+}
+
+/// Refuses displacement increments that are too large.
+pub(crate) fn check_change(
+    model: &Model,
+    pairs: impl Iterator<Item = (f64, f64)>,
+) -> Result<(), StepFailure> {
+    let change = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    if change > model.largest_change * model.mesh.diameter() {
+        return Err(StepFailure::new(
+            Cause::TooFar,
+            format!(
+                "two successive solutions are {change:.3e} apart, more than `largest-change` allows"
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses a solution with contact near points that do not take part.
+pub(crate) fn check_candidates(contact: &Contact) -> Result<(), StepFailure> {
+    if contact.interfaces.iter().any(|i| i.spreads()) {
+        return Err(StepFailure::new(
+            Cause::Reach,
+            "contact comes near to points that were not expected to be touched",
+        ));
+    }
+    Ok(())
+}

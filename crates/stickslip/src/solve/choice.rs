@@ -1,0 +1,165 @@
+//! Which way to solve is the cheapest, by counts that are known before any arithmetic.
+
+use crate::linear::{BlockCsr, Symbolic};
+use crate::machine::available_memory;
+use crate::model::definition::{Solution, Step};
+use crate::model::scene::Scene;
+use crate::newton::condensed::Cost;
+
+/// Multiplications and additions of dense matrices in a second. Only ratios of these rates matter, and they differ little between machines.
+const DENSE: f64 = 3e10;
+
+/// Entries of a matrix that memory delivers in a second.
+const STREAM: f64 = 1.2e9;
+
+/// Newton iterations of a quasi-static and of a dynamic increment, and Krylov iterations of each.
+const NEWTON: [f64; 2] = [2.5, 1.5];
+const KRYLOV: f64 = 6.0;
+
+/// Newton iterations that one factor of the gaps serves.
+const SERVES: f64 = 6.0;
+
+/// With the sparse matrix: Krylov iterations of a Newton iteration, Newton iterations that one factor serves, and the time of a solution over that of
+/// reading the factor twice. Between what press-and-slide in slip (7, 5, 1.8) and a slab with its whole face in contact (12, 3, 1.8) took.
+const SPARSE_KRYLOV: f64 = 10.0;
+const SPARSE_SERVES: f64 = 4.0;
+const SPARSE_SOLVE: f64 = 1.8;
+
+/// Candidate dofs relative to all below which no other way can be cheaper, if the inverse is not the larger part of the work.
+const FEW: f64 = 1.0 / 12.0;
+
+/// Part of the free memory that may be taken.
+const MEMORY: f64 = 0.85;
+
+/// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
+pub(crate) const TOGETHER: usize = 16;
+
+/// Vectors by dof that an increment holds which waits for its interior: displacements, forces of contact and loads, and what is swept to find it.
+const VECTORS: usize = 4;
+
+/// Seconds above which the other ways are looked at in any case.
+const LONG: f64 = 60.0;
+
+/// Increments counted at most.
+const MOST_INCREMENTS: f64 = 1e5;
+
+/// Seconds of a multigrid hierarchy, and of one of its iterations, a dof in three dimensions.
+const SETUP: f64 = 1e-5;
+const CYCLE: f64 = 5e-7;
+
+/// Iterations that multigrid takes for one Newton iteration.
+const CYCLES: f64 = 14.0;
+
+/// Bytes of matrix, transformed matrix, hierarchy and Krylov vectors a dof.
+const GRID_BYTES: f64 = 3500.0;
+
+/// What is known about the way to solve.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Choice {
+    /// The cheapest way, never `Automatic`.
+    pub method: Solution,
+    /// Why.
+    pub reason: String,
+}
+
+impl Scene<'_> {
+    /// The cheapest way that fits into memory.
+    pub(crate) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
+        let free = held.iter().filter(|h| !**h).count() as f64;
+        let candidates = cost.candidates as f64;
+        let [static_, moving] = self.increments_left();
+        let iterations = static_ * NEWTON[0] + moving * NEWTON[1];
+        let memory = available_memory().map(|free| free as f64);
+        let points: usize = self.contact.interfaces.iter().map(|i| i.points.len()).sum();
+        let bytes = cost.bytes as f64 + self.pending_bytes() as f64 * static_.min(TOGETHER as f64);
+        let what = format!(
+            "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
+            cost.candidates,
+            cost.nonzeros,
+            cost.factor,
+            cost.condense,
+            bytes / 1e9
+        );
+        let fits = |bytes: f64| memory.is_none_or(|m| bytes < MEMORY * m);
+        // A product of the inverse, half of which is read, and now and then a small factor of the gaps.
+        let gaps = (points * self.model.dofs.dim) as f64;
+        let gaps = gaps.min(candidates);
+        let one =
+            KRYLOV * (cost.dense + gaps * gaps) / STREAM + gaps.powi(3) / (3.0 * DENSE * SERVES);
+        let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / STREAM;
+        let condensed = (cost.factor + cost.condense) / DENSE + iterations * one + sweeps;
+        if candidates <= FEW * free
+            && cost.condense <= cost.factor
+            && fits(bytes)
+            && condensed < LONG
+        {
+            return Choice {
+                method: Solution::Condensed,
+                reason: what,
+            };
+        }
+        let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
+        let mut ways = vec![(Solution::Condensed, condensed, bytes)];
+        // Only now it is worth while to know what the others cost.
+        if let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
+            let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
+            let sparse = flops / DENSE * (1.0 + iterations / SPARSE_SERVES)
+                + iterations
+                    * SPARSE_KRYLOV
+                    * SPARSE_SOLVE
+                    * (2.0 * nonzeros + matrix.nnz() as f64)
+                    / STREAM;
+            ways.push((Solution::Sparse, sparse, 10.0 * nonzeros));
+        }
+        if self.model.dofs.dim == 3 {
+            ways.push((Solution::Multigrid, grids, GRID_BYTES * free));
+        }
+        let list: Vec<String> = ways
+            .iter()
+            .map(|(way, seconds, bytes)| {
+                format!("{way:?} {seconds:.2} ({:.2} GB)", bytes / 1e9).to_lowercase()
+            })
+            .collect();
+        let free_memory = memory.map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
+        let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
+        let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
+        // If nothing fits, the factorisation says how much it would take.
+        Choice {
+            method: best.map_or(Solution::Sparse, |(way, ..)| *way),
+            reason: format!(
+                "{what}; about {iterations:.0} iterations would cost (seconds of some machine): {}{free_memory}",
+                list.join(", ")
+            ),
+        }
+    }
+
+    /// Memory that an increment takes until it is reported `[bytes]`.
+    fn pending_bytes(&self) -> usize {
+        let interfaces = self.contact.interfaces.iter();
+        let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
+        histories + VECTORS * size_of::<f64>() * self.model.dofs.count()
+    }
+
+    /// Quasi-static and dynamic increments from this step on, if none is cut.
+    fn increments_left(&self) -> [f64; 2] {
+        let mut counts = [0.0, 0.0];
+        let count = |s: &Step| {
+            let length = if s.fixed || s.dynamic.is_some() {
+                s.increments.initial
+            } else {
+                // they grow
+                (s.increments.initial * s.increments.largest).sqrt()
+            };
+            ((s.end - s.start) / length).clamp(1.0, MOST_INCREMENTS)
+        };
+        for step in &self.model.steps[self.frame.step..] {
+            counts[usize::from(step.dynamic.is_some())] += count(step);
+        }
+        counts
+    }
+}
+
+/// Whether so many bytes are free, as far as is known.
+pub(crate) fn cost_fits(bytes: u64) -> bool {
+    available_memory().is_none_or(|free| bytes < free)
+}

@@ -1,0 +1,217 @@
+//! Quasi-static increments on the contact candidates.
+
+use super::condenser::{Candidates, Condensed};
+use std::time::Instant;
+
+use crate::linear::BlockCsr;
+use crate::math::vector::dot;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
+use crate::newton::condensed::{Amplitudes, CondensedBulk};
+use crate::solve::accepted::Accepted;
+use crate::solve::checks::{Recovered, check_candidates, check_change};
+use crate::solve::inertia;
+use crate::solve::iteration::Iteration;
+use crate::solve::solver::Solver;
+use crate::system::{Cause, Constraints, State, StepFailure};
+use crate::time::Trial;
+
+impl Solver {
+    /// Tries a quasi-static increment on the candidates of bodies that were condensed.
+    pub fn attempt_condensed(
+        &mut self,
+        model: &Model,
+        contact: &mut Contact,
+        (external, constraints): (Vec<f64>, Constraints),
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let Solver {
+            newton,
+            seen,
+            stiffness,
+            diagonal,
+            condenser,
+            floating,
+            ..
+        } = self;
+        let condensed =
+            (condenser.at_rest.as_mut()).expect("bodies were condensed when the step was begun");
+        let started = Instant::now();
+        let amplitudes = condensed.amplitudes(stiffness, &external, &constraints);
+        let Condensed {
+            condensation,
+            reduced,
+            patterns,
+            state: from,
+            carried,
+            previous,
+            found,
+            ..
+        } = condensed;
+        let load = patterns.load(&amplitudes, condensation.size());
+        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        let scale = external.iter().map(|e| e * e).sum::<f64>().sqrt();
+        let mut at = State {
+            t: trial.to,
+            u: from.u.clone(),
+            ..State::default()
+        };
+        let mut guess = carried.clone();
+        if let Some((before, u, s)) = previous {
+            // the last increment goes on
+            let ratio = (trial.to - trial.from) / *before;
+            for ((&dof, then), (g, s)) in
+                condensation.dofs.iter().zip(u).zip(guess.iter_mut().zip(s))
+            {
+                at.u[dof] += ratio * (from.u[dof] - *then);
+                *g += ratio * (*g - *s);
+            }
+        }
+        let base = vec![0.0; condensation.size()];
+        let mut bulk =
+            CondensedBulk::new((condensation, reduced), diagonal, load, base, guess, scale);
+        let converged = Iteration {
+            newton,
+            seen,
+            model,
+            forces: floating.with(contact.forces()),
+            bulk: &mut bulk,
+        }
+        .solve(constraints, None, (from, &mut at));
+        *found = Some((amplitudes, bulk.carried()));
+        let converged = converged?;
+        let dofs = condensation.dofs.iter();
+        check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
+        check_candidates(contact)?;
+        Ok(Accepted {
+            contact: converged.contact.clone(),
+            external,
+            state: at,
+            ..Accepted::from_newton(&converged)
+        })
+    }
+
+    /// Makes an accepted attempt the state from which the next starts; what its interior follows from. `None` where it is known.
+    pub fn move_ahead(&mut self, accepted: &Accepted, trial: Trial) -> Option<Candidates> {
+        let condensed = self.condenser.at_rest.as_mut()?;
+        let (amplitudes, now) = condensed.found.take()?;
+        let Condensed {
+            condensation,
+            state,
+            carried,
+            previous,
+            ..
+        } = condensed;
+        let before = condensation.gather(&state.u);
+        let length = trial.to - trial.from;
+        *previous = Some((length, before, std::mem::replace(carried, now)));
+        state.clone_from(&accepted.state);
+        Some(Candidates {
+            amplitudes,
+            displacements: condensation.gather(&state.u),
+        })
+    }
+
+    /// Finds the interiors of increments, all in one sweep.
+    pub fn recover<'a>(
+        &mut self,
+        pending: impl Iterator<Item = (&'a Candidates, &'a mut Accepted)>,
+    ) {
+        let started = Instant::now();
+        let Some(condensed) = &self.condenser.at_rest else {
+            return;
+        };
+        let (mut swept, mut at, mut all) = (Vec::new(), Vec::new(), Vec::new());
+        let mut owners = Vec::new();
+        for (found, accepted) in pending {
+            let Condensed {
+                patterns,
+                condensation,
+                ..
+            } = condensed;
+            swept.push(patterns.interior(&found.amplitudes, condensation));
+            at.push(found.displacements.clone());
+            all.push(std::mem::take(&mut accepted.state.u));
+            owners.push(accepted);
+        }
+        condensed.condensation.recover(swept, &at, &mut all);
+        for (accepted, u) in owners.into_iter().zip(all) {
+            accepted.state.u = u;
+        }
+        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+    }
+
+    /// Completes a recovered increment by its forces, and checks that they balance.
+    pub fn complete(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        accepted: &mut Accepted,
+    ) -> Result<(), StepFailure> {
+        let started = Instant::now();
+        let t = accepted.state.t;
+        let u = &accepted.state.u;
+        let internal = inertia::times(&self.stiffness, u);
+        let fixed = frame.constraints(model, t).fixed;
+        let both = accepted.contact.iter().zip(&accepted.external);
+        let forces = internal.iter().zip(both);
+        let forces: Vec<f64> = forces
+            .map(|(i, (contact, load))| i + contact - load)
+            .collect();
+        let squares = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let recovered = Recovered {
+            forces: &forces,
+            u,
+            diagonal: &self.diagonal,
+            fixed: &fixed,
+            contact: squares(&accepted.contact),
+            others: squares(&accepted.external),
+        };
+        let largest = &mut self.condenser.largest_forces;
+        recovered.check(model.settings.tolerance, largest)?;
+        for interface in &mut contact.interfaces {
+            let overlooked = interface.overlooked(u, t);
+            if overlooked > 0 {
+                return Err(StepFailure::new(
+                    Cause::Reach,
+                    format!(
+                        "interface {}: {overlooked} points penetrate that were not expected to be touched",
+                        interface.name
+                    ),
+                )
+                .help("set `solver.method = \"sparse\"`, or take smaller increments"));
+            }
+        }
+        accepted.strain = 0.5 * dot(u, &internal);
+        accepted.flow = Flow {
+            work: frame.work(&fixed, (u, &forces), &accepted.external),
+            ..Flow::default()
+        };
+        accepted.forces = forces;
+        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+}
+
+impl Condensed {
+    /// How much of each load pattern there is in an increment.
+    fn amplitudes(
+        &mut self,
+        stiffness: &BlockCsr,
+        external: &[f64],
+        constraints: &Constraints,
+    ) -> Amplitudes {
+        let held = &self.condensation.held;
+        let free: Vec<f64> = external
+            .iter()
+            .zip(held)
+            .map(|(e, &held)| if held { 0.0 } else { *e })
+            .collect();
+        let mut prescribed = vec![0.0; external.len()];
+        constraints.impose(&mut prescribed);
+        (self.patterns).resolve(&self.condensation, stiffness, &free, &prescribed)
+    }
+}

@@ -1,0 +1,134 @@
+//! Points that may come into contact: what bodies are condensed to.
+
+use super::condenser::Condenser;
+
+use crate::contact::interface::CandidateRange;
+use crate::model::contact::Contact;
+use crate::model::definition::{Model, Solution};
+use crate::model::frame::Frame;
+use crate::solve::solver::Solver;
+
+/// Points of interfaces below which all of them are candidates.
+const FEW: usize = 60;
+
+/// How often candidates are added before all points are.
+const MOST_WIDENED: usize = 4;
+
+/// Times within a step at which supports are looked at.
+const SAMPLES: usize = 16;
+
+impl Solver {
+    /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
+    /// not looked at.
+    pub fn choose_candidates(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+        match self.method {
+            Solution::Multigrid => self.log.method = "multigrid",
+            Solution::Sparse => self.log.method = "sparse",
+            Solution::Automatic | Solution::Condensed => {}
+        }
+        let points = model.dofs.points;
+        let known = self.condenser.kept.take();
+        let mut kept = known.unwrap_or_else(|| vec![false; points]);
+        let mut all = vec![false; points];
+        for &node in contact.interfaces.iter().flat_map(|i| &i.nodes) {
+            all[node] = true;
+        }
+        let count = all.iter().filter(|a| **a).count();
+        let widened = self.condenser.widened;
+        if count < FEW || widened >= MOST_WIDENED || !self.method.condenses() {
+            for interface in &mut contact.interfaces {
+                interface.include_all(&mut kept);
+            }
+        } else {
+            let step = &model.steps[frame.step];
+            let travel = travel(model, frame) * f64::powi(2.0, widened as i32);
+            let range = CandidateRange {
+                distance: travel + extra(widened, model),
+                along: travel,
+                span: [step.start, step.end],
+            };
+            for interface in &mut contact.interfaces {
+                interface.restrict_to_candidates(&frame.state.u, range, &mut kept);
+            }
+        }
+        for point in self.floating.points() {
+            kept[point] = true;
+        }
+        for point in contact.couplings.points() {
+            kept[point] = true;
+        }
+        for link in model.links.all() {
+            kept[link.points.clone()].fill(false);
+            kept[link.hidden..link.hidden + 2].fill(true);
+        }
+        self.condenser.kept = Some(kept);
+    }
+
+    /// Lets all points take part.
+    pub fn include_all(&mut self, model: &Model, contact: &mut Contact) {
+        let mut kept = vec![false; model.dofs.points];
+        for interface in &mut contact.interfaces {
+            interface.include_all(&mut kept);
+        }
+        self.condenser.kept = None;
+        self.log.method = "explicit";
+    }
+
+    /// Contact has come to points that do not take part: lets more of them.
+    pub fn widen(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+        self.condenser.widened += 1;
+        let count = |c: &Condenser| c.kept.iter().flatten().filter(|k| **k).count();
+        let before = count(&self.condenser);
+        self.choose_candidates(model, frame, contact);
+        let after = count(&self.condenser);
+        self.log.notes.push(format!(
+            "contact comes near to points that were not expected to be touched: {after} candidates instead of {before}, factored anew"
+        ));
+        self.condenser.at_rest = None;
+        self.condenser.moving.clear();
+        if model.steps[frame.step].dynamic.is_none() {
+            self.condense(model, frame, contact);
+        }
+    }
+}
+
+/// Distance beyond that of prescribed motion in which contact is looked for: more each time that it was too little.
+fn extra(widened: usize, model: &Model) -> f64 {
+    match widened {
+        0 => 0.0,
+        n => 0.01 * f64::powi(4.0, n as i32 - 1) * model.mesh.diameter(),
+    }
+}
+
+/// How far supports and initial velocities move anything in the step, at most.
+fn travel(model: &Model, frame: &Frame) -> f64 {
+    let step = &model.steps[frame.step];
+    let mut times: Vec<f64> = (0..=SAMPLES)
+        .map(|k| step.start + (step.end - step.start) * k as f64 / SAMPLES as f64)
+        .collect();
+    times.extend(&step.milestones);
+    let u = &frame.state.u;
+    let mut largest = vec![0.0_f64; u.len()];
+    for t in times {
+        let constraints = frame.constraints(model, t);
+        for (i, largest) in largest.iter_mut().enumerate() {
+            if constraints.fixed[i] {
+                *largest = largest.max((constraints.values[i] - u[i]).abs());
+            }
+        }
+    }
+    for rigid in model.links.all() {
+        // the points of rigid bodies have no values of their own
+        let own = model.dofs.of(rigid.points.start, 0)..model.dofs.of(rigid.points.end, 0);
+        largest[own].fill(0.0);
+    }
+    let dim = model.dofs.dim;
+    let most = |values: &[f64]| {
+        let sizes = values
+            .chunks(dim)
+            .map(|p| p.iter().map(|v| v * v).sum::<f64>().sqrt());
+        sizes.fold(0.0, f64::max)
+    };
+    let (moved, speed) = (most(&largest), most(&frame.state.v));
+    2.0 * moved + 2.0 * speed * (step.end - step.start)
+}

@@ -1,0 +1,100 @@
+//! Bodies without their interiors, and what is known of them.
+
+use std::sync::Arc;
+
+use crate::newton::condensed::{Amplitudes, Condensation, Library, LoadPatterns, ReducedSystem};
+use crate::system::State;
+
+/// What is known of bodies without their interiors.
+pub(crate) struct Condenser {
+    /// Factors of this run and of others.
+    pub(super) library: Arc<Library>,
+    /// Points that may come into contact, and how often they were too few.
+    pub(super) kept: Option<Vec<bool>>,
+    pub(super) widened: usize,
+    /// The dofs that are no unknowns for which condensing was found the cheapest.
+    pub(super) decided: Option<Vec<bool>>,
+    /// Those of a quasi-static step.
+    pub(super) at_rest: Option<Condensed>,
+    /// Those of increments in motion, the last used last.
+    pub(super) moving: Vec<Moving>,
+    /// Largest norm of the forces in play at any recovered increment `[N]`.
+    pub(super) largest_forces: f64,
+}
+
+/// The bodies with the matrix of an increment in motion, without their interiors.
+pub(super) struct Moving {
+    /// Key of the matrix.
+    pub(super) key: u64,
+    pub(super) condensation: Condensation,
+    pub(super) reduced: ReducedSystem,
+}
+
+/// The bodies without their interiors, and where a quasi-static analysis stands.
+pub(crate) struct Condensed {
+    pub(super) condensation: Condensation,
+    /// The candidates it was made for.
+    pub(super) kept: Vec<bool>,
+    pub(super) reduced: ReducedSystem,
+    pub(super) patterns: LoadPatterns,
+    /// The last accepted state: displacements are known at candidates and where prescribed.
+    pub state: State,
+    /// Forces under which the candidates are where they are.
+    pub(super) carried: Vec<f64>,
+    /// The increment before: its length, displacements of the candidates and forces.
+    pub(super) previous: Option<(f64, Vec<f64>, Vec<f64>)>,
+    /// What the last attempt found.
+    pub(super) found: Option<(Amplitudes, Vec<f64>)>,
+}
+
+/// An increment whose interior is not known yet: its loads and the displacements of the candidates.
+pub(crate) struct Candidates {
+    pub(super) amplitudes: Amplitudes,
+    pub(super) displacements: Vec<f64>,
+}
+
+/// Which matrix bodies are condensed with.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Which {
+    Stiffness,
+    Increment,
+}
+
+impl Condensed {
+    /// The bodies without their interiors.
+    pub fn condensation(&self) -> &Condensation {
+        &self.condensation
+    }
+}
+
+impl Condenser {
+    /// With the factors of other runs.
+    pub fn new(library: Arc<Library>) -> Self {
+        Condenser {
+            library,
+            kept: None,
+            widened: 0,
+            decided: None,
+            at_rest: None,
+            moving: Vec::new(),
+            largest_forces: 0.0,
+        }
+    }
+
+    /// The bodies of a quasi-static step; `None` where the sparse matrix serves it.
+    pub fn at_rest(&self) -> Option<&Condensed> {
+        self.at_rest.as_ref()
+    }
+
+    /// Nothing is condensed in quasi-static steps until it is made anew.
+    pub fn drop_at_rest(&mut self) {
+        self.at_rest = None;
+    }
+
+    /// What the last increment did is no guide for the next.
+    pub fn forget_direction(&mut self) {
+        if let Some(condensed) = &mut self.at_rest {
+            condensed.previous = None;
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Static condensation of the bodies of a model, where it is the cheapest way to solve.
+
+use super::condenser::{Condensed, Which};
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::linear::BlockCsr;
+use crate::math::Vec3;
+use crate::model::contact::Contact;
+use crate::model::definition::{Model, Solution};
+use crate::model::frame::Frame;
+use crate::model::scene::Scene;
+use crate::newton::Factors;
+use crate::newton::condensed::{
+    Condensation, Cost, Effort, LoadPatterns, Places, Plan, ReducedSystem,
+};
+use crate::solve::choice::cost_fits;
+use crate::solve::inertia;
+use crate::solve::inertia::in_motion;
+use crate::solve::solver::Solver;
+
+impl Solver {
+    /// Makes the bodies ready for a quasi-static step.
+    pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+        if !self.method.condenses() {
+            return;
+        }
+        let step = &model.steps[frame.step];
+        let held = frame
+            .constraints(model, 0.5 * (step.start + step.end))
+            .fixed;
+        let kept = self.condenser.kept.clone().unwrap_or_default();
+        if let Some(condensed) = &mut self.condenser.at_rest
+            && condensed.condensation.held == held
+            && condensed.kept == kept
+        {
+            condensed.previous = None;
+            return;
+        }
+        let made = self.condensation(model, frame, contact, &held, Which::Stiffness);
+        let Some(condensation) = made else {
+            self.condenser.at_rest = None;
+            return;
+        };
+        // Forces that go with the displacements the step starts from.
+        let mut at = vec![0.0; held.len()];
+        let u = condensation.gather(&frame.state.u);
+        condensation.scatter(&u, &mut at);
+        let mut carried = vec![0.0; u.len()];
+        if u.iter().any(|u| *u != 0.0) {
+            carried = condensation.sweep(&inertia::times(&self.stiffness, &at)).0;
+            let mut springs = vec![0.0; u.len()];
+            condensation.release(&u, &mut springs);
+            carried.iter_mut().zip(&springs).for_each(|(c, s)| *c -= s);
+        }
+        self.condenser.at_rest = Some(Condensed {
+            condensation,
+            kept,
+            reduced: ReducedSystem::default(),
+            patterns: LoadPatterns::default(),
+            state: frame.state.clone(),
+            carried,
+            previous: None,
+            found: None,
+        });
+    }
+
+    /// Factors the bodies with one of their matrices, as far as the library does not have them; `None` where the analysis goes on with the sparse matrix.
+    pub(super) fn condensation(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        held: &[bool],
+        which: Which,
+    ) -> Option<Condensation> {
+        let typical = self.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
+        let typical = if typical > 0.0 { typical } else { 1.0 };
+        let points = &model.mesh.points;
+        let places = |p: usize| -> Option<Vec3> { points.get(p).copied() };
+        let springs: (Places, f64) = (&places, typical);
+        let library = Arc::clone(&self.condenser.library);
+        let kept = self.condenser.kept.clone().unwrap_or_default();
+        let parts = parts(model);
+        let plan = Plan::new(self.matrix(which), &parts, (held, &kept), springs, &library);
+        let plan = match plan {
+            Ok(plan) => plan,
+            Err(e) => return self.not_condensed(model, frame, contact, &e.to_string()),
+        };
+        if self.condenser.decided.as_deref() != Some(held) {
+            let scene = Scene {
+                model,
+                contact,
+                frame,
+            };
+            if !self.decide(scene, &plan, held, which) {
+                self.choose_candidates(model, frame, contact);
+                return None;
+            }
+        }
+        let cost = plan.cost();
+        if !cost_fits(cost.bytes) {
+            let why = "it would take more memory than is free";
+            return self.not_condensed(model, frame, contact, why);
+        }
+        let started = Instant::now();
+        let matrix = self.matrix(which);
+        match Condensation::new(plan, matrix, held, springs, &library) {
+            Ok((condensation, effort)) => {
+                let passed = started.elapsed().as_secs_f64();
+                self.count(&cost, effort, passed);
+                self.log.method = "condensed";
+                Some(condensation)
+            }
+            Err(e) => self.not_condensed(model, frame, contact, &e.to_string()),
+        }
+    }
+
+    fn matrix(&self, which: Which) -> &BlockCsr {
+        match which {
+            Which::Stiffness => &self.stiffness,
+            Which::Increment => in_motion(&self.inertia).matrix().0,
+        }
+    }
+
+    /// Chooses the cheapest way to solve, and says why; whether it is to condense.
+    fn decide(&mut self, scene: Scene, plan: &Plan, held: &[bool], which: Which) -> bool {
+        let cost = plan.cost();
+        let choice = scene.choose(&cost, (self.matrix(which), held));
+        let forced = self.method == Solution::Condensed;
+        let fits = cost_fits(cost.bytes);
+        let method = if forced && fits {
+            Solution::Condensed
+        } else {
+            choice.method
+        };
+        if forced && !fits {
+            self.log.notes.push(format!(
+                "`solver.method = \"condensed\"` needs about {:.1} GB, more than is free",
+                cost.bytes as f64 / 1e9
+            ));
+        }
+        let name = match method {
+            Solution::Condensed => "condensed",
+            Solution::Multigrid => "multigrid",
+            _ => "sparse matrix",
+        };
+        self.log.notes.push(format!("{name}: {}", choice.reason));
+        self.log.reason = choice.reason;
+        if method == Solution::Condensed {
+            self.condenser.decided = Some(held.to_vec());
+            return true;
+        }
+        self.method = method;
+        if method == Solution::Multigrid {
+            self.factors = Factors::multigrid(scene.model.places());
+        }
+        false
+    }
+
+    /// Counts what condensing took, `passed` seconds in all.
+    fn count(&mut self, cost: &Cost, effort: Effort, passed: f64) {
+        let statistics = &mut self.newton.statistics;
+        statistics.factor_nonzeros = cost.nonzeros as usize;
+        statistics.factor_bytes = cost.bytes;
+        if effort.made > 0 {
+            statistics.flops += cost.factor + cost.condense;
+        }
+        statistics.analyses += effort.analysed;
+        statistics.factorisations += effort.made;
+        statistics.substructures_made += effort.made;
+        statistics.substructures_shared += effort.shared;
+        statistics.substructures_read += effort.read;
+        statistics.seconds_find += effort.seconds_find;
+        statistics.seconds_order += effort.seconds_order;
+        // Bodies are factored side by side: their times are shares of the time that has passed.
+        let passed = (passed - effort.seconds_find).max(0.0);
+        let spent = effort.seconds.factor + effort.seconds.condense;
+        let share = if spent > 0.0 { passed / spent } else { 0.0 };
+        let factor = share * effort.seconds.factor;
+        let condense = share * effort.seconds.condense;
+        statistics.seconds_factor += factor;
+        statistics.seconds_condense += condense;
+        if statistics.linear_solve == 0.0 && effort.made > 0 {
+            // To factor the root costs a third of its inverse.
+            statistics.linear_solve = effort.seconds_order + factor + condense / 3.0;
+        }
+        self.log.notes.extend(effort.notes);
+    }
+
+    /// The analysis goes on with the sparse matrix.
+    fn not_condensed(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        why: &str,
+    ) -> Option<Condensation> {
+        self.condenser.at_rest = None;
+        self.log.notes.push(format!("not condensed: {why}"));
+        self.method = Solution::Sparse;
+        self.choose_candidates(model, frame, contact);
+        None
+    }
+}
+
+/// Points of the parts of the model that are not coupled but by contact.
+fn parts(model: &Model) -> Vec<std::ops::Range<usize>> {
+    let bodies = model.elastic().map(|b| b.points.clone());
+    let links = model.links.all().iter();
+    bodies
+        .chain(links.map(|l| l.hidden..l.hidden + 2))
+        .collect()
+}

@@ -1,0 +1,234 @@
+//! Moves loose bodies, as rigid ones, the way their loads push them until they touch.
+
+use crate::math::{Vec3, add, add_scaled, dot, norm, scale, symmetric_eigen};
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::free_bodies::FreeBody;
+use crate::time::Trial;
+
+/// Where loose bodies come to touch.
+pub(crate) struct Closure {
+    /// Displacements there.
+    pub u: Vec<f64>,
+    /// How far each loose body has moved `[m]`, as the largest displacement.
+    pub moved: Vec<f64>,
+    /// Loose bodies that their loads push away from everything.
+    pub adrift: Vec<usize>,
+}
+
+/// Force relative to the sum of the sizes of its parts that is rounding.
+const NO_FORCE: f64 = 1e-9;
+
+/// Most stretches of the way.
+const MOST_STRETCHES: usize = 20_000;
+
+/// Bodies that move together: those that have met.
+struct Clusters<'a> {
+    /// The cluster of each body, by the index of one of its bodies; the last is that of what cannot move.
+    of: Vec<usize>,
+    free: &'a [FreeBody],
+}
+
+impl Clusters<'_> {
+    fn ground(&self) -> usize {
+        self.of[self.of.len() - 1]
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.of[a], self.of[b]);
+        for of in &mut self.of {
+            if *of == a {
+                *of = b;
+            }
+        }
+    }
+
+    fn members(&self, cluster: usize) -> impl Iterator<Item = &FreeBody> {
+        let free = self.free.iter();
+        free.filter(move |f| self.of[f.body] == cluster)
+    }
+}
+
+/// Moves the bodies in `free`, the others at rest, from the last state with the loads `external`, in an increment that begins.
+pub(crate) fn close(
+    model: &Model,
+    frame: &Frame,
+    contact: &mut Contact,
+    (free, external): (&[FreeBody], &[f64]),
+    trial: Trial,
+) -> Closure {
+    let count = model.bodies.len();
+    let mut clusters = Clusters {
+        of: vec![count; count + 1],
+        free,
+    };
+    for f in free {
+        clusters.of[f.body] = f.body;
+    }
+    let pushes = pushes(model, external);
+    let mut u = frame.state.u.clone();
+    let mut adrift = Vec::new();
+    for _ in 0..MOST_STRETCHES {
+        let w = velocities(model, &clusters, external, &pushes);
+        if w.iter().all(|w| *w == 0.0) {
+            break;
+        }
+        let (mut way, mut touching) = (f64::INFINITY, Vec::new());
+        for interface in &mut contact.interfaces {
+            if interface.schedule.active(trial.to) {
+                let meeting = interface.meeting(&u, &w, trial.from);
+                way = way.min(meeting.way);
+                touching.extend(meeting.touching);
+            }
+        }
+        let bodies = &model.bodies;
+        let body_of = |p: usize| bodies.iter().position(|b| b.points.contains(&p));
+        for &(secondary, primary) in &touching {
+            let a = body_of(secondary).unwrap_or(count);
+            let b = primary.and_then(body_of).unwrap_or(count);
+            clusters.join(a, b);
+        }
+        if !touching.is_empty() {
+            continue;
+        }
+        if way == f64::INFINITY {
+            let moving = |f: &&FreeBody| {
+                let dofs = model.dofs;
+                let points = model.bodies[f.body].points.clone();
+                w[dofs.of(points.start, 0)..dofs.of(points.end, 0)]
+                    .iter()
+                    .any(|w| *w != 0.0)
+            };
+            let all = free.iter().enumerate();
+            adrift = all.filter(|(_, f)| moving(f)).map(|(k, _)| k).collect();
+            break;
+        }
+        u.iter_mut().zip(&w).for_each(|(u, w)| *u += way * w);
+    }
+    let dofs = model.dofs;
+    let moved = free.iter().map(|f| {
+        let points = model.bodies[f.body].points.clone();
+        points
+            .map(|p| {
+                let (now, then) = (dofs.vector(&u, p), dofs.vector(&frame.state.u, p));
+                norm(add_scaled(now, -1.0, then))
+            })
+            .fold(0.0, f64::max)
+    });
+    Closure {
+        moved: moved.collect(),
+        u,
+        adrift,
+    }
+}
+
+/// Velocities of all dofs, the fastest cluster's of size one: along the load, as a body without friction starts from rest.
+fn velocities(model: &Model, clusters: &Clusters, external: &[f64], pushes: &[Push]) -> Vec<f64> {
+    let dofs = model.dofs;
+    let mut w = vec![0.0; external.len()];
+    for cluster in 0..model.bodies.len() {
+        let members: Vec<&FreeBody> = clusters.members(cluster).collect();
+        if cluster == clusters.ground() || members.is_empty() {
+            continue;
+        }
+        let (mut mass, mut force, mut size) = (0.0, [0.0; 3], 0.0);
+        for f in &members {
+            let push = &pushes[f.body];
+            mass += push.volume;
+            force = add(force, push.force);
+            size += push.size;
+        }
+        let basis = common(&members);
+        if basis.is_empty() {
+            // One body that can only turn.
+            if let [only] = members.as_slice() {
+                turn(only, external, mass, &mut w);
+            }
+            continue;
+        }
+        // A push that turns a body as well is left to contact.
+        let along = basis
+            .iter()
+            .fold([0.0; 3], |s, &e| add_scaled(s, dot(force, e), e));
+        if norm(along) <= NO_FORCE * size {
+            continue;
+        }
+        let v = scale(1.0 / mass, along);
+        for f in &members {
+            let body = &model.bodies[f.body];
+            let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
+            for p in body.points.clone().chain(hidden) {
+                for (c, v) in v.iter().enumerate().take(dofs.dim) {
+                    w[dofs.of(p, c)] = *v;
+                }
+            }
+        }
+    }
+    let fastest = w.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
+    if fastest > 0.0 {
+        w.iter_mut().for_each(|w| *w /= fastest);
+    }
+    w
+}
+
+/// Directions in which all bodies can move without turning.
+fn common(members: &[&FreeBody]) -> Vec<Vec3> {
+    // The sum of the projections on what is held vanishes along them.
+    let mut held = vec![vec![0.0; 3]; 3];
+    for f in members {
+        for (i, row) in held.iter_mut().enumerate() {
+            for (j, h) in row.iter_mut().enumerate() {
+                let free: f64 = f.slides.iter().map(|s| s[i] * s[j]).sum();
+                *h += if i == j { 1.0 - free } else { -free };
+            }
+        }
+    }
+    let (values, vectors) = symmetric_eigen(&held);
+    let free = values.iter().enumerate().filter(|(_, v)| **v < 1e-8);
+    free.map(|(k, _)| std::array::from_fn(|i| vectors[i][k]))
+        .collect()
+}
+
+/// Adds the motion that the load gives a body which can only turn.
+fn turn(free: &FreeBody, external: &[f64], mass: f64, w: &mut [f64]) {
+    for (_, motion) in &free.motions {
+        let parts = motion.iter().zip(external).map(|(m, f)| m * f);
+        let (force, size) = parts.fold((0.0, 0.0), |(s, a): (f64, f64), p| (s + p, a + p.abs()));
+        if force.abs() <= NO_FORCE * size {
+            continue;
+        }
+        let square: f64 = motion.iter().map(|m| m * m).sum();
+        let factor = force / (square * mass);
+        w.iter_mut().zip(motion).for_each(|(w, m)| *w += factor * m);
+    }
+}
+
+/// What the loads do to each body.
+pub(crate) fn pushes(model: &Model, external: &[f64]) -> Vec<Push> {
+    let mut pushes = Vec::new();
+    for body in &model.bodies {
+        let mut push = Push::default();
+        let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
+        for p in body.points.clone().chain(hidden) {
+            let on = model.dofs.vector(external, p);
+            push.force = add(push.force, on);
+            push.size += norm(on);
+        }
+        let blocks = body.blocks.clone();
+        let cells = model.mesh.cells().filter(|c| blocks.contains(&c.block));
+        push.volume = cells.map(|c| model.mesh.cell_measure(c)).sum();
+        pushes.push(push);
+    }
+    pushes
+}
+
+/// What the loads do to a body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Push {
+    /// Their sum, and that of their sizes `[N]`.
+    pub force: Vec3,
+    size: f64,
+    /// Volume of the body, for its inertia.
+    volume: f64,
+}

@@ -1,0 +1,284 @@
+//! Floating bodies are moved until they touch, and anchored until contact holds them.
+
+use super::closure::{close, pushes};
+use super::rigid_part::rigid_part;
+use super::state::{Floating, Origin};
+use crate::body::{Anchors, Hold, spread};
+use crate::contact::interface::Interface;
+use crate::math::{dot, norm};
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::free_bodies::FreeBody;
+use crate::model::scene::Scene;
+use crate::solve::solver::Solver;
+use crate::system::{Stage, State};
+use crate::time::Trial;
+
+/// Part of a cell that a body may move in a round.
+const REACH: f64 = 0.25;
+
+/// Component of a motion along a normal from which on contact may resist it.
+const RESISTED: f64 = 1e-6;
+
+impl Solver {
+    /// Finds the bodies that supports leave free and interfaces may hold in the step at hand.
+    pub fn find_floating_bodies(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
+        if matches!(self.floating.known, Some((step, _)) if step == frame.step) {
+            return;
+        }
+        let step = &model.steps[frame.step];
+        let middle = 0.5 * (step.start + step.end);
+        let scene = Scene {
+            model,
+            contact,
+            frame,
+        };
+        let mut bodies = Vec::new();
+        if model.follow && !contact.interfaces.is_empty() {
+            bodies = scene.free_bodies(middle);
+        }
+        let active = |i: &&Interface| i.schedule.active(middle);
+        let interfaces: Vec<&Interface> = contact.interfaces.iter().filter(active).collect();
+        let dofs = model.dofs;
+        let mut resisted = false;
+        bodies.retain(|free| {
+            let points = &model.bodies[free.body].points;
+            let mut met = false;
+            for interface in &interfaces {
+                for (point, normal) in interface.normals() {
+                    if points.contains(&point) {
+                        met = true;
+                        resisted |= free.motions.iter().any(|(_, motion)| {
+                            dot(dofs.vector(motion, point), normal).abs() > RESISTED
+                        });
+                    }
+                }
+            }
+            met
+        });
+        if !resisted {
+            bodies.clear();
+        }
+        let place = |free: &FreeBody| {
+            let points = model.bodies[free.body].points.clone();
+            spread(&model.mesh, points, dofs.dim + 1)
+        };
+        self.floating = Floating {
+            places: bodies.iter().map(place).collect(),
+            known: Some((frame.step, bodies)),
+            left: self.floating.left,
+            ..Floating::default()
+        };
+    }
+
+    /// Whether floating bodies touch nothing yet and are to be moved until they do.
+    pub fn has_gaps_to_close(&mut self, model: &Model, frame: &Frame, contact: &Contact) -> bool {
+        self.find_floating_bodies(model, frame, contact);
+        let floating = &self.floating;
+        let bodies = floating.bodies();
+        if bodies.is_empty() || floating.anchors.is_some() || floating.vain || floating.moved > 0 {
+            return false;
+        }
+        let untouched = |free: &FreeBody| {
+            let points = &model.bodies[free.body].points;
+            let mut all = contact.interfaces.iter();
+            all.all(|i| !i.touched() || !i.nodes.iter().any(|n| points.contains(n)))
+        };
+        bodies.iter().any(untouched)
+    }
+
+    /// Moves floating bodies that touch nothing yet until they do, and anchors them.
+    pub fn close_gaps(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        trial: Trial,
+    ) {
+        if self.close_all(model, frame, contact, trial) {
+            self.anchor(model, frame, contact, trial);
+        }
+    }
+
+    /// Anchors the bodies that nothing else holds.
+    pub fn follow(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        trial: Trial,
+    ) {
+        self.close_all(model, frame, contact, trial);
+        self.floating.stay = true;
+        if !self.floating.vain {
+            self.anchor(model, frame, contact, trial);
+        }
+    }
+
+    /// Moves floating bodies until they touch; whether any has moved.
+    fn close_all(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        trial: Trial,
+    ) -> bool {
+        self.set_out(frame, contact, (trial, false));
+        let external = frame.external(model, trial.to);
+        let bodies = self.floating.bodies();
+        let closure = close(model, frame, contact, (bodies, &external), trial);
+        let mut names = Vec::new();
+        for (free, &moved) in bodies.iter().zip(&closure.moved) {
+            if moved > 0.0 {
+                names.push(format!("{} by {moved:.3e}", model.bodies[free.body].name));
+            }
+        }
+        if let Some(origin) = &mut self.floating.origin {
+            // As far as there is room.
+            origin.gaps += closure.moved.iter().copied().fold(0.0, f64::max);
+        }
+        if !closure.adrift.is_empty() {
+            self.floating.vain = true;
+            return false;
+        }
+        if names.is_empty() {
+            return false;
+        }
+        self.log.notes.push(format!(
+            "moved without strain until they touch: {}",
+            names.join(", ")
+        ));
+        self.set_displacements(model, frame, contact, closure.u);
+        true
+    }
+
+    /// Takes other displacements, which differ by motions without strain, as the last state.
+    fn set_displacements(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        u: Vec<f64>,
+    ) {
+        frame.state.u = u;
+        model.links.impose(&mut frame.state.u);
+        frame.previous = None;
+        self.condenser.forget_direction();
+        self.choose_candidates(model, frame, contact);
+        self.condenser.drop_at_rest();
+        self.condense(model, frame, contact);
+    }
+
+    /// Lays anchors.
+    pub fn anchor(&mut self, model: &Model, frame: &Frame, contact: &mut Contact, trial: Trial) {
+        self.set_out(frame, contact, (trial, false));
+        let external = frame.external(model, trial.to);
+        let pushes = pushes(model, &external).into_iter();
+        let force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
+        let mut anchors = Anchors::new(model.dofs);
+        let mut names = Vec::new();
+        let floating = &self.floating;
+        for (free, points) in floating.bodies().iter().zip(&floating.places) {
+            let body = &model.bodies[free.body];
+            let (mut spring, mut size) = (0.0_f64, f64::INFINITY);
+            for interface in &contact.interfaces {
+                if interface.nodes.iter().any(|n| body.points.contains(n)) {
+                    let (k, h) = interface.typical();
+                    spring = spring.max(k);
+                    size = size.min(h);
+                }
+            }
+            let hold = Hold {
+                spring,
+                force,
+                max_step: REACH * size,
+                size,
+                firmness: floating.firmness,
+            };
+            anchors.hold(points.clone(), &frame.state.u, hold);
+            let motions: Vec<&str> = free.motions.iter().map(|(name, _)| name.as_str()).collect();
+            names.push(format!("{} ({})", body.name, motions.join(", ")));
+        }
+        self.log.notes.push(format!(
+            "followed until contact holds them: {}",
+            names.join("; ")
+        ));
+        self.floating.anchors = Some(anchors);
+        self.floating.fresh = true;
+        self.choose_candidates(model, frame, contact);
+        self.condense(model, frame, contact);
+    }
+
+    /// Takes note of where the increment at hand began, and of the gaps there, if bodies float in it. While increments are `pending` interfaces know
+    /// more of the last state than displacements do.
+    pub fn set_out(
+        &mut self,
+        frame: &Frame,
+        contact: &mut Contact,
+        (trial, pending): (Trial, bool),
+    ) {
+        if self.floating.bodies().is_empty() || self.floating.origin.is_some() {
+            return;
+        }
+        // Of condensed bodies the points that may touch, and those that are anchored, are known at once.
+        let here = match self.condenser.at_rest() {
+            Some(condensed) => condensed.state.clone(),
+            None => frame.state.clone(),
+        };
+        let at = State {
+            t: trial.to,
+            ..here.clone()
+        };
+        let stage = Stage {
+            from: &here,
+            at: &at,
+            dt: trial.to - trial.from,
+            rate: None,
+        };
+        let (mut gaps, mut size) = (0.0, 0.0_f64);
+        let interfaces = contact.interfaces.iter_mut();
+        for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
+            let own = match pending {
+                true => interface.initial_gaps(),
+                false => interface.gaps_at(&stage),
+            };
+            let own = own.into_iter().filter(|gap| gap.is_finite());
+            gaps += own.map(f64::abs).fold(0.0, f64::max);
+            gaps += interface.obstacle_way(trial.from, trial.to);
+            size = size.max(interface.typical().1);
+        }
+        self.floating.origin = Some(Origin {
+            u: here.u,
+            gaps,
+            size,
+        });
+    }
+
+    /// Lets the increment start where anchored bodies have come as rigid ones.
+    pub fn restart_from_rigid_motion(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        trial: Trial,
+    ) {
+        let floating = &mut self.floating;
+        floating.moved += 1;
+        let Some(anchors) = floating.anchors.take() else {
+            return;
+        };
+        let mut u = frame.state.u.clone();
+        let mut names = Vec::new();
+        for (k, free) in floating.bodies().iter().enumerate() {
+            let way = rigid_part(free, &anchors.moved(k), model.dofs, &mut u);
+            names.push(format!("{} by {way:.3e}", model.bodies[free.body].name));
+        }
+        self.log.notes.push(format!(
+            "moved without strain to where contact holds them: {}",
+            names.join(", ")
+        ));
+        self.set_displacements(model, frame, contact, u);
+        self.anchor(model, frame, contact, trial);
+    }
+}

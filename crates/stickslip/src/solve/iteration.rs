@@ -1,0 +1,55 @@
+//! One increment as a system, and Newton's method on it.
+
+use crate::model::definition::Model;
+use crate::newton::{Bulk, Converged, Newton, Origin, Progress, System};
+use crate::system::{Constraints, Force, Rate, State, StepFailure};
+
+/// The forces of the bulk in an increment.
+pub(crate) enum Load {
+    /// Elastic forces, and these from outside.
+    External(Vec<f64>),
+    /// Those of an increment in motion, known at the guess; its matrix is the one that was made ready last.
+    Known(Origin),
+}
+
+/// An increment to be solved.
+pub(crate) struct Task<'a> {
+    /// The forces of the bulk.
+    pub load: Load,
+    /// Prescribed displacements at its end.
+    pub constraints: Constraints,
+    /// How velocities follow from displacements.
+    pub rate: Option<Rate<'a>>,
+    /// The state at its start.
+    pub from: &'a State,
+}
+
+/// Newton's method on one system: where all increments are solved.
+pub(crate) struct Iteration<'a> {
+    pub newton: &'a mut Newton,
+    pub seen: &'a mut Vec<Progress>,
+    pub model: &'a Model,
+    pub forces: Vec<&'a mut dyn Force>,
+    pub bulk: &'a mut dyn Bulk,
+}
+
+impl<'a> Iteration<'a> {
+    /// Solves it. `at` is the guess before and the solution after.
+    pub fn solve(
+        self,
+        constraints: Constraints,
+        rate: Option<Rate<'a>>,
+        (from, at): (&State, &mut State),
+    ) -> Result<Converged, StepFailure> {
+        let mut system = System {
+            dofs: self.model.dofs,
+            bulk: self.bulk,
+            contact: self.forces,
+            rate,
+            constraints,
+            links: &self.model.links,
+        };
+        let seen = self.seen;
+        (self.newton).solve(&mut system, from, at, &mut |p| seen.push(*p))
+    }
+}

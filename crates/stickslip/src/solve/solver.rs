@@ -1,0 +1,129 @@
+//! The solver: matrix, factors and Newton's method, and the way in which increments are solved.
+
+use super::inertia::in_motion;
+use super::iteration::{Iteration, Load, Task};
+use std::sync::Arc;
+
+use super::condensed::Condenser;
+use super::floating::Floating;
+use super::inertia::{Inertia, times};
+use crate::linear::BlockCsr;
+use crate::math::vector::dot;
+use crate::model::contact::Contact;
+use crate::model::definition::{Model, Solution, Step};
+use crate::newton::condensed::Library;
+use crate::newton::{Converged, Factors, Newton, Progress, SparseBulk};
+use crate::system::{State, StepFailure};
+
+/// What solves increments: nothing in it is part of a result, and all of it can be made again.
+pub(crate) struct Solver {
+    /// Stiffness of bodies and springs.
+    pub stiffness: BlockCsr,
+    /// Its diagonal.
+    pub diagonal: Vec<f64>,
+    /// Newton's method, with its counts.
+    pub newton: Newton,
+    /// How systems are solved; `Automatic` until it is known.
+    pub method: Solution,
+    /// Factors of sparse matrices, by their keys: 0 is the stiffness.
+    pub factors: Factors,
+    /// Bodies without their interiors.
+    pub condenser: Condenser,
+    /// Mass and damping, in implicit steps.
+    pub inertia: Option<Inertia>,
+    /// Bodies that only contact can hold.
+    pub floating: Floating,
+    /// Iterations that nobody has been told of.
+    pub seen: Vec<Progress>,
+    /// What a user should know.
+    pub log: Log,
+}
+
+/// What the solver has to say.
+#[derive(Debug, Default)]
+pub(crate) struct Log {
+    /// Notes that nobody has been told of.
+    pub notes: Vec<String>,
+    /// How systems are solved.
+    pub method: &'static str,
+    /// Why so.
+    pub reason: String,
+}
+
+impl Solver {
+    /// Assembles the stiffness of a model, but for an analysis of explicit steps alone.
+    pub fn new(model: &Model, library: Arc<Library>) -> Self {
+        // An explicit analysis needs no matrix of the bodies.
+        let assembled = !model.steps.iter().all(Step::is_explicit);
+        let mut stiffness =
+            BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
+                for body in model.elastic().filter(|_| assembled) {
+                    body.elastic.couplings(visit);
+                }
+                for link in model.links.all() {
+                    visit(&[link.hidden, link.hidden + 1]);
+                }
+            });
+        for body in model.elastic().filter(|_| assembled) {
+            body.elastic.stiffness(&mut stiffness);
+        }
+        for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+            model.links.add_spring(&mut stiffness, dof, k);
+        }
+        Solver {
+            diagonal: stiffness.diagonal(),
+            stiffness,
+            newton: Newton::new(model.settings),
+            method: model.method,
+            factors: match model.method {
+                Solution::Multigrid => Factors::multigrid(model.places()),
+                _ => Factors::default(),
+            },
+            condenser: Condenser::new(library),
+            inertia: None,
+            floating: Floating::default(),
+            seen: Vec::new(),
+            log: Log::default(),
+        }
+    }
+
+    /// Solves an increment with the sparse matrix. `at` is the guess before and the solution after.
+    pub fn solve_sparse(
+        &mut self,
+        model: &Model,
+        contact: &mut Contact,
+        task: Task,
+        at: &mut State,
+    ) -> Result<Converged, StepFailure> {
+        let fixed = task.constraints.fixed.clone();
+        let (matrix, key, external, origin) = match task.load {
+            Load::External(external) => {
+                let matrix = (&self.stiffness, self.diagonal.as_slice());
+                (matrix, 0, external, None)
+            }
+            Load::Known(origin) => {
+                let (matrix, diagonal, key) = in_motion(&self.inertia).matrix();
+                let none = vec![0.0; at.u.len()];
+                ((matrix, diagonal), key, none, Some(origin))
+            }
+        };
+        let forces = match origin {
+            None => self.floating.with(contact.forces()),
+            Some(_) => contact.forces(),
+        };
+        let linearised = self.factors.of(key);
+        Iteration {
+            newton: &mut self.newton,
+            seen: &mut self.seen,
+            model,
+            forces,
+            bulk: &mut SparseBulk::new(matrix, external, fixed, origin, linearised),
+        }
+        .solve(task.constraints, task.rate, (task.from, at))
+    }
+
+    /// Strain energy of bodies and springs `[J]`.
+    pub fn strain_energy(&self, u: &[f64]) -> f64 {
+        0.5 * dot(u, &times(&self.stiffness, u))
+    }
+}
