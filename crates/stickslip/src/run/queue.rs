@@ -7,7 +7,7 @@ use crate::contact::interface::History;
 use crate::newton::Progress;
 use crate::results::observer::Advance;
 use crate::solve::accepted::Accepted;
-use crate::solve::condensed::Candidates;
+use crate::solve::condenser::Candidates;
 use crate::time::Trial;
 
 /// An accepted increment that nobody has been told of.

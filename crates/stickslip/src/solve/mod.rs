@@ -3,9 +3,13 @@
 pub(crate) mod accepted;
 pub(crate) mod checks;
 pub(crate) mod choice;
-pub(crate) mod condensed;
-pub(crate) mod floating;
+mod closure;
+mod condensed;
+pub(crate) mod condenser;
+pub(crate) mod floating_bodies;
+mod follow;
 pub(crate) mod inertia;
 pub(crate) mod iteration;
+mod rigid_part;
 pub(crate) mod solver;
 pub(crate) mod spin;

@@ -4,8 +4,8 @@ use super::inertia::in_motion;
 use super::iteration::{Iteration, Load, Task};
 use std::sync::Arc;
 
-use super::condensed::Condenser;
-use super::floating::Floating;
+use super::condenser::Condenser;
+use super::floating_bodies::Floating;
 use super::inertia::{Inertia, times};
 use crate::linear::BlockCsr;
 use crate::math::vector::dot;

@@ -1,6 +1,6 @@
 //! Quasi-static increments on the contact candidates.
 
-use super::condenser::{Candidates, Condensed};
+use crate::solve::condenser::{Candidates, Condensed};
 use std::time::Instant;
 
 use crate::linear::BlockCsr;

@@ -1,6 +1,6 @@
 //! Points that may come into contact: what bodies are condensed to.
 
-use super::condenser::Condenser;
+use crate::solve::condenser::Condenser;
 
 use crate::contact::interface::CandidateRange;
 use crate::model::contact::Contact;

@@ -1,6 +1,6 @@
 //! Static condensation of the bodies of a model, where it is the cheapest way to solve.
 
-use super::condenser::{Condensed, Which};
+use crate::solve::condenser::{Condensed, Which};
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -1,6 +1,6 @@
 //! Increments in motion on the contact candidates.
 
-use super::condenser::{Moving, Which};
+use crate::solve::condenser::{Moving, Which};
 use std::time::Instant;
 
 use crate::math::vector::dot;

@@ -2,8 +2,5 @@
 
 mod at_rest;
 mod candidates;
-mod condenser;
 mod condensing;
 mod in_motion;
-
-pub(crate) use condenser::{Candidates, Condenser};

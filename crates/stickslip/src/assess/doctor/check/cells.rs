@@ -12,7 +12,7 @@ const SLIVER: f64 = 1e-6;
 const STOUT: f64 = 1e-3;
 
 /// Bodies with slivers, one finding each.
-pub(in crate::assess::doctor) fn slivers(model: &Model) -> Vec<Finding> {
+pub(crate) fn slivers(model: &Model) -> Vec<Finding> {
     model.elastic().filter_map(|b| sliver(model, b)).collect()
 }
 

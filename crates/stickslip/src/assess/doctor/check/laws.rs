@@ -21,7 +21,7 @@ const STIFF: f64 = 1e10;
 const TRIED: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// What is wrong with the laws of all interfaces.
-pub(in crate::assess::doctor) fn check(scene: &Scene) -> Vec<Finding> {
+pub(crate) fn check(scene: &Scene) -> Vec<Finding> {
     let model = scene.model;
     let bodies = model.elastic();
     let largest = bodies.fold(0.0_f64, |m, b| {

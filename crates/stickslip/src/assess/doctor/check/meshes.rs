@@ -17,7 +17,7 @@ const COARSER: f64 = 8.0;
 const SOFTER: f64 = 0.05;
 
 /// Bodies whose cells do not hang together, one finding each.
-pub(in crate::assess::doctor) fn disconnected(model: &Model) -> Vec<Finding> {
+pub(crate) fn disconnected(model: &Model) -> Vec<Finding> {
     let mut out = Vec::new();
     for body in &model.bodies {
         let pieces = pieces(model, body);

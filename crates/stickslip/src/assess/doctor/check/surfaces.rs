@@ -155,7 +155,7 @@ fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Fin
 }
 
 /// Two interfaces between the same surfaces that act at the same time.
-pub(in crate::assess::doctor) fn doubled(scene: &Scene) -> Option<Finding> {
+pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
     let model = scene.model;
     let sets: Vec<[BTreeSet<usize>; 2]> = scene.contact.interfaces.iter().map(nodes).collect();
     for (b, second) in scene.contact.interfaces.iter().enumerate() {

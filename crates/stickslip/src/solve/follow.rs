@@ -1,8 +1,9 @@
 //! Floating bodies are moved until they touch, and anchored until contact holds them.
 
 use super::closure::{close, pushes};
+use super::floating_bodies::{Floating, Origin};
 use super::rigid_part::rigid_part;
-use super::state::{Floating, Origin};
+use super::solver::Solver;
 use crate::body::{Anchors, Hold, spread};
 use crate::contact::interface::Interface;
 use crate::math::{dot, norm};
@@ -11,7 +12,6 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
-use crate::solve::solver::Solver;
 use crate::system::{Stage, State};
 use crate::time::Trial;
 

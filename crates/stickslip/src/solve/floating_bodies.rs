@@ -1,5 +1,6 @@
 //! Floating bodies, those that only contact can hold: what is known of them, and what an attempt says of them.
 
+use super::accepted::Accepted;
 use super::rigid_part::rigid_part;
 use crate::body::Anchors;
 use crate::math::{add_scaled, norm};
@@ -7,7 +8,6 @@ use crate::model::definition::Step;
 use crate::model::drivers::named;
 use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
-use crate::solve::accepted::Accepted;
 use crate::system::{Cause, Culprit, Force, StepFailure};
 use crate::time::Trial;
 
