@@ -1,6 +1,6 @@
 //! Cards: a keyword with its parameters and data lines, before anybody asks what they mean.
 
-/// Where a line is: number of the file in [`Source::files`], and line from 1.
+/// Where a line is: number of the file in [`Source::files`](crate::source::Source::files), and line from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Place {
     /// Index of the file.

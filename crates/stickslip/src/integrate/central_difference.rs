@@ -12,7 +12,7 @@ use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::solve::accepted::Accepted;
 use crate::solve::solver::Solver;
-use crate::system::{Cause, Force, Stage, State, StepFailure};
+use crate::system::{Cause, Constraints, Force, Stage, State, StepFailure};
 use crate::time::Trial;
 
 /// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
@@ -39,77 +39,171 @@ impl Integrator for Explicit {
         _solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
-        let explicit = self;
+        self.check_length(model, frame, contact, trial)?;
         let dt = trial.to - trial.from;
-        let step = &model.steps[frame.step];
-        if step.fixed {
-            let stable = explicit.stable(explicit.contact_frequency(model, frame, contact));
-            if dt > stable * (1.0 + 1e-9) {
-                let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
-                return Err(StepFailure {
-                    help: e.help,
-                    ..StepFailure::new(Cause::NotConverged, e.message)
-                });
-            }
-        }
-        let constraints = match &explicit.still {
+        let constraints = match &self.still {
             Some(still) => Arc::clone(still),
             None => Arc::new(frame.constraints(model, trial.to)),
         };
-        let from = &frame.state;
-        let n = from.u.len();
-        let mut at = State {
-            t: trial.to,
-            u: vec![0.0; n],
-            v: vec![0.0; n],
-            a: vec![0.0; n],
+        let mut at = predict(model, frame, &constraints, trial);
+        self.evaluate(model, frame, contact, (&at, dt))?;
+        let external = if self.loaded {
+            frame.external(model, trial.to)
+        } else {
+            frame.load.clone()
         };
-        at.u.par_chunks_mut(CHUNK)
-            .zip(at.v.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each(|(c, (u, v))| {
-                let first = c * CHUNK;
-                for (k, (u, v)) in u.iter_mut().zip(v).enumerate() {
-                    let i = first + k;
-                    if constraints.fixed[i] {
-                        *u = constraints.values[i];
-                        *v = (*u - from.u[i]) / dt;
-                    } else {
-                        *v = from.v[i] + 0.5 * dt * from.a[i];
-                        *u = from.u[i] + dt * *v;
-                    }
-                }
-            });
-        model.links.impose(&mut at.u);
+        let end = End {
+            from: frame,
+            constraints: &constraints,
+            external: &external,
+            dt,
+        };
+        let mut forces = vec![0.0; external.len()];
+        let mut total = self.accelerate(&end, &mut at, &mut forces);
+        self.turn(&end, &mut at, &mut forces, &mut total);
+        total.finite &= total.kinetic.is_finite();
         model.links.impose(&mut at.v);
-        explicit.internal.apply(&at.u, &mut explicit.force);
-        for &(dof, k) in &explicit.springs {
-            explicit.force[dof] += k * at.u[dof];
+        model.links.impose(&mut at.a);
+        if !total.finite {
+            return Err(StepFailure::new(
+                Cause::NotFinite,
+                "the motion has grown beyond all numbers: the increment was not stable",
+            )
+            .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
-        model.links.transfer(&mut explicit.force);
-        explicit.damp(&at.v);
-        explicit.out.reset(false);
+        // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
+        std::mem::swap(&mut self.damped, &mut self.damped_before);
+        Ok(Accepted {
+            tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
+            forces,
+            external,
+            flow: Flow {
+                work: total.work,
+                damped: total.damped,
+                // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
+                numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
+            },
+            kinetic: 0.5 * total.kinetic,
+            strain: 0.5 * total.strain,
+            state: at,
+            ..Accepted::default()
+        })
+    }
+
+    fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
+        let fixed = model.steps[frame.step].fixed;
+        (!fixed).then(|| self.stable_increment(model, frame, contact))
+    }
+}
+
+/// What acts at the end of an increment, and where it began.
+struct End<'a> {
+    from: &'a Frame,
+    constraints: &'a Constraints,
+    /// External forces at the end `[N]`.
+    external: &'a [f64],
+    /// Length of the increment `[s]`.
+    dt: f64,
+}
+
+/// Displacements at the end, and velocities in the middle of the increment.
+fn predict(model: &Model, frame: &Frame, constraints: &Constraints, trial: Trial) -> State {
+    let dt = trial.to - trial.from;
+    let from = &frame.state;
+    let n = from.u.len();
+    let mut at = State {
+        t: trial.to,
+        u: vec![0.0; n],
+        v: vec![0.0; n],
+        a: vec![0.0; n],
+    };
+    at.u.par_chunks_mut(CHUNK)
+        .zip(at.v.par_chunks_mut(CHUNK))
+        .enumerate()
+        .for_each(|(c, (u, v))| {
+            let first = c * CHUNK;
+            for (k, (u, v)) in u.iter_mut().zip(v).enumerate() {
+                let i = first + k;
+                if constraints.fixed[i] {
+                    *u = constraints.values[i];
+                    *v = (*u - from.u[i]) / dt;
+                } else {
+                    *v = from.v[i] + 0.5 * dt * from.a[i];
+                    *u = from.u[i] + dt * *v;
+                }
+            }
+        });
+    model.links.impose(&mut at.u);
+    model.links.impose(&mut at.v);
+    at
+}
+
+impl Explicit {
+    /// Refuses an increment of given length that is not stable.
+    fn check_length(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &Contact,
+        trial: Trial,
+    ) -> Result<(), StepFailure> {
+        let step = &model.steps[frame.step];
+        if !step.fixed {
+            return Ok(());
+        }
+        let dt = trial.to - trial.from;
+        let stable = self.stable(self.contact_frequency(model, frame, contact));
+        if dt > stable * (1.0 + 1e-9) {
+            let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
+            return Err(StepFailure {
+                help: e.help,
+                ..StepFailure::new(Cause::NotConverged, e.message)
+            });
+        }
+        Ok(())
+    }
+
+    /// Forces of bodies, damping and interfaces at the end.
+    fn evaluate(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        (at, dt): (&State, f64),
+    ) -> Result<(), StepFailure> {
+        self.internal.apply(&at.u, &mut self.force);
+        for &(dof, k) in &self.springs {
+            self.force[dof] += k * at.u[dof];
+        }
+        model.links.transfer(&mut self.force);
+        self.damp(&at.v);
+        self.out.reset(false);
         let stage = Stage {
-            from,
-            at: &at,
+            from: &frame.state,
+            at,
             dt,
             rate: None,
         };
         for interface in &mut contact.interfaces {
             interface.begin();
             interface.prepare(&stage);
-            interface.assemble(&stage, &mut explicit.out)?;
+            interface.assemble(&stage, &mut self.out)?;
         }
-        contact.couplings.assemble(&stage, &mut explicit.out)?;
-        model.links.transfer(&mut explicit.out.residual);
-        let external = if explicit.loaded {
-            frame.external(model, trial.to)
-        } else {
-            frame.load.clone()
-        };
-        let load_before = &frame.load;
-        let mut forces = vec![0.0; n];
-        let State { u, v, a, .. } = &mut at;
+        contact.couplings.assemble(&stage, &mut self.out)?;
+        model.links.transfer(&mut self.out.residual);
+        Ok(())
+    }
+
+    /// Accelerations, velocities and reactions at the end, and sums over all dofs in a fixed order.
+    fn accelerate(&self, end: &End, at: &mut State, forces: &mut [f64]) -> Sums {
+        let End {
+            from: frame,
+            constraints,
+            external,
+            dt,
+        } = *end;
+        let (from, load_before) = (&frame.state, &frame.load);
+        let State { u, v, a, .. } = at;
         let u: &[f64] = u;
         let Explicit {
             mass,
@@ -119,7 +213,7 @@ impl Integrator for Explicit {
             damped_before,
             out,
             ..
-        } = &*explicit;
+        } = self;
         let sums: Vec<Sums> = v
             .par_chunks_mut(CHUNK)
             .zip(a.par_chunks_mut(CHUNK))
@@ -167,11 +261,19 @@ impl Integrator for Explicit {
             total.turned[1] += s.turned[1];
             total.finite &= s.finite;
         }
-        for spin in &explicit.spins {
+        total
+    }
+
+    /// The same for rotations of rigid bodies, whose inertia is no diagonal.
+    fn turn(&self, end: &End, at: &mut State, forces: &mut [f64], total: &mut Sums) {
+        let (constraints, dt) = (end.constraints, end.dt);
+        let from = &end.from.state;
+        let State { u, v, a, .. } = at;
+        for spin in &self.spins {
             let range = spin.range();
             let mut moment = [0.0; 3];
             for (m, i) in moment.iter_mut().zip(range.clone()) {
-                *m = external[i] - force[i] - out.residual[i];
+                *m = end.external[i] - self.force[i] - self.out.residual[i];
             }
             let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
             let inertial = spin.force(turn);
@@ -191,37 +293,5 @@ impl Integrator for Explicit {
             }
             total.kinetic += spin.square(spin.of(v));
         }
-        total.finite &= total.kinetic.is_finite();
-        model.links.impose(v);
-        model.links.impose(a);
-        if !total.finite {
-            return Err(StepFailure::new(
-                Cause::NotFinite,
-                "the motion has grown beyond all numbers: the increment was not stable",
-            )
-            .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
-        }
-        // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
-        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
-        Ok(Accepted {
-            tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
-            forces,
-            external,
-            flow: Flow {
-                work: total.work,
-                damped: total.damped,
-                // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
-                numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
-            },
-            kinetic: 0.5 * total.kinetic,
-            strain: 0.5 * total.strain,
-            state: at,
-            ..Accepted::default()
-        })
-    }
-
-    fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
-        let fixed = model.steps[frame.step].fixed;
-        (!fixed).then(|| self.stable_increment(model, frame, contact))
     }
 }

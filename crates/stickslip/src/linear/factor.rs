@@ -2,7 +2,7 @@
 //!
 //! The multifrontal factor of this folder could do the same without kept dofs. Measured beside it (one thread, development build, best of 3 to 7):
 //! 4 800 dofs in 2D 4.8 ms against 3.8 ms here, 100 000 in 2D 0.214 s against 0.205 s, 31 944 in 3D 0.57 s against 0.67 s, 81 000 in 3D 3.8 s against
-//! 4.1 s; a solution takes 0.4 to 0.65 of the time. What it lacks is blocks between points that the matrix does not couple, and counts without the
+//! 4.1 s; a solution takes 0.33 to 0.65 of the time. What it lacks is blocks between points that the matrix does not couple, and counts without the
 //! zeros it stores, by which methods are chosen (up to 50 % of the entries in small 2D models): it would change choices, and the bits of every sparse run.
 
 use std::sync::Arc;

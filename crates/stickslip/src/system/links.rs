@@ -1,4 +1,15 @@
 //! Rigid bodies: the motion of many points by that of a few.
+//!
+//! `Dofs` numbers the points of the mesh and, after them, two hidden points for each rigid body: its translation, and its
+//! rotation about the centre of mass times the mean distance of its mass, so that all unknowns are lengths and all that acts
+//! on them are forces. `system::Links` is the linear map `u = T q` from hidden dofs to those of the points, and its transpose
+//! for forces and blocks. The points of a rigid body have dofs like all others, but they are marked as fixed, and no matrix
+//! has entries there: stiffness there is none, mass and springs stand at the hidden points.
+//!
+//! Contact, loads and output see points only. `impose` makes the points follow wherever displacements, their increments,
+//! velocities or accelerations are made; `transfer` gives the hidden dofs what acts on the points before anything is balanced;
+//! Newton transforms contact blocks before they are solved with. Supports and initial velocities are turned into values of
+//! hidden dofs once, in `problem/build/rigid.rs`.
 
 use std::fmt;
 use std::ops::Range;
