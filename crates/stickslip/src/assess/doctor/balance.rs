@@ -1,6 +1,7 @@
 //! Whether contact can balance what acts on a body that nothing else holds.
 
-use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::cause::DoctorCause;
+use super::finding::{Finding, Guilty, Severity};
 use super::friction::friction_coefficient;
 use super::places;
 use super::surfaces::Opposite;

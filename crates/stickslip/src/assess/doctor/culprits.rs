@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::finding::{DoctorCause, Finding, Severity, What};
+use super::cause::DoctorCause;
+use super::finding::{Finding, Severity, What};
 use crate::error::Error;
 use crate::io::vtu;
 use crate::mesh::Mesh;

@@ -1,7 +1,8 @@
 //! From an attempt that failed to a finding.
 
+use super::cause::DoctorCause;
 use super::check;
-use super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::finding::{Finding, Guilty, Severity, What};
 use super::friction::friction_coefficient;
 use super::motions::{Loose, Row, loose, rows};
 use super::places;

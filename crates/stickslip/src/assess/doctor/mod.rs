@@ -8,6 +8,7 @@
 //! The doctor only looks: nothing here changes a result.
 
 mod balance;
+mod cause;
 mod check;
 mod coupling;
 mod culprits;
@@ -22,7 +23,8 @@ mod surfaces;
 mod unjoined;
 mod watch;
 
-pub use finding::{DoctorCause, Finding, Guilty, MOST_GUILTY, Severity, What};
+pub use cause::DoctorCause;
+pub use finding::{Finding, Guilty, MOST_GUILTY, Severity, What};
 
 pub(crate) use check::examine;
 pub(crate) use culprits::write as write_culprits;

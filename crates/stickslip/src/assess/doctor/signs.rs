@@ -1,6 +1,7 @@
 //! What guilty points show by themselves, and what supports ask of them.
 
-use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::cause::DoctorCause;
+use super::finding::{Finding, Guilty, Severity};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};

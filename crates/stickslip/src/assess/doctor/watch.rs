@@ -1,6 +1,7 @@
 //! What interfaces did over a whole run: those that never carried anything, those whose contact is too small for their mesh.
 
-use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::cause::DoctorCause;
+use super::finding::{Finding, Guilty, Severity};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Resolution};
 

@@ -1,6 +1,7 @@
 //! Cells that are next to nothing: so flat that their stiffness drowns that of the others.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity, What};
 use crate::math::{Vec3, add_scaled, determinant, distance, symmetric_eigen};
 use crate::model::definition::{Body, Model};
 use crate::shape::{ElementKind, MAX_NODES};

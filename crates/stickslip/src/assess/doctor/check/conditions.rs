@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{forced, travel};
 use super::measured::Measured;
 use crate::assess::view::View;

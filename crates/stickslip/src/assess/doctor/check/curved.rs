@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::surfaces::{Opposite, coordinates, spacing};
 use super::common::{median, roles, sides};
 use crate::contact::interface::{Interface, Primary};

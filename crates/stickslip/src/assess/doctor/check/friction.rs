@@ -1,7 +1,8 @@
 //! Friction beyond what is plausible, beyond the limit of unique solutions, or without any pressure to feed it.
 
+use super::super::cause::DoctorCause;
 use super::super::coupling::local_limit;
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::friction::friction_coefficient;
 use super::common::{forced, median, secondary};
 use super::driven;

@@ -1,6 +1,7 @@
 //! Gaps that cannot close, overlaps that are too deep.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::common::{forced_by_loads, secondary, travel};
 use super::driven::flight;
 use super::measured::Measured;

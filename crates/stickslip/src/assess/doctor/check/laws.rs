@@ -1,6 +1,7 @@
 //! Normal laws that are far softer or stiffer than the bodies, and functions that are no laws.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::common::{diameter, median};
 use crate::contact::interface::Interface;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};

@@ -1,6 +1,7 @@
 //! Bodies that are nearly incompressible and made of cells that lock.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::places::body;
 use crate::body::{Formulation, Space};
 use crate::material::Stiffness;

@@ -1,7 +1,8 @@
 //! Motions of bodies as a whole that even contact cannot hold, and gaps that a body under force has to close.
 
 use super::super::balance::unbalanced;
-use super::super::finding::{DoctorCause, Finding, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Severity};
 use super::super::motions::{loose, rows};
 use super::super::places::body;
 use super::super::surfaces::Opposite;

@@ -1,6 +1,7 @@
 //! Surfaces that do not face each other.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{roles, secondary, sides};
 use super::measured::Measured;
 use crate::assess::view::View;

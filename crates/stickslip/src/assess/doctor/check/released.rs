@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::places::body;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};

@@ -1,6 +1,7 @@
 //! What acts when: factors that jump, tables of which the analysis sees a part, and what never acts at all.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use crate::system::{Course, Schedule};

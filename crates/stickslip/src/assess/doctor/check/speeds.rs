@@ -1,6 +1,7 @@
 //! Motions that are too fast for the bodies, or lead away from contact.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::places::body;
 use super::common::forced_by_loads;
 use super::driven::{approach, thrown};

@@ -1,6 +1,7 @@
 //! Displacements and loads that strain bodies more than small strains allow.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::super::places::{body, bounds};
 use super::driven::{apart, approach, pair};
 use super::measured::Measured;

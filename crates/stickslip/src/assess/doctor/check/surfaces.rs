@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity, What};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{roles, sides};
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::projection::evaluate;

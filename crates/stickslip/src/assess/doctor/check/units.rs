@@ -3,7 +3,8 @@
 //! Three consistent systems are common: m, N, Pa, kg; mm, N, MPa, t; in, lbf, psi, lbf s²/in. In each of them the moduli of solids and the speed of
 //! sound in them lie in known ranges; what lies in none, or makes two bodies differ by the factor between units, is reported.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use super::common::diameter;
 use crate::body::Space;
 use crate::model::Body;

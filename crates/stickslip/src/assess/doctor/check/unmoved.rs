@@ -1,6 +1,7 @@
 //! Velocities given to points that have no mass.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use crate::model::definition::Initial;
 use crate::model::scene::Scene;
 use crate::solve::inertia::light;

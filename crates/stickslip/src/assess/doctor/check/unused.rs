@@ -1,6 +1,7 @@
 //! Tables of the problem file that nothing uses.
 
-use super::super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
 use crate::model::definition::Model;
 
 pub(super) fn check(model: &Model) -> Option<Finding> {

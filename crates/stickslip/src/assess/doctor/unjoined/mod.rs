@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 
 use placed::{Boundary, NEAR, Overlap, Placed, ROUNDING, boundaries, gap};
 
-use super::finding::{DoctorCause, Finding, Guilty, Severity};
+use super::cause::DoctorCause;
+use super::finding::{Finding, Guilty, Severity};
 use super::places::{body as body_at, bounds};
 use super::record::note;
 use crate::contact::interface::{Interface, Primary};

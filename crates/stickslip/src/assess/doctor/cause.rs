@@ -1,0 +1,173 @@
+//! The causes that the doctor knows: one row says what a cause is called, what it means, and whether the model is at fault.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Makes [`DoctorCause`] of rows: meaning, variant, name in files, and `mistake` where advice about how a model is solved does not help.
+macro_rules! causes {
+    ($($(#[doc = $meaning:literal])+ $cause:ident = $name:literal $($mistake:ident)?,)*) => {
+        /// What is wrong.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        pub enum DoctorCause {
+            $($(#[doc = $meaning])+ #[serde(rename = $name)] $cause,)*
+        }
+
+        impl DoctorCause {
+            /// All causes, in the order of [`code`](DoctorCause::code).
+            pub const ALL: &[DoctorCause] = &[$(DoctorCause::$cause),*];
+
+            /// Whether it is a mistake in the model, so that advice about how it is solved does not help.
+            pub fn is_mistake(self) -> bool {
+                match self {
+                    $(DoctorCause::$cause => causes!(@is $($mistake)?),)*
+                }
+            }
+
+            /// Its name in files: `free-rigid-mode`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(DoctorCause::$cause => $name,)*
+                }
+            }
+        }
+    };
+    (@is mistake) => { true };
+    (@is) => { false };
+}
+
+causes! {
+    /// A body can move as a whole: neither supports, nor springs, nor contact hold it.
+    FreeRigidMode = "free-rigid-mode",
+    /// Points go to and fro between open, stick and slip.
+    Chatter = "chatter",
+    /// Points slide off the outer edge of the primary and come back.
+    LostProjection = "lost-projection",
+    /// Points slide over a large part of a facet, or over several, in one increment.
+    TooLargeSlip = "too-large-slip",
+    /// The normal law has a kink between the states that the iteration goes to and fro between.
+    LawTangentJump = "law-tangent-jump",
+    /// A cell is inverted or has next to no volume.
+    CollapsedCell = "collapsed-cell" mistake,
+    /// The matrix is singular, or nearly so, although every body is held.
+    NearSingularOperator = "near-singular-operator",
+    /// Friction is larger than the limit up to which the solution is known to be unique.
+    CoulombNonUniqueness = "coulomb-non-uniqueness",
+    /// A linear system could not be solved to its tolerance.
+    LinearSolver = "linear-solver",
+    /// Something became NaN or infinite.
+    NotFinite = "not-finite",
+    /// Two successive solutions are too far apart, or the error of an increment is too large.
+    TooFar = "too-far",
+    /// A body slides or tips off as a whole: contact does not resist any more.
+    SlidesAway = "slides-away",
+    /// The iteration did not converge, for no reason that shows.
+    NotConverged = "not-converged",
+    /// Contact came to points that the solver had not provided for.
+    BeyondReach = "beyond-reach",
+    /// The run ended for a reason outside the increments.
+    Stopped = "stopped",
+    /// A body that contact has to hold does not touch anything, or an interface cannot close.
+    InitialGap = "initial-gap",
+    /// Surfaces overlap at the start.
+    InitialOverlap = "initial-overlap",
+    /// No point of the secondary has a facet of the primary opposite.
+    NothingOpposite = "nothing-opposite",
+    /// Secondary and primary do not face each other.
+    NormalsNotOpposed = "normals-not-opposed" mistake,
+    /// The cells of the two sides differ much in size.
+    MeshMismatch = "mesh-mismatch",
+    /// The primary is much softer than the secondary.
+    SofterPrimary = "softer-primary",
+    /// Numbers that do not go with one system of units.
+    MixedUnits = "mixed-units" mistake,
+    /// Supports prescribe different displacements for one point.
+    ContradictingSupports = "contradicting-supports",
+    /// A coefficient of friction beyond what dry surfaces have.
+    LargeFriction = "large-friction",
+    /// An interface has friction, but nothing presses it together.
+    FrictionWithoutPressure = "friction-without-pressure",
+    /// The cells of a body do not hang together.
+    DisconnectedBody = "disconnected-body",
+    /// Nothing moves and nothing is loaded.
+    NothingActs = "nothing-acts",
+    /// A support holds the surface of contact itself.
+    SupportOnContact = "support-on-contact",
+    /// A load acts on the surface of contact itself.
+    LoadOnContact = "load-on-contact",
+    /// Two interfaces join the same surfaces at the same time.
+    DoubledInterface = "doubled-interface" mistake,
+    /// A factor jumps faster than increments can follow.
+    SuddenChange = "sudden-change",
+    /// The largest value of an amplitude lies beyond the end of the analysis.
+    AmplitudeUnused = "amplitude-unused",
+    /// A normal law is far softer or stiffer than the bodies.
+    LawOutOfRange = "law-out-of-range" mistake,
+    /// A function that is used as a law gives what no law can.
+    FaultyLaw = "faulty-law" mistake,
+    /// What is prescribed strains bodies more than small strains allow.
+    LargeStrain = "large-strain" mistake,
+    /// All that is prescribed opens an interface.
+    MovesApart = "moves-apart",
+    /// A velocity comes near the speed of sound.
+    TooFast = "too-fast" mistake,
+    /// An interface carried nothing in the whole run.
+    NeverCarried = "never-carried",
+    /// Fewer than three points across are in contact.
+    CoarseContact = "coarse-contact",
+    /// Straight facets stand off curved surfaces by a good part of their overlap.
+    CoarseFacets = "coarse-facets",
+    /// Surfaces have turned since the start, and small sliding does not know of it.
+    TurnedNormals = "turned-normals",
+    /// A body has moved by more than the size of the model.
+    FarAway = "far-away",
+    /// A nearly incompressible body of cells that lock.
+    Locking = "locking",
+    /// Bodies that no interface joins touch or pass through each other.
+    MissingInterface = "missing-interface",
+    /// A body is held or loaded less than in the step before.
+    LetGo = "let-go",
+    /// A table of the problem file that nothing uses.
+    Unused = "unused",
+}
+
+impl DoctorCause {
+    /// Its number in `culprits.vtu`, from 1.
+    pub fn code(self) -> usize {
+        let at = Self::ALL.iter().position(|&cause| cause == self);
+        at.map_or(0, |i| i + 1)
+    }
+}
+
+impl fmt::Display for DoctorCause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cause_has_a_name_and_a_number_of_its_own() {
+        let mut names: Vec<&str> = DoctorCause::ALL.iter().map(|c| c.name()).collect();
+        assert_eq!(names[0], "free-rigid-mode");
+        for (i, cause) in DoctorCause::ALL.iter().enumerate() {
+            assert_eq!(cause.code(), i + 1);
+        }
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), DoctorCause::ALL.len());
+    }
+
+    #[test]
+    fn every_cause_has_a_row_in_the_book() {
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../book/src/doctor.md");
+        let page = std::fs::read_to_string(page).expect("the page of the doctor");
+        for cause in DoctorCause::ALL {
+            let row = format!("| {} | `{cause}` |", cause.code());
+            assert!(page.contains(&row), "no row begins with {row}");
+        }
+    }
+}
