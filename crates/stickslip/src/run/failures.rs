@@ -44,11 +44,11 @@ impl Simulation {
     pub(crate) fn examine(
         &mut self,
         trial: &Trial,
-        (attempt, chart): (usize, doctor::Chart),
+        (attempt, counters): (usize, doctor::Counters),
         failure: &StepFailure,
     ) {
         if failure.cause != Cause::Event {
-            let finding = doctor::diagnose(&view!(self), (trial, attempt, chart), failure);
+            let finding = doctor::diagnose(&view!(self), (trial, attempt, counters), failure);
             doctor::note(&mut self.summary.findings, finding);
         }
     }

@@ -36,7 +36,7 @@ impl Simulation {
             return self.report(pending, observers);
         };
         contact.commit(&accepted.stage(&condensed.state, *trial));
-        pending.found = solver.move_ahead(accepted, *trial);
+        pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = std::mem::take(&mut solver.seen);
         let interfaces = contact.interfaces.iter();
         pending.histories = interfaces.map(|i| i.history.clone()).collect();
@@ -107,9 +107,9 @@ impl Simulation {
 
     /// Completes an increment whose interior has been found.
     fn complete(&mut self, one: &mut Pending) -> Result<(), Error> {
-        if one.found.is_none() {
+        let Some(found) = &one.found else {
             return Ok(());
-        }
+        };
         let Simulation {
             model,
             contact,
@@ -117,7 +117,7 @@ impl Simulation {
             solver,
             ..
         } = self;
-        let completed = solver.complete(model, frame, contact, &mut one.accepted);
+        let completed = solver.complete(model, frame, contact, (found, &mut one.accepted));
         completed.map_err(|e| e.at(one.trial.to).into())
     }
 

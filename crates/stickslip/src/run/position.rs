@@ -29,7 +29,7 @@ pub(super) struct Increments {
 pub(super) struct Failed {
     pub(super) trial: Trial,
     /// Counts from before it.
-    pub(super) chart: doctor::Chart,
+    pub(super) counters: doctor::Counters,
     pub(super) failure: StepFailure,
 }
 

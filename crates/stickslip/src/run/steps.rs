@@ -195,7 +195,7 @@ impl Simulation {
         if self.step().dynamic.is_none() {
             self.prepare_floating(trial, observers)?;
         }
-        let chart = doctor::Chart::of(&self.solver.newton.statistics);
+        let counters = doctor::Counters::of(&self.solver.newton.statistics);
         let outcome = self.attempt(trial, observers)?;
         match outcome {
             Ok(_) if self.restarts(trial, observers)? => {}
@@ -208,7 +208,7 @@ impl Simulation {
             // With half the increment it takes the same memory.
             Err(failure) if failure.cause == Cause::Memory => {
                 self.flush(observers)?;
-                self.examine(&trial, (running.attempt, chart), &failure);
+                self.examine(&trial, (running.attempt, counters), &failure);
                 return Err(self.give_up(failure, &trial).into());
             }
             Err(failure) if failure.cause == Cause::Reach => {
@@ -229,7 +229,7 @@ impl Simulation {
                 self.recover_pending();
                 running.failed = Some(Failed {
                     trial,
-                    chart,
+                    counters,
                     failure,
                 });
             }
@@ -398,12 +398,12 @@ impl Simulation {
     ) -> Result<(), Error> {
         let Failed {
             trial,
-            chart,
+            counters,
             failure,
         } = failed;
         let seen = std::mem::take(&mut self.solver.seen);
         self.tell_iterations(&seen, observers);
-        self.examine(&trial, (running.attempt, chart), &failure);
+        self.examine(&trial, (running.attempt, counters), &failure);
         running.attempt += 1;
         self.reject(&trial, &failure);
         if !running.stepper.reject(trial) {

@@ -34,8 +34,8 @@ const MEMORY: f64 = 0.85;
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
 pub(crate) const TOGETHER: usize = 16;
 
-/// Vectors by dof that an increment holds which waits for its interior: displacements, forces of contact and loads, and what is swept to find it.
-const VECTORS: usize = 4;
+/// Vectors by dof that an increment holds which waits for its interior: displacements, and what is swept to find it.
+const VECTORS: usize = 2;
 
 /// Seconds above which the other ways are looked at in any case.
 const LONG: f64 = 60.0;

@@ -51,6 +51,8 @@ pub(crate) struct Condensed {
 pub(crate) struct Candidates {
     pub(super) amplitudes: Amplitudes,
     pub(super) displacements: Vec<f64>,
+    /// Forces of contact where there are any, by dof `[N]`.
+    pub(super) contact: Vec<(usize, f64)>,
 }
 
 /// Which matrix bodies are condensed with.

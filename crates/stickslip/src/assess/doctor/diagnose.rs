@@ -4,9 +4,9 @@ use super::cause::DoctorCause;
 use super::check;
 use super::finding::{Finding, Guilty, Severity, What};
 use super::friction::friction_coefficient;
-use super::motions::{Loose, Row, loose, rows};
+use super::motions::{FloatingBody, Row, floating, rows};
 use super::places;
-use super::record::Chart;
+use super::record::Counters;
 use super::signs::{prescribed_slip, signs, too_large_slip};
 use super::surfaces::Opposite;
 use super::{balance, coupling};
@@ -27,7 +27,7 @@ pub(crate) const MORE_MEMORY: &str = "a coarser mesh away from the contact, `sol
 /// A finding about an attempt that failed, the `attempt`-th of its increment.
 pub(crate) fn diagnose(
     view: &View,
-    (trial, attempt, chart): (&Trial, usize, Chart),
+    (trial, attempt, counters): (&Trial, usize, Counters),
     failure: &StepFailure,
 ) -> Finding {
     let evidence: Vec<&Evidence> = failure
@@ -64,7 +64,7 @@ pub(crate) fn diagnose(
     if !finding.cause.is_mistake() {
         finding.advice.extend(failure.help.clone());
     }
-    finding.tried = tried(view, trial, attempt, chart);
+    finding.tried = tried(view, trial, attempt, counters);
     finding.step = Some(view.step_name().to_string());
     finding.time = Some(trial.from);
     finding
@@ -131,20 +131,20 @@ fn point(e: &Evidence, remark: String) -> Guilty {
     .at(e.position)
 }
 
-fn tried(view: &View, trial: &Trial, attempt: usize, chart: Chart) -> Vec<String> {
+fn tried(view: &View, trial: &Trial, attempt: usize, counters: Counters) -> Vec<String> {
     let now = &view.solver.newton.statistics;
     let count = |now: usize, then: usize| now.saturating_sub(then);
     let mut tried = vec![format!(
         "increment {:.6e} to {:.6e}, attempt {attempt}: {} Newton iterations with line search",
         trial.from,
         trial.to,
-        count(now.iterations, chart.iterations)
+        count(now.iterations, counters.iterations)
     )];
-    match count(now.augmentations, chart.augmentations) {
+    match count(now.augmentations, counters.augmentations) {
         0 => {}
         n => tried.push(format!("{n} updates of the multipliers")),
     }
-    match count(now.continuations, chart.continuations) {
+    match count(now.continuations, counters.continuations) {
         0 => {}
         n => tried.push(format!(
             "{n} continuations from soft stick to the law itself"
@@ -172,8 +172,8 @@ fn contact_rows(view: &View, t: f64) -> Vec<Row> {
 }
 
 fn singular(view: &View, trial: &Trial, failure: &StepFailure) -> Finding {
-    let free = loose(view, trial.to, &contact_rows(view, trial.to));
-    let by_contact = loose(view, trial.to, &[]);
+    let free = floating(view, trial.to, &contact_rows(view, trial.to));
+    let by_contact = floating(view, trial.to, &[]);
     if !by_contact.is_empty()
         && let Some(finding) = balance::unbalanced(view, trial.to)
     {
@@ -233,9 +233,9 @@ fn node(view: &View, point: usize, remark: String) -> Guilty {
 }
 
 /// Bodies that move as a whole, what drives them, and how far they are from what might hold them.
-fn free_mode(view: &View, trial: &Trial, free: &[Loose], how: &str) -> Finding {
+fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Finding {
     let model = view.model;
-    let index = |l: &Loose| model.bodies.iter().position(|b| b.name == l.body);
+    let index = |l: &FloatingBody| model.bodies.iter().position(|b| b.name == l.body);
     let touching = free.iter().filter_map(index);
     if let Some(body) = touching.into_iter().find(|&b| view.touches(b)) {
         return lost(view, free, body);
@@ -267,7 +267,7 @@ fn free_mode(view: &View, trial: &Trial, free: &[Loose], how: &str) -> Finding {
 }
 
 /// Bodies that were in contact and move as a whole all the same.
-fn lost(view: &View, free: &[Loose], body: usize) -> Finding {
+fn lost(view: &View, free: &[FloatingBody], body: usize) -> Finding {
     let model = view.model;
     let name = &model.bodies[body].name;
     let own = free.iter().find(|l| l.body == *name);
@@ -330,11 +330,11 @@ fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
 }
 
 fn linear(view: &View, trial: &Trial) -> Finding {
-    let free = loose(view, trial.to, &contact_rows(view, trial.to));
+    let free = floating(view, trial.to, &contact_rows(view, trial.to));
     if !free.is_empty() {
         return free_mode(view, trial, &free, "is held by nothing");
     }
-    let weak = loose(view, trial.to, &[]);
+    let weak = floating(view, trial.to, &[]);
     if weak.is_empty() {
         return Finding::new(DoctorCause::LinearSolver, Severity::Warning, "")
             .advise("set `solver.method = \"sparse\"`");
@@ -356,7 +356,7 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
     let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
     let dynamic = view.model.steps[view.frame.step].dynamic.is_some();
     if !dynamic {
-        let free = loose(view, trial.to, &contact_rows(view, trial.to));
+        let free = floating(view, trial.to, &contact_rows(view, trial.to));
         if !free.is_empty()
             && let Some(finding) = balance::unbalanced(view, trial.to)
         {

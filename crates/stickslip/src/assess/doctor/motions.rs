@@ -19,7 +19,7 @@ const HELD: f64 = 1e-10;
 
 /// A motion that nothing holds.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Loose {
+pub(super) struct FloatingBody {
     /// The body that takes the largest part in it.
     pub body: String,
     /// What it is: `translation x with rotation about z`.
@@ -27,7 +27,7 @@ pub(super) struct Loose {
 }
 
 /// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
-pub(super) fn loose(view: &View, t: f64, rows: &[Row]) -> Vec<Loose> {
+pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
     let model = view.model;
     let mut held = view.constraints(t).fixed;
     for link in model.links.all() {
@@ -93,7 +93,7 @@ pub(super) fn loose(view: &View, t: f64, rows: &[Row]) -> Vec<Loose> {
             .filter(|&i| modes[i].body == body && share(i) > 0.1)
             .map(|i| modes[i].name.as_str())
             .collect();
-        out.push(Loose {
+        out.push(FloatingBody {
             body: model.bodies[body].name.clone(),
             motion: parts.join(" with "),
         });

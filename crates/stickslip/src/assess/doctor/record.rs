@@ -9,16 +9,16 @@ const MOST_FINDINGS: usize = 200;
 
 /// What the doctor has to know of an attempt from before it began.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Chart {
+pub(crate) struct Counters {
     pub(super) iterations: usize,
     pub(super) continuations: usize,
     pub(super) augmentations: usize,
 }
 
-impl Chart {
+impl Counters {
     /// Counts at the start of an attempt.
     pub fn of(statistics: &Statistics) -> Self {
-        Chart {
+        Counters {
             iterations: statistics.iterations,
             continuations: statistics.continuations,
             augmentations: statistics.augmentations,

@@ -93,8 +93,9 @@ impl Solver {
         })
     }
 
-    /// Makes an accepted attempt the state from which the next starts; what its interior follows from. `None` where it is known.
-    pub fn move_ahead(&mut self, accepted: &Accepted, trial: Trial) -> Option<Candidates> {
+    /// Makes an accepted attempt the state from which the next starts; what its interior follows from. `None` where it is known. Forces by dof are made
+    /// again when they are needed: many increments may wait.
+    pub fn move_ahead(&mut self, accepted: &mut Accepted, trial: Trial) -> Option<Candidates> {
         let condensed = self.condenser.at_rest.as_mut()?;
         let (amplitudes, now) = condensed.found.take()?;
         let Condensed {
@@ -108,8 +109,12 @@ impl Solver {
         let length = trial.to - trial.from;
         *previous = Some((length, before, std::mem::replace(carried, now)));
         state.clone_from(&accepted.state);
+        accepted.external = Vec::new();
+        let contact = std::mem::take(&mut accepted.contact);
+        let contact = contact.into_iter().enumerate();
         Some(Candidates {
             amplitudes,
+            contact: contact.filter(|(_, f)| f.to_bits() != 0).collect(),
             displacements: condensation.gather(&state.u),
         })
     }
@@ -149,10 +154,15 @@ impl Solver {
         model: &Model,
         frame: &Frame,
         contact: &mut Contact,
-        accepted: &mut Accepted,
+        (found, accepted): (&Candidates, &mut Accepted),
     ) -> Result<(), StepFailure> {
         let started = Instant::now();
         let t = accepted.state.t;
+        accepted.external = frame.external(model, t);
+        accepted.contact = vec![0.0; accepted.external.len()];
+        for &(dof, force) in &found.contact {
+            accepted.contact[dof] = force;
+        }
         let u = &accepted.state.u;
         let internal = inertia::times(&self.stiffness, u);
         let fixed = frame.constraints(model, t).fixed;

@@ -3,7 +3,7 @@
 use super::super::balance::unbalanced;
 use super::super::cause::DoctorCause;
 use super::super::finding::{Finding, Severity};
-use super::super::motions::{loose, rows};
+use super::super::motions::{floating, rows};
 use super::super::places::body;
 use super::super::surfaces::Opposite;
 use super::common::{forced, secondary};
@@ -55,7 +55,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             all.extend(own);
         }
     }
-    let free = loose(view, t, &all);
+    let free = floating(view, t, &all);
     if !free.is_empty() {
         let mut finding = Finding::new(
             DoctorCause::FreeRigidMode,
@@ -77,7 +77,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     let mut out = Vec::new();
     // Supports that come later may hold what is free now: the first step counts.
     out.extend(statics.take(1).find_map(|s| unbalanced(view, s.end)));
-    let waiting = loose(view, t, &touching);
+    let waiting = floating(view, t, &touching);
     if waiting.is_empty() || !forced(model) {
         return out;
     }
