@@ -9,7 +9,7 @@
 //! a [`run::Simulation`], which runs and hands every accepted increment to its observers.
 //!
 //! The modules are layered; `ARCHITECTURE.md` at the root of the repository draws the map and
-//! `tests/it/layers.rs` holds the code to it.
+//! `tests/it/layers` holds the code to it.
 
 pub mod error;
 pub mod machine;

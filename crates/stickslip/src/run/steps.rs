@@ -213,14 +213,7 @@ impl Simulation {
             }
             Err(failure) if failure.cause == Cause::Reach => {
                 self.flush(observers)?;
-                let Simulation {
-                    model,
-                    contact,
-                    frame,
-                    solver,
-                    ..
-                } = self;
-                solver.widen(model, frame, contact);
+                (self.solver).widen(&self.model, &self.frame, &mut self.contact);
                 self.tell_notes(observers)?;
             }
             Err(failure) if self.anchors_again(trial, &failure, observers)? => {}
@@ -288,14 +281,7 @@ impl Simulation {
         let solver = &mut self.solver;
         if solver.has_gaps_to_close(&self.model, &self.frame, &self.contact) {
             self.flush(observers)?;
-            let Simulation {
-                model,
-                contact,
-                frame,
-                solver,
-                ..
-            } = self;
-            solver.close_gaps(model, frame, contact, trial);
+            (self.solver).close_gaps(&self.model, &mut self.frame, &mut self.contact, trial);
             self.tell_notes(observers)?;
         }
         let waiting = !self.pending.is_empty();
@@ -314,14 +300,12 @@ impl Simulation {
             return Ok(false);
         }
         self.flush(observers)?;
-        let Simulation {
-            model,
-            contact,
-            frame,
-            solver,
-            ..
-        } = self;
-        solver.restart_from_rigid_motion(model, frame, contact, trial);
+        (self.solver).restart_from_rigid_motion(
+            &self.model,
+            &mut self.frame,
+            &mut self.contact,
+            trial,
+        );
         self.tell_notes(observers)?;
         Ok(true)
     }
