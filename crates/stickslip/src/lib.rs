@@ -11,23 +11,8 @@
 //! The modules are layered; `ARCHITECTURE.md` at the root of the repository draws the map and
 //! `tests/it/layers` holds the code to it.
 
-pub mod error;
-pub mod machine;
-pub mod math;
-pub mod references;
-pub mod registry;
-
-pub mod material;
-pub mod shape;
-
-pub mod linear;
-pub mod mesh;
-
-pub mod system;
-
-pub mod body;
-pub mod contact;
-pub mod newton;
+pub use stickslip_base::{error, family, linear, machine, math, references, registry};
+pub use stickslip_mechanics::{body, contact, material, mesh, newton, shape, system};
 
 pub mod io;
 pub mod time;

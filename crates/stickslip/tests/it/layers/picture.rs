@@ -26,31 +26,38 @@ fn by_others(arrows: &Arrows, from: &str, to: &str) -> bool {
     false
 }
 
-/// A flow chart for Mermaid: layers of the library from top to bottom, the other crates above. An arrow that others imply is left out.
-pub fn draw(layers: &[&[&str]], rooms: &Arrows, crates: &Arrows) -> String {
+/// A flow chart for Mermaid: crates of the library with their layers from top to bottom, the other crates above. An arrow that others imply is left
+/// out, and one between crates of the library, as rooms show it.
+pub fn draw(library: &[(&str, &[&[&str]])], rooms: &Arrows, crates: &Arrows) -> String {
     let mut out = String::from("```mermaid\nflowchart TD\n");
+    let own = |name: &str| library.iter().any(|(of, _)| *of == name);
     let lines = |out: &mut String, arrows: &Arrows| {
         for (from, all) in arrows {
-            for to in all.iter().filter(|to| !by_others(arrows, from, to)) {
+            let shown = |to: &str| !(own(from) && own(to)) && !by_others(arrows, from, to);
+            for to in all.iter().filter(|to| shown(to)) {
                 // Writing to a string cannot fail.
                 let _ = writeln!(out, "    {from} --> {to}");
             }
         }
     };
     let names: BTreeSet<&String> = crates.keys().chain(crates.values().flatten()).collect();
-    for name in names.iter().filter(|n| **n != "stickslip") {
+    for name in names.iter().filter(|n| !own(n)) {
         let _ = writeln!(out, "    {name}[[{name}]]");
     }
     lines(&mut out, crates);
-    out.push_str("    subgraph stickslip\n");
-    for (i, layer) in layers.iter().enumerate().rev() {
-        let _ = writeln!(
-            out,
-            "    subgraph layer{i} [\" \"]\n    direction LR\n    {}\n    end",
-            layer.join("\n    ")
-        );
+    let mut below: usize = library.iter().map(|(_, layers)| layers.len()).sum();
+    for (name, layers) in library.iter().rev() {
+        let _ = writeln!(out, "    subgraph {name}");
+        for layer in layers.iter().rev() {
+            below -= 1;
+            let _ = writeln!(
+                out,
+                "    subgraph layer{below} [\" \"]\n    direction LR\n    {}\n    end",
+                layer.join("\n    ")
+            );
+        }
+        out.push_str("    end\n");
     }
-    out.push_str("    end\n");
     lines(&mut out, rooms);
     out.push_str("```\n");
     out

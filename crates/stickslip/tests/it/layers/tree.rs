@@ -64,18 +64,21 @@ fn module(src: &FilePath, file: &FilePath) -> Module {
 }
 
 impl Tree {
-    /// Reads all files of a folder `src`. A `main.rs` beside a `lib.rs` is a program that uses the library, and left out.
-    pub fn read(src: &FilePath) -> Self {
-        let library = src.join("lib.rs").exists();
-        let files = sources(src);
-        let files = files
-            .iter()
-            .filter(|f| !(library && **f == src.join("main.rs")));
-        let texts = files.map(|file| {
-            let text = std::fs::read_to_string(file).expect("a source file");
-            (module(src, file), file.clone(), text)
-        });
-        Self::of(texts.collect())
+    /// Reads all files of folders `src`, lowest first: the root of the last one is the root of all, and hands on the rooms of the others. A `main.rs`
+    /// beside a `lib.rs` is a program that uses the library, and left out.
+    pub fn read(folders: &[&FilePath]) -> Self {
+        let mut texts = Vec::new();
+        for src in folders {
+            let library = src.join("lib.rs").exists();
+            for file in sources(src) {
+                if library && file == src.join("main.rs") {
+                    continue;
+                }
+                let text = std::fs::read_to_string(&file).expect("a source file");
+                texts.push((module(src, &file), file, text));
+            }
+        }
+        Self::of(texts)
     }
 
     /// The same of modules, files and their texts.

@@ -1,0 +1,11 @@
+//! What the mechanics of **stickslip** stands on: numbers, sparse solvers, errors.
+//!
+//! It knows neither meshes nor contact. Users import these rooms from the crate `stickslip`, which hands them on.
+
+pub mod error;
+pub mod machine;
+pub mod math;
+pub mod references;
+pub mod registry;
+
+pub mod linear;

@@ -1,0 +1,217 @@
+//! How far a body has turned, from its displacements alone.
+
+use rayon::prelude::*;
+
+use super::geometry::{Table, by_nodes, coordinates, point};
+use super::{Elastic, Part};
+use crate::math::{Mat3, Vec3, identity, inverse, norm};
+use crate::mesh::CellRef;
+use crate::shape::QuadraturePoint;
+
+/// How far a body has turned.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Turning {
+    /// As a whole, by the mean of its displacement gradient `[rad]`.
+    pub mean: f64,
+    /// The cell that has turned most, by its gradient at the centre `[rad]`.
+    pub largest: f64,
+    /// That cell.
+    pub cell: Option<CellRef>,
+}
+
+/// Cells that one thread looks at together. Fixed, so that sums do not depend on the number of threads.
+const CHUNK: usize = 512;
+
+/// Iterations of the polar decomposition; it converges quadratically.
+const MOST_ITERATIONS: usize = 60;
+
+/// What some cells have in common: the integral of the displacement gradient, their volume, and the one that has turned most.
+struct Sum {
+    gradient: Mat3,
+    volume: f64,
+    largest: (f64, usize),
+}
+
+impl Elastic {
+    /// How far the body has turned at the displacements `u` `[m]` (by dof of the whole mesh).
+    pub fn turning(&self, u: &[f64]) -> Turning {
+        let mut turning = Turning::default();
+        let (mut mean, mut volume) = ([[0.0; 3]; 3], 0.0);
+        for part in &self.parts {
+            let kind = self.mesh.blocks[part.block].kind;
+            for sum in by_nodes!(kind, Elastic::turning_of(self, part, u)) {
+                for (m, g) in mean.iter_mut().flatten().zip(sum.gradient.as_flattened()) {
+                    *m += g;
+                }
+                volume += sum.volume;
+                let (largest, cell) = sum.largest;
+                if largest > turning.largest {
+                    turning.largest = largest;
+                    turning.cell = Some(CellRef {
+                        block: part.block,
+                        cell,
+                    });
+                }
+            }
+        }
+        let volume = volume.max(f64::MIN_POSITIVE);
+        turning.mean = rotation_of(&mean.map(|row| row.map(|g| g / volume)));
+        turning
+    }
+
+    fn turning_of<const N: usize>(&self, part: &Part, u: &[f64]) -> Vec<Sum> {
+        let block = &self.mesh.blocks[part.block];
+        // One point for a cell: its gradient is exact for every linear displacement.
+        let rule = [QuadraturePoint {
+            xi: block.kind.centre(),
+            weight: 1.0,
+        }];
+        let table = Table::<N>::with_rule(block.kind, &rule);
+        let dim = self.space.dim();
+        let count = block.connectivity.len() / N;
+        let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
+        let of_chunk = |chunk: usize| {
+            let mut sum = Sum {
+                gradient: [[0.0; 3]; 3],
+                volume: 0.0,
+                largest: (0.0, 0),
+            };
+            for cell in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                let x = coordinates::<N>(&self.mesh.points, block, cell);
+                let centre = point(&table, 0, &x, self.space);
+                let nodes = &block.connectivity[cell * N..(cell + 1) * N];
+                let mut gradient = [[0.0; 3]; 3];
+                for (i, row) in gradient.iter_mut().enumerate().take(dim) {
+                    for (g, d) in row.iter_mut().zip(&centre.d).take(dim) {
+                        let terms = nodes.iter().zip(d);
+                        *g = terms.map(|(&p, d)| u[p * dim + i] * d).sum();
+                    }
+                }
+                sum.volume += centre.volume;
+                for (s, g) in sum
+                    .gradient
+                    .iter_mut()
+                    .flatten()
+                    .zip(gradient.as_flattened())
+                {
+                    *s += centre.volume * g;
+                }
+                let turned = rotation_of(&gradient);
+                if turned > sum.largest.0 {
+                    sum.largest = (turned, cell);
+                }
+            }
+            sum
+        };
+        chunks.map(of_chunk).collect()
+    }
+}
+
+/// The rotation in a displacement gradient `[rad]`: that of the linear theory, the length of the axial vector of its antisymmetric part, or that of
+/// the polar decomposition of `1 + H`, whichever is larger. They differ by a part of the third order; but only the first grows without
+/// bound with a motion that nothing holds, and only the second sees half a turn that is prescribed.
+fn rotation_of(h: &Mat3) -> f64 {
+    let linear = norm(axial(h));
+    // Far below any limit the difference is in digits that nobody reads.
+    if linear < 1e-4 && h.as_flattened().iter().all(|h| h.abs() < 0.1) {
+        return linear;
+    }
+    linear.max(polar(h).unwrap_or(0.0))
+}
+
+fn axial(m: &Mat3) -> Vec3 {
+    [
+        0.5 * (m[2][1] - m[1][2]),
+        0.5 * (m[0][2] - m[2][0]),
+        0.5 * (m[1][0] - m[0][1]),
+    ]
+}
+
+/// The angle of the orthogonal factor of `1 + H`, by Newton's method for the polar decomposition `R ← (R + R⁻ᵀ) / 2`
+/// ([`higham_1986`](stickslip_base::references::higham_1986)); `None` where `1 + H` turns cells inside out.
+fn polar(h: &Mat3) -> Option<f64> {
+    let unit = identity();
+    let mut r: Mat3 = std::array::from_fn(|i| std::array::from_fn(|j| unit[i][j] + h[i][j]));
+    for _ in 0..MOST_ITERATIONS {
+        let (inverse, determinant) = inverse(&r)?;
+        if determinant <= 0.0 {
+            return None;
+        }
+        let next: Mat3 =
+            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (r[i][j] + inverse[j][i])));
+        let change = next.as_flattened().iter().zip(r.as_flattened());
+        let change = change.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        r = next;
+        if change < 1e-12 {
+            break;
+        }
+    }
+    let cosine = 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0);
+    Some(norm(axial(&r)).atan2(cosine))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing;
+    use super::*;
+    use crate::math::{add, cross, mat_vec, rotation, sub};
+
+    /// Displacements of all points by a function of their place.
+    fn displaced(body: &Elastic, at: &dyn Fn(Vec3) -> Vec3) -> Vec<f64> {
+        let dim = body.space().dim();
+        let points = body.mesh().points.iter();
+        points.flat_map(|&x| at(x).into_iter().take(dim)).collect()
+    }
+
+    #[test]
+    fn a_turn_is_found_whatever_the_cells_and_whatever_else_they_do() {
+        for (kind, space, formulation) in testing::combinations() {
+            let body = testing::patch(kind, space, formulation);
+            for angle in [0.03, 2.0] {
+                let turn = rotation([0.0, 0.0, 1.0], angle);
+                let u = displaced(&body, &|x| add(sub(mat_vec(&turn, x), x), [3e3, -2e3, 0.0]));
+                let found = body.turning(&u);
+                assert!((found.mean - angle).abs() < 1e-9, "{kind}: {found:?}");
+                assert!((found.largest - angle).abs() < 1e-9, "{kind}: {found:?}");
+            }
+            // Stretched by a third along x and pressed by a fifth along y.
+            let u = displaced(&body, &|x| [x[0] / 3.0, -x[1] / 5.0, 0.0]);
+            assert!(body.turning(&u).largest < 1e-12, "{kind}");
+            // As the linear theory turns, without bound.
+            let u = displaced(&body, &|x| cross([0.0, 0.0, 1e7], x));
+            assert!((body.turning(&u).mean / 1e7 - 1.0).abs() < 1e-9, "{kind}");
+        }
+    }
+
+    #[test]
+    fn a_turn_about_any_axis_has_its_angle() {
+        let axis = [1.0 / 3.0, -2.0 / 3.0, 2.0 / 3.0];
+        for angle in [1e-3, 0.05, 1.0, 3.0] {
+            let r = rotation(axis, angle);
+            let unit = identity();
+            let h = std::array::from_fn(|i| std::array::from_fn(|j| r[i][j] - unit[i][j]));
+            assert!(
+                (rotation_of(&h) - angle).abs() < 1e-9 * angle.max(1.0),
+                "{angle}"
+            );
+        }
+    }
+
+    #[test]
+    fn two_halves_that_turn_against_each_other_are_seen_in_their_cells() {
+        let (kind, space, formulation) = testing::combinations()
+            .into_iter()
+            .find(|c| c.1.dim() == 2)
+            .expect("a plane one");
+        let body = testing::patch(kind, space, formulation);
+        let x = body.mesh().points.iter().map(|x| x[0]);
+        let middle = 0.5 * x.fold(0.0_f64, f64::max);
+        let u = displaced(&body, &|x| [0.0, 0.3 * (x[0] - middle).abs(), 0.0]);
+        let found = body.turning(&u);
+        assert!(
+            found.largest > 0.1 && found.mean < found.largest,
+            "{found:?}"
+        );
+        assert!(found.cell.is_some());
+    }
+}

@@ -1,0 +1,161 @@
+use serde::{Deserialize, Serialize};
+
+use super::rule::{SlipRule, SlipState, Tangential};
+use crate::contact::law::normal::positive;
+use crate::registry::Samples;
+
+/// The smooth friction of [Pop 1995](stickslip_base::references::pop_1995), eq. (14)-(20): `t = -limit φ_ε(w)` with the sliding velocity
+/// `w = slip / dt`.
+///
+/// It never quite sticks: under a steady shear `q` below the limit `T` the interface
+/// [creeps](crate::contact::law::slip::creep) at `ε (1 - √(1 - q/T))`, which it reports in the summary. In a quasi-static
+/// analysis "velocity" is slip per unit of the problem's time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Regularised {
+    /// Velocity ε `[m/s]` above which the full limit acts.
+    pub epsilon: f64,
+}
+
+/// `ψ_ε(ξ)` of eq. (19), for `ξ ≥ 0`: the potential of [`phi`].
+pub fn psi(epsilon: f64, xi: f64) -> f64 {
+    if xi <= epsilon {
+        let r = xi / epsilon;
+        epsilon * r * r * (1.0 - r / 3.0)
+    } else {
+        xi - epsilon / 3.0
+    }
+}
+
+/// `|φ_ε(ξ)|` of eq. (20) and its derivative, for `ξ ≥ 0`.
+pub fn phi(epsilon: f64, xi: f64) -> (f64, f64) {
+    if xi <= epsilon {
+        let r = xi / epsilon;
+        ((2.0 - r) * r, 2.0 * (1.0 - r) / epsilon)
+    } else {
+        (1.0, 0.0)
+    }
+}
+
+/// The velocity `[m/s]` at which an interface creeps under a steady shear that is `ratio` of the limit, 0 to 1:
+/// `ε (1 - √(1 - ratio))`, the inverse of [`phi`] below ε, from eq. (20) of [Pop 1995](stickslip_base::references::pop_1995).
+///
+/// Ratios outside, as rounding may give them, are taken as 0 or 1. Beyond the limit nothing is steady.
+pub fn creep(epsilon: f64, ratio: f64) -> f64 {
+    let ratio = ratio.clamp(0.0, 1.0);
+    // 1 - √(1 - q) without the difference, which would lose the digits of a small ratio
+    epsilon * ratio / (1.0 + (1.0 - ratio).sqrt())
+}
+
+impl SlipRule for Regularised {
+    fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
+        let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
+        let speed = motion.length(w);
+        let epsilon = self.epsilon.max(motion.smoothing);
+        let (value, slope) = phi(epsilon, speed);
+        // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
+        let f = if speed <= epsilon {
+            (2.0 - speed / epsilon) / epsilon
+        } else {
+            value / speed
+        };
+        let phi_vector = [f * w[0], f * w[1]];
+        let mut state = SlipState {
+            traction: [-limit * phi_vector[0], -limit * phi_vector[1]],
+            d_limit: [-phi_vector[0], -phi_vector[1]],
+            d_slip: [[-limit * f / motion.dt, 0.0], [0.0, -limit * f / motion.dt]],
+            sliding: speed > epsilon,
+            sliding_path: motion.slip,
+            ..SlipState::default()
+        };
+        if speed > 0.0 {
+            // df/d|w| = (φ' - f)/|w|
+            let df = (slope - f) / speed;
+            let toward = motion.length_slope(w, speed);
+            let d_speed = w[0] * w[1] / speed;
+            for (i, along) in w.iter().enumerate() {
+                for (j, toward) in toward.iter().enumerate() {
+                    state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
+                }
+                state.d_skew[i] = -limit * along * df * d_speed;
+                if motion.smoothing > self.epsilon && speed <= epsilon {
+                    // df/dε of f = (2 - |w|/ε)/ε
+                    let df = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
+                    state.d_smoothing[i] = -limit * along * df;
+                }
+            }
+        }
+        state
+    }
+
+    fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
+        // the tangent at rest, φ ≈ 2 w/ε
+        let slope = 2.0 / (self.epsilon.max(motion.smoothing) * motion.dt);
+        let phi = motion.slip.map(|s| slope * s);
+        SlipState {
+            traction: phi.map(|phi| -limit * phi),
+            d_limit: phi.map(|phi| -phi),
+            d_slip: [[-limit * slope, 0.0], [0.0, -limit * slope]],
+            sliding_path: motion.slip,
+            ..SlipState::default()
+        }
+    }
+
+    fn sticks(&self) -> bool {
+        false
+    }
+
+    fn faults(&self) -> Vec<(&'static str, String)> {
+        positive("epsilon", self.epsilon).into_iter().collect()
+    }
+}
+
+impl Samples for Regularised {
+    fn samples() -> Vec<Self> {
+        vec![Regularised { epsilon: 1.0 }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reproduces_the_table() {
+        // THEORY A3, ε = 1
+        let table = [
+            (0.1, 0.19, 0.009_666_7),
+            (0.25, 0.4375, 0.057_291_7),
+            (0.5, 0.75, 0.208_333_3),
+            (0.75, 0.9375, 0.421_875),
+            (1.0, 1.0, 0.666_666_7),
+            (2.0, 1.0, 1.666_666_7),
+        ];
+        for (xi, f, p) in table {
+            assert!((phi(1.0, xi).0 - f).abs() < 1e-12, "{xi}");
+            assert!((psi(1.0, xi) - p).abs() < 5e-8, "{xi}");
+            let h = 1e-6;
+            let slope = (psi(1.0, xi + h) - psi(1.0, xi - h)) / (2.0 * h);
+            assert!((slope - f).abs() < 1e-6);
+            assert!(xi - psi(1.0, xi) <= 1.0 / 3.0 + 1e-15);
+        }
+    }
+
+    #[test]
+    fn creep_is_where_the_shear_is_carried() {
+        for epsilon in [1e-6, 0.05, 3.0] {
+            for ratio in [0.0, 1e-12, 0.1, 0.5, 0.75, 0.999, 1.0] {
+                let v = creep(epsilon, ratio);
+                assert!((phi(epsilon, v).0 - ratio).abs() <= 4e-16, "{ratio}");
+            }
+            assert_eq!(creep(epsilon, 1.0), epsilon);
+            assert_eq!(creep(epsilon, 1.0 + 1e-15), epsilon);
+            // half of the ratio to first order, with all digits
+            assert!((creep(epsilon, 1e-14) / (0.5e-14 * epsilon) - 1.0).abs() < 1e-13);
+        }
+        // VERIFICATION S7: a block on an incline of 20° with μ = 0.5, ε = 0.05
+        let ratio = 20.0_f64.to_radians().tan() / 0.5;
+        assert!((creep(0.05, ratio) - 0.023_920_336_88).abs() < 5e-12);
+    }
+}

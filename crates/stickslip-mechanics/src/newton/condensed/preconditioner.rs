@@ -1,0 +1,95 @@
+use super::lu::Lu;
+use super::rows::Rows;
+use super::small_matrix::SmallMatrix;
+use super::tangent::{Precision, Tangent};
+use crate::math::vector::dot;
+use crate::system::{Cause, StepFailure};
+
+/// The inverse of the system of some iteration before, without the curvature of the gaps.
+///
+/// With `Bᵀ C` for the tangent of the interfaces, `(I + Bᵀ C W)⁻¹ = I - Bᵀ (I + C W Bᵀ)⁻¹ C W`
+/// (the matrix modification formula, [Hager 1989](stickslip_base::references::hager_1989)): the matrix to be factored has one row for every gap and slip. Forces of artificial
+/// springs are rows of it too.
+#[derive(Debug)]
+pub(super) struct Preconditioner {
+    rows: Vec<Rows>,
+    /// Rows of gaps and slips.
+    count: usize,
+    lu: Lu,
+    /// `σ` and `Z` at the active dofs of each spring.
+    springs: Vec<(f64, Vec<f64>)>,
+}
+
+/// Amplification `C W Bᵀ` up to which the factor may be in single precision: of its seven digits three are left.
+const SINGLE: f64 = 1e4;
+
+/// Rows up to which the factor is in double precision in any case: it costs next to nothing.
+pub(super) const SMALL: usize = 600;
+
+impl Preconditioner {
+    /// Factors the tangent of an iteration.
+    pub fn of(tangent: &Tangent) -> Result<Preconditioner, StepFailure> {
+        let (rows, count) = Rows::of(tangent.blocks);
+        let springs: Vec<(f64, Vec<f64>)> = tangent
+            .springs
+            .iter()
+            .map(|spring| {
+                let z = (0..tangent.active.len()).map(|i| tangent.product_at(spring, i));
+                (spring.sigma, z.collect())
+            })
+            .collect();
+        let matrix = SmallMatrix {
+            tangent,
+            rows: &rows,
+            count,
+            springs: &springs,
+        };
+        let Some(lu) = single(&matrix).or_else(|| double(&matrix)) else {
+            return Err(StepFailure::new(
+                Cause::Singular,
+                "the bodies and interfaces together are singular",
+            ));
+        };
+        Ok(Preconditioner {
+            rows,
+            count,
+            lu,
+            springs,
+        })
+    }
+
+    /// Solves in place.
+    pub fn apply(&self, tangent: &Tangent, v: &mut [f64], precision: Precision) {
+        let (y, beta) = v.split_at_mut(tangent.active.len());
+        let u = tangent.apply_compliance(y, precision);
+        let mut q = vec![0.0; self.count + self.springs.len()];
+        for rows in &self.rows {
+            rows.apply_changes(&u, &mut q);
+        }
+        for (k, (sigma, z)) in self.springs.iter().enumerate() {
+            q[self.count + k] = beta[k] + sigma * dot(z, y);
+        }
+        self.lu.solve(&mut q);
+        for rows in &self.rows {
+            rows.subtract_forces(&q, y);
+        }
+        beta.copy_from_slice(&q[self.count..]);
+    }
+}
+
+/// The factor in single precision, where that will do.
+fn single(matrix: &SmallMatrix) -> Option<Lu> {
+    if matrix.count <= SMALL {
+        return None;
+    }
+    let (entries, amplification) = matrix.assemble::<f32>();
+    if amplification > SINGLE {
+        return None;
+    }
+    Lu::of(matrix.count + matrix.springs.len(), entries)
+}
+
+fn double(matrix: &SmallMatrix) -> Option<Lu> {
+    let (entries, _) = matrix.assemble::<f64>();
+    Lu::of(matrix.count + matrix.springs.len(), entries)
+}

@@ -1,0 +1,177 @@
+//! Newton's iteration for one set of multipliers and one choice of frozen points.
+
+use super::attempt::Attempt;
+use super::balance::Balance;
+use super::progress::{Converged, Progress};
+use super::step_length::{self, StepControl};
+use super::strategy::Strategy;
+use crate::system::{Assembler, Cause, StepFailure};
+
+/// Iterations after which a residual that has not fallen counts as stalled.
+const STALL: usize = 8;
+
+/// Part of the residual before them that must be left behind.
+const STALLED: f64 = 0.1;
+
+/// Part of what Newton still needs to which a linear system is solved once the status of points has settled: an inexact Newton method
+/// ([Dembo, Eisenstat and Steihaug](stickslip_base::references::dembo_1982)).
+const FORCING: f64 = 0.1;
+
+/// The finest relative residual of a linear system: double precision gives no more.
+const FINEST: f64 = 1e-13;
+
+/// Residuals that a failure quotes.
+const QUOTED: usize = 5;
+
+/// The right-hand side and the solution of the linear system, by dof.
+struct Linear {
+    b: Vec<f64>,
+    du: Vec<f64>,
+}
+
+/// Iterates to equilibrium from where the attempt is; `round` is the multiplier update that it follows.
+pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converged, StepFailure> {
+    let settings = attempt.settings;
+    let mut out = assembler(attempt);
+    let n = attempt.system.dofs.count();
+    let (b, du) = (vec![0.0; n], vec![0.0; n]);
+    let mut linear = Linear { b, du };
+    let mut balance = attempt.evaluate(&mut out, true)?;
+    let mut control = StepControl::new(&balance);
+    let mut residuals = Vec::new();
+    for iteration in 0..=settings.max_iterations {
+        if (attempt.interrupted)() {
+            return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
+        }
+        residuals.push(balance.relative());
+        let target = balance.target(settings.tolerance);
+        if balance.norm <= target && out.multiplier_residual <= target {
+            return Ok(converged(attempt, balance, out, (iteration, round)));
+        }
+        if iteration == settings.max_iterations || chatters(attempt, &residuals) {
+            break;
+        }
+        let krylov = solve(attempt, &mut out, &balance, &mut linear, iteration == 0)?;
+        let before = balance.norm.max(out.multiplier_residual);
+        let reported = balance.compared(before);
+        let demand = control.demand(attempt.strategy, &residuals, before);
+        let taken = step_length::take(attempt, &mut out, &linear.du, &demand)?;
+        balance = taken.balance;
+        control.note(iteration, &balance);
+        (attempt.log)(&Progress {
+            strategy: attempt.strategy,
+            iteration,
+            round,
+            residual: reported,
+            step: taken.length,
+            krylov,
+            tally: attempt.system.tally(),
+        });
+    }
+    Err(not_converged(attempt, &residuals))
+}
+
+/// Asks the interfaces for what the bulk needs of them.
+fn assembler(attempt: &Attempt) -> Assembler {
+    let system = &attempt.system;
+    let mut out = Assembler::new(system.dofs.count());
+    out.wants_surrogate = system.bulk.wants_surrogates();
+    out.wants_pairs = system.bulk.wants_pairs();
+    // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel without it.
+    out.wants_curvature = system.patience() == 0;
+    out.holds_turns = !out.wants_curvature;
+    out
+}
+
+fn converged(
+    attempt: &Attempt,
+    balance: Balance,
+    out: Assembler,
+    (iterations, rounds): (usize, usize),
+) -> Converged {
+    Converged {
+        iterations,
+        rounds,
+        // what is below rounding is none
+        residual: if balance.norm <= balance.floor {
+            0.0
+        } else {
+            balance.relative()
+        },
+        tally: attempt.system.tally(),
+        forces: balance.forces,
+        contact: out.residual,
+    }
+}
+
+/// Whether points keep changing status and nothing is gained: they are better held than given more time.
+fn chatters(attempt: &mut Attempt, residuals: &[f64]) -> bool {
+    attempt.strategy == Strategy::Plain && stalled(residuals) && attempt.system.chatters()
+}
+
+/// Whether the last iterations have not brought the residual down by an order of magnitude.
+fn stalled(residuals: &[f64]) -> bool {
+    let Some(split) = residuals.len().checked_sub(STALL) else {
+        return false;
+    };
+    let (before, after) = residuals.split_at(split);
+    let least = |r: &[f64]| r.iter().copied().fold(f64::INFINITY, f64::min);
+    before.len() >= STALL && least(after) > STALLED * least(before)
+}
+
+/// Solves for Newton's step; returns the Krylov iterations.
+fn solve(
+    attempt: &mut Attempt,
+    out: &mut Assembler,
+    balance: &Balance,
+    Linear { b, du }: &mut Linear,
+    first: bool,
+) -> Result<usize, StepFailure> {
+    let settings = attempt.settings;
+    let system = &mut *attempt.system;
+    b.fill(0.0);
+    let mut size = 0.0;
+    for &i in system.bulk.dofs() {
+        if !system.bulk.fixed()[i] {
+            b[i] = -(balance.forces[i] + out.condensed[i]);
+            size += b[i] * b[i];
+        }
+    }
+    // While points still change status the linear problem is not the last one: digits would be thrown away.
+    let coarse = settings.linear_tolerance;
+    let wanted = if first || system.tally().changed > 0 {
+        coarse
+    } else {
+        let target = balance.target(settings.tolerance);
+        FORCING * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
+    };
+    let wanted = wanted.clamp(FINEST, coarse.max(FINEST));
+    let counts = &mut *attempt.statistics;
+    let solved = (system.bulk).solve(out, b, wanted, du, (&settings, &mut *counts));
+    let krylov = match solved {
+        // Preconditioners know nothing of the curvature. Where it is so large that they fail, slower iterations are better than none.
+        Err(failure) if failure.cause == Cause::LinearSolver && out.drop_curvature() => {
+            (system.bulk).solve(out, b, wanted, du, (&settings, counts))?
+        }
+        solved => solved?,
+    };
+    system.links.impose(du);
+    attempt.statistics.iterations += 1;
+    Ok(krylov)
+}
+
+fn not_converged(attempt: &Attempt, residuals: &[f64]) -> StepFailure {
+    let last: Vec<String> = residuals
+        .iter()
+        .skip(residuals.len().saturating_sub(QUOTED))
+        .map(|r| format!("{r:.1e}"))
+        .collect();
+    let sentence = format!(
+        "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",
+        residuals.len() - 1,
+        last.join(", ")
+    );
+    attempt
+        .failure(Cause::NotConverged, sentence)
+        .help("smaller increments; if the same points keep changing status, a larger `epsilon` or a smaller enforcement `factor`; if a body can slide off as a whole, no equilibrium exists")
+}

@@ -1,0 +1,191 @@
+//! How far a Newton step is taken.
+
+use super::attempt::Attempt;
+use super::balance::Balance;
+use super::strategy::Strategy;
+use crate::system::{Assembler, Cause, StepFailure};
+
+/// Iterations in which points find their status: a step may make matters much worse, and it is too early to say that nothing is gained.
+const EARLY: usize = 4;
+
+/// What a full step may multiply the residual by in the first iterations, and later. Status may have to change against it; only what looks like
+/// divergence is shortened.
+const EARLY_GROWTH: f64 = 1e3;
+const GROWTH: f64 = 10.0;
+
+/// What it may be multiplied by once points chatter: every step has to gain a little.
+const GAIN: f64 = 0.99;
+
+/// Part of the residual of [`BACK`] iterations before that must be left behind for an iteration not to count as stuck.
+const STUCK: f64 = 0.5;
+const BACK: usize = 3;
+
+/// Part of the residual at which steps began to have to gain, below which they need not any more.
+const RELEASED: f64 = 0.01;
+
+/// Growth of the out-of-balance force after which a step is halved without counting: a compliant law that has hardly been touched is so soft that
+/// the step overshoots by orders of magnitude.
+const LOST: f64 = 1e4;
+
+/// Most halvings even so.
+const MOST_HALVINGS: usize = 40;
+
+/// Most halvings of a step that has to reduce the merit function.
+const MERIT_HALVINGS: usize = 10;
+
+/// By how much it has to, relative to what Newton's direction promises: the usual constant of
+/// [Armijo's](stickslip_base::references::armijo_1966) rule.
+const ARMIJO: f64 = 1e-4;
+
+/// Iterates over which the merit function may stay as it is ([Grippo, Lampariello and Lucidi](stickslip_base::references::grippo_1986) suggest a few).
+const WINDOW: usize = 3;
+
+/// What the next step has to achieve, judged by the steps before.
+pub(super) struct StepControl {
+    /// Residual at which steps began to have to gain; zero while they need not.
+    gaining_since: f64,
+    /// The merit function at the last iterates.
+    merits: [f64; WINDOW],
+}
+
+/// What a step has to achieve.
+pub(super) struct Demand {
+    /// The larger residual of displacements and multipliers before the step.
+    before: f64,
+    rule: Rule,
+}
+
+enum Rule {
+    /// The residual grows at most by this factor.
+    Growth(f64),
+    /// The merit function falls below this one.
+    Merit(f64),
+}
+
+/// A step that was taken.
+pub(super) struct Taken {
+    /// The balance after it, with tangents.
+    pub balance: Balance,
+    /// Its length.
+    pub length: f64,
+}
+
+impl StepControl {
+    /// Before the first step.
+    pub fn new(balance: &Balance) -> Self {
+        StepControl {
+            gaining_since: 0.0,
+            merits: [balance.merit; WINDOW],
+        }
+    }
+
+    /// What a step has to achieve after iterates with these residuals relative to the forces in play; `before` is the last of them, as a force.
+    pub fn demand(&mut self, strategy: Strategy, residuals: &[f64], before: f64) -> Demand {
+        let growth = self.growth(residuals);
+        let rule = match strategy {
+            Strategy::LineSearch => Rule::Merit(self.merits.iter().copied().fold(0.0, f64::max)),
+            _ => Rule::Growth(growth),
+        };
+        Demand { before, rule }
+    }
+
+    fn growth(&mut self, residuals: &[f64]) -> f64 {
+        let iteration = residuals.len() - 1;
+        let relative = residuals[iteration];
+        if iteration >= EARLY && relative > STUCK * residuals[iteration - BACK] {
+            self.gaining_since = self.gaining_since.max(relative);
+        } else if relative < RELEASED * self.gaining_since {
+            self.gaining_since = 0.0;
+        }
+        match (self.gaining_since > 0.0, iteration < EARLY) {
+            (true, _) => GAIN,
+            (false, true) => EARLY_GROWTH,
+            (false, false) => GROWTH,
+        }
+    }
+
+    /// Notes the merit function after an iteration.
+    pub fn note(&mut self, iteration: usize, balance: &Balance) {
+        self.merits[iteration % WINDOW] = balance.merit;
+    }
+}
+
+impl Demand {
+    /// What a state is judged by.
+    fn measure(&self, balance: &Balance, out: &Assembler) -> f64 {
+        match self.rule {
+            Rule::Merit(_) => balance.merit,
+            Rule::Growth(_) => balance.norm.max(out.multiplier_residual),
+        }
+    }
+
+    fn is_met(&self, measure: f64, step: f64) -> bool {
+        match self.rule {
+            Rule::Merit(most) => measure <= (1.0 - ARMIJO * step) * most,
+            Rule::Growth(growth) => measure <= growth * self.before,
+        }
+    }
+
+    /// Halvings after which the best step is taken.
+    fn halvings(&self, line_search: usize) -> usize {
+        match self.rule {
+            Rule::Merit(_) => MERIT_HALVINGS,
+            Rule::Growth(_) => line_search,
+        }
+    }
+
+    /// The same where the last length led to this measure.
+    fn halvings_after(&self, measure: f64, line_search: usize) -> usize {
+        let lost = measure.is_nan() || measure > LOST * self.before;
+        if line_search > 0 && lost {
+            MOST_HALVINGS
+        } else {
+            self.halvings(line_search)
+        }
+    }
+}
+
+/// Takes as much of the solution `du` as meets the demand. Most full steps do: their tangent is made at once.
+pub(super) fn take(
+    attempt: &mut Attempt,
+    out: &mut Assembler,
+    du: &[f64],
+    demand: &Demand,
+) -> Result<Taken, StepFailure> {
+    let line_search = attempt.settings.line_search;
+    let start = attempt.at.u.clone();
+    let mut length = 1.0;
+    let mut halvings = 0;
+    // the least measure and the length that led to it
+    let mut best: Option<(f64, f64)> = None;
+    let balance = loop {
+        attempt.system.advance(attempt.at, &start, du, length);
+        out.tentative = halvings == 0;
+        let balance = attempt.evaluate(out, halvings == 0)?;
+        let measure = demand.measure(&balance, out);
+        if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
+            best = Some((measure, length));
+        }
+        if demand.is_met(measure, length) || halvings >= demand.halvings_after(measure, line_search)
+        {
+            break balance;
+        }
+        halvings += 1;
+        length *= 0.5;
+    };
+    out.tentative = false;
+    let Some((_, chosen)) = best else {
+        return Err(attempt.failure(Cause::NotFinite, "the forces are not finite"));
+    };
+    if halvings >= demand.halvings(line_search) {
+        length = chosen;
+    }
+    if halvings == 0 {
+        attempt.system.settle();
+        attempt.system.bulk.covers(out)?;
+        return Ok(Taken { balance, length });
+    }
+    attempt.system.advance(attempt.at, &start, du, length);
+    let balance = attempt.evaluate(out, true)?;
+    Ok(Taken { balance, length })
+}
