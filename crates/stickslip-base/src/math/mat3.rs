@@ -4,6 +4,7 @@ use super::vec3::{Vec3, cross, dot};
 pub type Mat3 = [[f64; 3]; 3];
 
 /// The unit matrix.
+#[inline]
 pub fn identity() -> Mat3 {
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 }
@@ -33,6 +34,7 @@ pub fn determinant(m: &Mat3) -> f64 {
 }
 
 /// Inverse and determinant; `None` if the determinant is zero or not finite.
+#[inline]
 pub fn inverse(m: &Mat3) -> Option<(Mat3, f64)> {
     let d = determinant(m);
     if d == 0.0 || !d.is_finite() {

@@ -32,6 +32,7 @@ pub fn dot(a: Vec3, b: Vec3) -> f64 {
 }
 
 /// The angle between two directions `[rad]`; exact for small ones as well.
+#[inline]
 pub fn angle(a: Vec3, b: Vec3) -> f64 {
     norm(cross(a, b)).atan2(dot(a, b))
 }

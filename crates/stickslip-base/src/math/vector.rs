@@ -6,16 +6,19 @@ use rayon::prelude::*;
 pub const CHUNK: usize = 8192;
 
 /// The scalar product, entry by entry in order.
+#[inline]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The Euclidean norm.
+#[inline]
 pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// The scalar product in four sums at once, over the shorter of both: that keeps the processor busy and the rounding low.
+#[inline]
 pub fn dot_in_fours(a: &[f64], b: &[f64]) -> f64 {
     let length = a.len().min(b.len());
     let (fours_a, rest_a) = a[..length].as_chunks::<4>();
