@@ -13,7 +13,9 @@ rm -rf "$target/wheels"
 # Tests are small: in the dev profile the library need not be optimised, which takes a minute instead of five.
 fast=()
 if [ "$profile" = dev ]; then
-    fast=(--config profile.dev.package.stickslip.opt-level=0 --config profile.dev.package.stickslip.debug=false)
+    for crate in stickslip stickslip-base stickslip-mechanics; do
+        fast+=(--config "profile.dev.package.$crate.opt-level=0" --config "profile.dev.package.$crate.debug=false")
+    done
 fi
 "$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet "${fast[@]}"
 "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
