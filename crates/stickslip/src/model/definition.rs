@@ -135,6 +135,16 @@ pub enum Solution {
 }
 
 impl Solution {
+    /// The name in the summary.
+    pub fn key(self) -> &'static str {
+        match self {
+            Solution::Automatic => "automatic",
+            Solution::Condensed => "condensed",
+            Solution::Sparse => "sparse",
+            Solution::Multigrid => "multigrid",
+        }
+    }
+
     /// Whether bodies may be condensed.
     pub fn condenses(self) -> bool {
         !matches!(self, Solution::Sparse | Solution::Multigrid)

@@ -4,7 +4,7 @@ use crate::solve::condenser::Condenser;
 
 use crate::contact::interface::CandidateRange;
 use crate::model::contact::Contact;
-use crate::model::definition::{Model, Solution};
+use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::solve::solver::Solver;
 
@@ -21,10 +21,8 @@ impl Solver {
     /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
     /// not looked at.
     pub fn choose_candidates(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
-        match self.method {
-            Solution::Multigrid => self.log.method = "multigrid",
-            Solution::Sparse => self.log.method = "sparse",
-            Solution::Automatic | Solution::Condensed => {}
+        if !self.method.condenses() {
+            self.log.method = self.method.key();
         }
         let points = model.dofs.points;
         let known = self.condenser.kept.take();
