@@ -33,8 +33,8 @@ pub fn draw(library: &[(&str, &[&[&str]])], rooms: &Arrows, crates: &Arrows) -> 
     let own = |name: &str| library.iter().any(|(of, _)| *of == name);
     let lines = |out: &mut String, arrows: &Arrows| {
         for (from, all) in arrows {
-            let shown = |to: &str| !(own(from) && own(to)) && !by_others(arrows, from, to);
-            for to in all.iter().filter(|to| shown(to)) {
+            let hidden = |to: &str| own(from) && own(to) || by_others(arrows, from, to);
+            for to in all.iter().filter(|to| !hidden(to)) {
                 // Writing to a string cannot fail.
                 let _ = writeln!(out, "    {from} --> {to}");
             }
