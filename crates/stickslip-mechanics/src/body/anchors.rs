@@ -20,6 +20,8 @@ pub struct Anchors {
     past: Vec<[Vec<f64>; 2]>,
     /// An equilibrium took no iteration: what is left is too small to tell where the bodies go.
     near: bool,
+    /// Norm of the other forces of contact at the last evaluation `[N]`.
+    others: f64,
     /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
     adrift: bool,
 }
@@ -32,7 +34,7 @@ struct Group {
     stiffness: f64,
     first: f64,
     least: f64,
-    /// Largest force that pushes bodies `[N]`.
+    /// Largest force that pushes bodies `[N]`; zero where none is known.
     force: f64,
     /// How far the body may move in one round, about `[m]`.
     max_step: f64,
@@ -103,6 +105,7 @@ impl Anchors {
             evaluations: 0,
             past: Vec::new(),
             near: false,
+            others: 0.0,
             adrift: false,
         }
     }
@@ -176,14 +179,18 @@ impl Anchors {
 }
 
 impl Group {
-    /// Force in the springs relative to that on the body.
-    fn carried(&self) -> f64 {
+    /// Force in the springs relative to that on the body; where that is not known, to the `other` forces of contact. Where there are none either, the
+    /// springs hold what nothing moves.
+    fn carried(&self, others: f64) -> f64 {
         let pairs = self.now.iter().zip(&self.at);
         let away: f64 = pairs.map(|(&a, &b)| distance(a, b)).sum();
-        if away == 0.0 {
-            0.0
-        } else {
-            self.stiffness * away / self.force
+        let force = match self.force > 0.0 {
+            true => self.force,
+            false => others,
+        };
+        match away == 0.0 || force == 0.0 {
+            true => 0.0,
+            false => self.stiffness * away / force,
         }
     }
 }
@@ -277,6 +284,7 @@ impl Force for Anchors {
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         self.evaluations += 1;
+        self.others = out.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
         let dim = self.dofs.dim;
         let mut unit = vec![0.0; 3 * dim];
         let mut square = vec![0.0; dim * dim];
@@ -318,7 +326,8 @@ impl Force for Anchors {
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         let mut worst: f64 = 0.0;
         let effort = std::mem::take(&mut self.evaluations);
-        let carried = self.groups.iter().map(Group::carried).fold(0.0, f64::max);
+        let carried = self.groups.iter().map(|g| g.carried(self.others));
+        let carried = carried.fold(0.0, f64::max);
         if carried <= NEGLIGIBLE {
             return Augmentation::Done;
         }

@@ -198,7 +198,7 @@ impl Simulation {
         let counters = doctor::Counters::of(&self.solver.newton.statistics);
         let outcome = self.attempt(trial, observers)?;
         match outcome {
-            Ok(_) if self.restarts(trial, observers)? => {}
+            Ok(ref accepted) if self.restarts(trial, accepted, observers)? => {}
             Ok(accepted) => self.accept(&mut running, trial, accepted, observers)?,
             Err(failure) if failure.cause == Cause::Interrupted => {
                 // The same increment is tried again if the analysis goes on.
@@ -284,6 +284,11 @@ impl Simulation {
             (self.solver).close_gaps(&self.model, &mut self.frame, &mut self.contact, trial);
             self.tell_notes(observers)?;
         }
+        if (self.solver).is_to_keep_bodies(&self.model, &self.frame, trial) {
+            self.flush(observers)?;
+            (self.solver).keep_bodies(&self.model, &self.frame, &mut self.contact, trial);
+            self.tell_notes(observers)?;
+        }
         let waiting = !self.pending.is_empty();
         (self.solver).set_out(&self.frame, &mut self.contact, (trial, waiting));
         Ok(())
@@ -293,10 +298,16 @@ impl Simulation {
     fn restarts(
         &mut self,
         trial: Trial,
+        accepted: &Accepted,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
         let followed = &mut self.summary.followed;
+        let anchored = self.solver.floating.is_anchored();
         if !self.solver.floating.wants_restart(followed) {
+            if anchored {
+                (self.solver).note_released(&self.model, &self.frame, accepted);
+                self.tell_notes(observers)?;
+            }
             return Ok(false);
         }
         self.flush(observers)?;

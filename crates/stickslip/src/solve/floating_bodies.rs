@@ -35,6 +35,10 @@ pub(crate) struct Floating {
     pub(super) left: f64,
     /// A body went astray in the last attempt.
     pub(super) astray: bool,
+    /// The largest load along free motions so far, body by body.
+    pub(super) pushed: Vec<f64>,
+    /// The bodies that nothing presses any more, and of which that was said in this step.
+    pub(super) told: Vec<usize>,
     /// Where the increment at hand began, before bodies were moved.
     pub(super) origin: Option<Origin>,
 }
@@ -65,6 +69,11 @@ impl Floating {
     pub fn knows(&self, body: usize) -> bool {
         let known = self.known.iter().flat_map(|(_, bodies)| bodies);
         known.into_iter().any(|free| free.body == body)
+    }
+
+    /// Whether bodies are anchored.
+    pub fn is_anchored(&self) -> bool {
+        self.anchors.is_some()
     }
 
     /// The forces with the anchors among them.

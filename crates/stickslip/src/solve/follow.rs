@@ -2,6 +2,7 @@
 
 use super::closure::{close, pushes};
 use super::floating_bodies::{Floating, Origin};
+use super::released::NO_LOAD;
 use super::rigid_part::rigid_part;
 use super::solver::Solver;
 use crate::body::{Anchors, Hold, spread};
@@ -70,6 +71,11 @@ impl Solver {
             left: self.floating.left,
             ..Floating::default()
         };
+        self.floating.find_pushes(Scene {
+            model,
+            contact,
+            frame,
+        });
     }
 
     /// Whether floating bodies touch nothing yet and are to be moved until they do.
@@ -175,7 +181,14 @@ impl Solver {
         self.set_out(frame, contact, (trial, false));
         let external = frame.external(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
-        let force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
+        let mut force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
+        let before = self.floating.pressed(model, &frame.contact).into_iter();
+        let largest = before.chain(self.floating.pushed.iter().copied());
+        let largest = largest.fold(0.0, f64::max);
+        if force <= NO_LOAD * largest {
+            // What is left of forces that are gone is small beside them.
+            force = largest;
+        }
         let mut anchors = Anchors::new(model.dofs);
         let mut names = Vec::new();
         let floating = &self.floating;

@@ -14,6 +14,8 @@
 //!   carry nothing. A motion that nothing resists and nothing drives stays where it is.
 //! - A long way with the anchors is made without strain as well: the rigid part of it changes the last state, and the increment is computed once more.
 //!   A body that does not come to rest in a hundred rounds is reported like one that nothing holds.
+//! - *Release* (`released.rs`). Where the load of a body goes, every place without contact is one of equilibrium, and Newton's method would end in one
+//!   by chance: the body is anchored beforehand, and stays where it was.
 //! - *Bounds*. In an increment a loose body goes no further than ten times the gaps there are, what is prescribed and what it is strained, and one cell; beyond
 //!   that it was thrown, and the increment is cut. What not even contact could hold (`model/unheld.rs`) is refused when a step begins, with what drives it
 //!   (`model/drivers.rs`).
@@ -28,6 +30,7 @@ pub(crate) mod floating_bodies;
 mod follow;
 pub(crate) mod inertia;
 pub(crate) mod iteration;
+mod released;
 mod rigid_part;
 pub(crate) mod solver;
 pub(crate) mod spin;

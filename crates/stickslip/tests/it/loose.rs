@@ -325,7 +325,11 @@ fn a_body_between_others_is_never_thrown_out_of_the_model() {
         // The gaps are closed, and both interfaces carry the same.
         Ok(()) => {
             let last = &simulation.summary.last;
-            let (lower, upper) = (last["j1.CFN2"].abs(), last["j2.CFN2"].abs());
+            // The one without friction, the other with it on a surface that is not quite level.
+            let [lower, upper] = [
+                last["j1.CFN2"].abs(),
+                (last["j2.CFN2"] + last["j2.CFS2"]).abs(),
+            ];
             assert!(
                 lower > 0.0 && (lower / upper - 1.0).abs() < 1e-6,
                 "{lower} {upper}"
@@ -337,6 +341,108 @@ fn a_body_between_others_is_never_thrown_out_of_the_model() {
             assert!(farthest < 1e-2, "{farthest:e}");
         }
     }
+}
+
+/// The pin of the example `lug`, 45 µm loose in its hole, pushed upwards and let go again. Nothing else holds it.
+fn loose_pin(mu: f64, increments: &str) -> Outcome {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/lug");
+    let text = std::fs::read_to_string(folder.join("case.toml")).expect("the example");
+    let (text, _) = text.split_once("[amplitude.pull]").expect("its amplitude");
+    let [whole, friction] = ["scale = 1e-3\nmaterial = \"steel\"", "mu = 0.2"];
+    assert!(text.contains(whole) && text.contains(friction));
+    let text = text.replace(whole, "scale = 0.995e-3\nmaterial = \"steel\"");
+    let text = text.replace(friction, &format!("mu = {mu}"));
+    let steps = format!(
+        r#"
+amplitude.pull = {{ table = [[0, 0], [1, 1], [2, 0]] }}
+probe.top = {{ of = "pin", point = [0, 0.009954975] }}
+probe.side = {{ of = "pin", point = [0.009954975, 0] }}
+step = [{{ name = "pull", {increments} }}, {{ name = "release", {increments} }}]
+"#
+    );
+    let text = format!("{steps}\n{text}");
+    let problem: Problem = support::problem(&text.replacen("format = 1\n", "", 1).replacen(
+        '\n',
+        "\nformat = 1\n",
+        1,
+    ));
+    let model = problem.build(&folder).unwrap_or_else(|e| panic!("{e}"));
+    let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{e}"));
+    let mut record = Record::default();
+    let outcome = simulation.run(&mut [&mut record]);
+    outcome.unwrap_or_else(|e| panic!("mu {mu}, {increments}: {e}"));
+    Outcome {
+        record,
+        summary: simulation.summary,
+    }
+}
+
+#[test]
+fn a_pin_that_is_let_go_stays_where_it_was() {
+    for (mu, increments) in [
+        (0.1, "increments.fixed = 5"),
+        (0.3, "increments.fixed = 10"),
+        (0.3, "increments = {}"),
+    ] {
+        let outcome = loose_pin(mu, increments);
+        let what = format!("mu {mu}, {increments}");
+        let summary = &outcome.summary;
+        assert!(summary.completed && summary.cutbacks == 0, "{what}");
+        let said = summary
+            .notes
+            .iter()
+            .any(|n| n.contains("nothing presses body pin"));
+        assert!(said, "{what}: {:?}", summary.notes);
+        // It has come up by the clearance, less what the hole gave way, and is stress-free there: its points have moved as one.
+        let [top, side] = ["top.U2", "side.U2"].map(|name| outcome.last(name));
+        assert!((4.4e-5..4.8e-5).contains(&top), "{what}: {top:e}");
+        let turned = (top - side).hypot(outcome.last("top.U1") - outcome.last("side.U1")) / 0.01;
+        assert!(turned < 1e-3, "{what}: {turned:e}");
+        for force in ["fit.CFN1", "fit.CFN2", "fit.CFS1", "fit.CFS2"] {
+            // Of 20 kN.
+            assert!(
+                outcome.last(force).abs() < 1e-2,
+                "{what}: {:e}",
+                outcome.last(force)
+            );
+        }
+    }
+}
+
+#[test]
+fn a_block_between_jaws_that_open_stays_on_the_lower_one() {
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.05, 0.02], cells = [10, 4] }, material = "steel" }
+body.mid = { generate.rectangle = { from = [0.012, 0.02], to = [0.038, 0.03], cells = [7, 3] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.03], to = [0.04, 0.05], cells = [6, 4] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = -1e-5, amplitude = "a" }
+amplitude.a = { table = [[0, 0], [1, 1], [2, -1], [3, 1]] }
+interface.j1 = { secondary = "mid.bottom", primary = "lower.top", friction.coulomb = { mu = 0.2 } }
+interface.j2 = { secondary = "upper.bottom", primary = "mid.top", friction.coulomb = { mu = 0.2 } }
+probe.corner = { of = "mid", point = [0.038, 0.03] }
+step = [{ name = "press" }, { name = "open" }, { name = "again" }]
+"#;
+    let outcome = run("jaws", text);
+    let notes = &outcome.summary.notes;
+    assert!(
+        notes
+            .iter()
+            .any(|n| n.contains("open: nothing presses body mid")),
+        "{notes:?}"
+    );
+    let rows = &outcome.record.increments;
+    assert!(rows.len() > 3);
+    // Pressed again it hands on what it gets; normals are not quite upright.
+    let [lower, upper] = ["j1", "j2"]
+        .map(|i| outcome.last(&format!("{i}.CFN2")) + outcome.last(&format!("{i}.CFS2")));
+    assert!(
+        lower.abs() > 1e5 && (lower / upper - 1.0).abs() < 1e-6,
+        "{lower} {upper}"
+    );
+    assert!(outcome.last("corner.U2").abs() < 1e-5);
 }
 
 /// What a run ends with that cannot be done.

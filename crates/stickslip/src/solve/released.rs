@@ -1,0 +1,113 @@
+//! Floating bodies whose loads have gone: nothing presses them any more, and they stay where they were.
+
+use super::accepted::Accepted;
+use super::floating_bodies::Floating;
+use super::solver::Solver;
+use crate::math::norm;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::free_bodies::FreeBody;
+use crate::model::scene::Scene;
+use crate::time::Trial;
+
+/// Load along free motions, relative to the largest so far, that is none.
+pub(super) const NO_LOAD: f64 = 1e-9;
+
+/// Force of contact on a body, relative to the largest load so far, that does not press it. Anchors give up when they carry less.
+const NOT_PRESSED: f64 = 1e-6;
+
+/// The load on a floating body along its free motions: the largest, each of which has a largest displacement of one.
+fn along(free: &FreeBody, external: &[f64]) -> f64 {
+    let of = |motion: &[f64]| -> f64 { motion.iter().zip(external).map(|(m, f)| m * f).sum() };
+    let motions = free.motions.iter();
+    motions.fold(0.0, |most, (_, m)| f64::max(most, of(m).abs()))
+}
+
+impl Floating {
+    /// The largest loads along free motions, body by body, at the ends of the steps so far and now.
+    pub(super) fn find_pushes(&mut self, scene: Scene) {
+        let Scene { model, frame, .. } = scene;
+        let steps = &model.steps[..=frame.step];
+        let ends = steps.iter().flat_map(|s| [s.start, s.end]);
+        let mut pushed = vec![0.0; self.bodies().len()];
+        if !pushed.is_empty() {
+            for t in ends.chain([frame.state.t]) {
+                let external = frame.external(model, t);
+                for (most, free) in pushed.iter_mut().zip(self.bodies()) {
+                    *most = f64::max(*most, along(free, &external));
+                }
+            }
+        }
+        self.pushed = pushed;
+    }
+
+    /// The largest force at a point of each floating body.
+    pub(super) fn pressed(&self, model: &Model, forces: &[f64]) -> Vec<f64> {
+        let largest = |free: &FreeBody| {
+            let body = &model.bodies[free.body];
+            let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
+            let points = body.points.clone().chain(hidden);
+            points.fold(0.0, |m, p| f64::max(m, norm(model.dofs.vector(forces, p))))
+        };
+        self.bodies().iter().map(largest).collect()
+    }
+
+    /// Whether the load of a floating body that had one is gone at the end of an increment.
+    fn lose_load(&self, model: &Model, frame: &Frame, trial: Trial) -> bool {
+        if self.pushed.iter().all(|most| *most == 0.0) {
+            return false;
+        }
+        let external = frame.external(model, trial.to);
+        let mut both = self.bodies().iter().zip(&self.pushed);
+        both.any(|(free, &most)| most > 0.0 && along(free, &external) <= NO_LOAD * most)
+    }
+}
+
+impl Solver {
+    /// Whether the loads of floating bodies go in this increment, and nothing is there yet to keep them where they are. Without loads every place without
+    /// contact is one of equilibrium: Newton's method would end in one by chance.
+    pub fn is_to_keep_bodies(&self, model: &Model, frame: &Frame, trial: Trial) -> bool {
+        let floating = &self.floating;
+        floating.anchors.is_none()
+            && !floating.vain
+            && !floating.bodies().is_empty()
+            && floating.lose_load(model, frame, trial)
+    }
+
+    /// Anchors floating bodies whose loads go where they are.
+    pub fn keep_bodies(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        trial: Trial,
+    ) {
+        self.floating.stay = true;
+        self.anchor(model, frame, contact, trial);
+    }
+
+    /// Notes which floating bodies nothing presses any more after an increment that was found.
+    pub fn note_released(&mut self, model: &Model, frame: &Frame, accepted: &Accepted) {
+        let floating = &mut self.floating;
+        let before = floating.pressed(model, &frame.contact);
+        let after = floating.pressed(model, &accepted.contact);
+        let known = before.iter().chain(&floating.pushed);
+        let none = NOT_PRESSED * known.copied().fold(0.0, f64::max);
+        let mut released = Vec::new();
+        for (k, free) in floating.bodies().iter().enumerate() {
+            let pressed = floating.pushed[k] > none || before[k] > none;
+            let told = floating.told.contains(&free.body);
+            if pressed && !told && after[k] <= none {
+                released.push(free.body);
+            }
+        }
+        for body in released {
+            floating.told.push(body);
+            self.log.notes.push(format!(
+                "{}: nothing presses body {} any more at {:.6e}; it stays where it was",
+                model.steps[frame.step].name, model.bodies[body].name, accepted.state.t
+            ));
+        }
+    }
+}
