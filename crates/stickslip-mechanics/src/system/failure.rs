@@ -11,6 +11,8 @@ pub enum Cause {
     Singular,
     /// The linear solver did not reach its tolerance.
     LinearSolver,
+    /// The interior of condensed bodies, found from their surfaces, does not hold.
+    Interior,
     /// A cell is inverted or collapsed.
     CollapsedCell,
     /// Two successive solutions are too far apart, or the local error is too large.

@@ -2,6 +2,7 @@
 
 mod book;
 mod failures;
+mod fallback;
 mod pending;
 mod position;
 mod queue;

@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use super::book::book;
 use super::simulation::{Simulation, view};
+use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::History;
 use crate::error::Error;
+use crate::model::contact::Contact;
 use crate::newton::Progress;
 use crate::results::history;
 use crate::results::observer::{Event, Observer};
 use crate::solve::choice::TOGETHER;
-use crate::system::State;
+use crate::system::{State, StepFailure};
 
 impl Simulation {
     /// Goes on from an accepted increment: at once, or with others in one sweep.
@@ -35,7 +37,13 @@ impl Simulation {
             frame.previous = Some((trial.to - trial.from, frame.state.u.clone()));
             return self.report(pending, observers);
         };
+        let before = self.pending.is_empty().then(|| {
+            let interfaces = contact.interfaces.iter();
+            let histories = interfaces.map(|i| i.history.clone()).collect();
+            (histories, contact.couplings.memory.clone())
+        });
         contact.commit(&accepted.stage(&condensed.state, *trial));
+        pending.before = before;
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = std::mem::take(&mut solver.seen);
         let interfaces = contact.interfaces.iter();
@@ -83,30 +91,43 @@ impl Simulation {
         };
         let mut outcome = Ok(());
         if let Some(mut one) = recovered.queue.pop_front() {
-            self.remember(std::mem::take(&mut one.histories));
-            self.contact.couplings.memory = std::mem::take(&mut one.couplings);
-            outcome = self.complete(&mut one);
-            if outcome.is_ok() {
-                outcome = self.report(one, observers);
+            let histories = std::mem::take(&mut one.histories);
+            let couplings = std::mem::take(&mut one.couplings);
+            let before = self.exchange((histories, couplings));
+            if let Err(failure) = self.complete(&mut one) {
+                self.exchange(one.before.take().unwrap_or(before));
+                return Err(self.takes_back(&one, failure));
             }
+            outcome = self.report(one, observers);
         }
         if recovered.queue.is_empty() || outcome.is_err() {
-            self.remember(recovered.now);
-            self.contact.couplings.memory = recovered.coupled;
+            self.exchange((recovered.now, recovered.coupled));
         } else {
             self.recovered = Some(recovered);
         }
         outcome.map(|()| true)
     }
 
-    fn remember(&mut self, histories: Vec<History>) {
-        for (interface, history) in self.contact.interfaces.iter_mut().zip(histories) {
-            interface.history = history;
-        }
+    /// Lets interfaces and couplings know this; what they knew.
+    fn exchange(
+        &mut self,
+        (histories, couplings): (Vec<History>, CouplingsMemory),
+    ) -> (Vec<History>, CouplingsMemory) {
+        let Contact {
+            interfaces,
+            couplings: now,
+            ..
+        } = &mut self.contact;
+        let known = interfaces.iter_mut().zip(histories);
+        let known = known.map(|(i, history)| std::mem::replace(&mut i.history, history));
+        (
+            known.collect(),
+            std::mem::replace(&mut now.memory, couplings),
+        )
     }
 
     /// Completes an increment whose interior has been found.
-    fn complete(&mut self, one: &mut Pending) -> Result<(), Error> {
+    fn complete(&mut self, one: &mut Pending) -> Result<(), StepFailure> {
         let Some(found) = &one.found else {
             return Ok(());
         };
@@ -117,8 +138,7 @@ impl Simulation {
             solver,
             ..
         } = self;
-        let completed = solver.complete(model, frame, contact, (found, &mut one.accepted));
-        completed.map_err(|e| e.at(one.trial.to).into())
+        solver.complete(model, frame, contact, (found, &mut one.accepted))
     }
 
     /// Enters an increment into the ledger and tells the observers.

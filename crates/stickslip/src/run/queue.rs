@@ -8,6 +8,7 @@ use crate::newton::Progress;
 use crate::results::observer::Advance;
 use crate::solve::accepted::Accepted;
 use crate::solve::condenser::Candidates;
+use crate::system::StepFailure;
 use crate::time::Trial;
 
 /// An accepted increment that nobody has been told of.
@@ -26,6 +27,8 @@ pub(crate) struct Pending {
     pub(super) histories: Vec<History>,
     /// The same of the couplings.
     pub(super) couplings: CouplingsMemory,
+    /// What both knew before it, where nobody else remembers: in the first of those that wait.
+    pub(super) before: Option<(Vec<History>, CouplingsMemory)>,
     /// What the interior of a condensed increment follows from; `None` where it is known.
     pub(super) found: Option<Candidates>,
 }
@@ -48,6 +51,7 @@ impl Pending {
             seen: Vec::new(),
             histories: Vec::new(),
             couplings: CouplingsMemory::default(),
+            before: None,
             found: None,
         }
     }
@@ -72,4 +76,12 @@ pub(crate) struct Recovered {
     pub(super) now: Vec<History>,
     /// And the couplings.
     pub(super) coupled: CouplingsMemory,
+}
+
+/// An increment that was accepted and taken back, with all that came after it.
+pub(crate) struct TakenBack {
+    pub(super) trial: Trial,
+    /// Its number in the step.
+    pub(super) increment: usize,
+    pub(super) failure: StepFailure,
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::position::Steps;
-use super::queue::{Pending, Recovered};
+use super::queue::{Pending, Recovered, TakenBack};
 use crate::assess::diagnosis::{CheckReport, start_gaps};
 use crate::assess::doctor::{self, Finding, Watch};
 use crate::assess::quality;
@@ -42,6 +42,8 @@ pub struct Simulation {
     pub(crate) pending: Vec<Pending>,
     /// Those whose interiors are known, on their way to the observers.
     pub(crate) recovered: Option<Recovered>,
+    /// The last of those whose interior was found not to hold.
+    pub(crate) taken_back: Option<TakenBack>,
     /// What interfaces did so far.
     pub(crate) watches: Vec<Watch>,
     /// Bodies that no interface joins.
@@ -107,6 +109,7 @@ impl Simulation {
             steps: Steps::default(),
             pending: Vec::new(),
             recovered: None,
+            taken_back: None,
             model,
             contact,
             frame,

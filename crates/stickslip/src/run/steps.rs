@@ -66,7 +66,16 @@ impl Simulation {
         Ok(())
     }
 
+    /// One turn. Where it ends because an increment was taken back, the analysis goes on from there.
     fn next(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        let outcome = self.turn(observers);
+        match self.taken_back.take() {
+            Some(taken) => self.go_back(taken, observers).map(|()| true),
+            None => outcome,
+        }
+    }
+
+    fn turn(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
         if self.report_next(observers)? {
             return Ok(true);
         }
@@ -215,6 +224,10 @@ impl Simulation {
                 self.flush(observers)?;
                 (self.solver).widen(&self.model, &self.frame, &mut self.contact);
                 self.tell_notes(observers)?;
+            }
+            Err(failure) if failure.cause == Cause::Interior => {
+                self.flush(observers)?;
+                self.solve_sparsely(&failure, observers)?;
             }
             Err(failure) if self.anchors_again(trial, &failure, observers)? => {}
             Err(failure) => {
@@ -402,6 +415,12 @@ impl Simulation {
         running.attempt += 1;
         self.reject(&trial, &failure);
         if !running.stepper.reject(trial) {
+            if self.may_solve_sparsely(&failure) {
+                let initial = running.stepper.initial();
+                running.stepper.again(trial.from, initial);
+                running.attempt = 1;
+                return self.solve_sparsely(&failure, observers);
+            }
             return Err(self.give_up(failure, &trial).into());
         }
         self.tell(observers, || Event::Cutback(&trial, &failure))

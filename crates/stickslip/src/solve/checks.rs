@@ -48,7 +48,7 @@ impl Recovered<'_> {
             .max(NOTHING * *largest);
         if left.sqrt() > limit || left.is_nan() {
             return Err(StepFailure::new(
-                Cause::LinearSolver,
+                Cause::Interior,
                 format!(
                     "the recovered interior is not in balance: {:.1e} of the forces in play",
                     left.sqrt() / size

@@ -71,6 +71,17 @@ impl Floating {
         known.into_iter().any(|free| free.body == body)
     }
 
+    /// Looks for floating bodies anew before the next increment.
+    pub fn forget(&mut self) {
+        self.known = None;
+        self.anchors = None;
+    }
+
+    /// Whether bodies have been followed, and nothing held them.
+    pub fn in_vain(&self) -> bool {
+        self.vain
+    }
+
     /// Whether bodies are anchored.
     pub fn is_anchored(&self) -> bool {
         self.anchors.is_some()

@@ -85,6 +85,18 @@ impl Stepper {
         self.wish = self.wish.min(wish);
     }
 
+    /// Goes back, or stays, where an increment was tried from, and proposes it again as if nothing had failed.
+    pub fn again(&mut self, from: f64, length: f64) {
+        self.now = from;
+        self.wish = length;
+        self.easy = 0;
+    }
+
+    /// The increment that a step begins with.
+    pub fn initial(&self) -> f64 {
+        self.increments.initial
+    }
+
     /// The next increment to try; `None` at the end.
     pub fn next(&self) -> Option<Trial> {
         let target = *self.milestones.iter().find(|&&t| t > self.now)?;

@@ -243,3 +243,89 @@ fn bits_do_not_depend_on_threads() {
     let case = examples().join("press-and-slide/case-slip.toml");
     assert_eq!(bits(&case, &overrides, 1), bits(&case, &overrides, 4));
 }
+
+/// A body on weak springs above another: its interior is known to few digits from the points that may touch.
+const ON_SPRINGS: &str = r#"format = 1
+model.space = "axisymmetric"
+body.lower = { generate.rectangle = { from = [0, -4], to = [5, 0], cells = [3, 2], element = "tri3", diagonal = "down" }, material = "lower" }
+body.upper = { generate.rectangle = { from = [0, 7.33e-2], to = [4, 4.0733], cells = [1, 1], element = "quad8" }, material = "upper" }
+material.lower.isotropic = { young = 1.34e5, poisson = 0.28 }
+material.upper.isotropic = { young = 9.89e4, poisson = 0.131 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.hub = { set = "upper.left", x = 0 }
+load.springs = { set = "upper.top", spring.stiffness = [0, 2.47e3] }
+load.weight = { set = "upper.top", pressure.value = 5.09e2, amplitude = "weight" }
+amplitude.weight.table = [[0, 0], [1, 1], [2, 1], [3, 0.6]]
+step = [{ increments.fixed = 2 }, { increments.fixed = 2 }, { increments.fixed = 4 }]
+[interface.joint]
+secondary = "upper.bottom"
+primary = "lower.top"
+normal.exponential = { p0 = 3e1, c0 = 3.39e-5 }
+friction.stribeck = { static = 0.18, kinetic = 0.169, velocity = 1.09e-2, exponent = 1, viscous = 9.12e1 }
+enforcement.perturbed-lagrangian = {}
+kinematics.small-sliding = {}
+discretisation.node-to-facet = {}
+"#;
+
+/// A block that is pressed on a stiff floor and shaken.
+const SHAKEN: &str = r#"format = 1
+model.space = "plane-stress"
+body.upper = { generate.rectangle = { from = [-3.75, 1.64e-3], to = [3.75, 3.75164], cells = [11, 5], element = "tri6", diagonal = "union-jack" }, material = "upper" }
+material.upper.isotropic = { young = 1.41e5, poisson = 0.00912, density = 7.8e-9 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+support.press = { set = "upper.top", y = -1e-1, amplitude = "press" }
+support.shake = { set = "upper.top", x = 2.07e-2, amplitude = "shake" }
+amplitude.press.table = [[0, 0], [1, 1], [1.00000706, 1]]
+amplitude.shake.table = [[0, 0], [1, 0], [1.000001765, 1], [1.000004236, -1], [1.00000706, 0.5]]
+[interface.joint]
+secondary = "upper.bottom"
+primary = "floor"
+normal.power-law = { c = 2.39e7, m = 1.48 }
+friction.static-kinetic = { static = 0.743, kinetic = 0.646 }
+slip.regularised = { epsilon = 4.76e-4 }
+enforcement.perturbed-lagrangian = {}
+kinematics.convective = {}
+[[step]]
+increments.fixed = 4
+[[step]]
+duration = 4.4e-7
+dynamic = { scheme.newmark = {}, contact-mass = "as-meshed" }
+increments.fixed = 5
+"#;
+
+#[test]
+fn where_an_interior_does_not_balance_the_sparse_matrix_goes_on() {
+    for text in [ON_SPRINGS, SHAKEN] {
+        let run = |method: &str| {
+            let text = format!("solver.method = \"{method}\"\n{text}");
+            let problem = Document::new(&text, None).problem();
+            let setup = problem
+                .unwrap_or_else(|e| panic!("{e}"))
+                .build(Path::new("."));
+            let mut simulation =
+                Simulation::new(setup.unwrap_or_else(|e| panic!("{e}"))).expect("a model");
+            let mut states = States::default();
+            let outcome = simulation.run(&mut [&mut states]);
+            outcome.unwrap_or_else(|e| panic!("{method}: {e}"));
+            (states, simulation.summary)
+        };
+        let (condensed, summary) = run("condensed");
+        let (sparse, _) = run("sparse");
+        let said = (summary.notes.iter()).filter(|n| n.contains("with the sparse matrix"));
+        assert_eq!(said.count(), 1, "{:?}", summary.notes);
+        assert_eq!(summary.method, "sparse");
+        // Every increment is there once, those that were taken back included.
+        assert_eq!(condensed.times, sparse.times);
+        assert!(condensed.times.len() >= 8);
+        let largest = |u: &[f64]| u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        for (a, b) in condensed.displacements.iter().zip(&sparse.displacements) {
+            let apart: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+            assert!(
+                largest(&apart) < 1e-6 * largest(b),
+                "{:e} of {:e}",
+                largest(&apart),
+                largest(b)
+            );
+        }
+    }
+}

@@ -38,7 +38,7 @@ pub(crate) fn diagnose(
     let root = root(view, &failure.cause);
     let mut finding = root.unwrap_or_else(|| match failure.cause {
         Cause::Singular => singular(view, trial, failure),
-        Cause::LinearSolver => linear(view, trial),
+        Cause::LinearSolver | Cause::Interior => linear(view, trial),
         Cause::NotConverged => not_converged(view, trial, &evidence),
         Cause::NotFinite => Finding::new(DoctorCause::NotFinite, Severity::Warning, "")
             .advise("smaller increments; look for a stiffness or a load that is far too large"),
@@ -76,7 +76,11 @@ fn root(view: &View, cause: &Cause) -> Option<Finding> {
         Cause::TooFar | Cause::Reach | Cause::Event | Cause::Interrupted | Cause::Memory => {
             return None;
         }
-        Cause::Singular | Cause::LinearSolver | Cause::NotConverged | Cause::CollapsedCell => {}
+        Cause::Singular
+        | Cause::LinearSolver
+        | Cause::Interior
+        | Cause::NotConverged
+        | Cause::CollapsedCell => {}
         Cause::NotFinite => {
             // Laws of the families are finite wherever they are asked.
             let own = view.contact.interfaces.iter().find(|i| i.laws.user.any());

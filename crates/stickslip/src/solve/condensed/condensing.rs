@@ -188,6 +188,33 @@ impl Solver {
         self.log.notes.extend(effort.notes);
     }
 
+    /// Whether bodies are condensed, at rest or in motion.
+    pub fn condenses(&self) -> bool {
+        self.condenser.at_rest.is_some() || !self.condenser.moving.is_empty()
+    }
+
+    /// Gives condensed bodies up: the analysis goes on with the sparse matrix.
+    pub fn give_condensing_up(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        why: &str,
+    ) {
+        self.condenser.moving.clear();
+        self.condenser.decided = None;
+        self.log.reason = format!("condensed bodies did not serve: {why}");
+        self.not_condensed(
+            model,
+            frame,
+            contact,
+            &format!(
+                "{why}; the analysis goes on from {:.6e} with the sparse matrix",
+                frame.state.t
+            ),
+        );
+    }
+
     /// The analysis goes on with the sparse matrix.
     fn not_condensed(
         &mut self,
