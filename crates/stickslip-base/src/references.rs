@@ -69,5 +69,6 @@ references! {
     dembo_1982: "R. S. Dembo, S. C. Eisenstat, T. Steihaug, Inexact Newton methods, SIAM Journal on Numerical Analysis 19 (1982) 400-408.",
     qi_sun_1993: "L. Qi, J. Sun, A nonsmooth version of Newton's method, Mathematical Programming 58 (1993) 353-367.",
     alart_curnier_1991: "P. Alart, A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods, Computer Methods in Applied Mechanics and Engineering 92 (1991) 353-375.",
+    lawson_hanson_1974: "C. L. Lawson, R. J. Hanson, Solving least squares problems, Prentice-Hall, 1974, chapter 23.",
     armijo_1966: "L. Armijo, Minimization of functions having Lipschitz continuous first partial derivatives, Pacific Journal of Mathematics 16 (1966) 1-3.",
 }

@@ -2,11 +2,13 @@
 
 mod eigen;
 mod mat3;
+mod nonnegative;
 mod vec3;
 pub mod vector;
 
 pub use eigen::symmetric_eigen;
 pub use mat3::{Mat3, determinant, identity, inverse, mat_vec, outer, rotation, transpose_vec};
+pub use nonnegative::rest_of_nonnegative;
 pub use vec3::{Vec3, add, add_scaled, angle, cross, distance, dot, norm, normalize, scale, sub};
 
 /// A value and its derivative with respect to the one argument of the function it came from.

@@ -4,6 +4,7 @@ pub(crate) mod diagnosis;
 pub mod doctor;
 pub(crate) mod equilibrium;
 pub(crate) mod figures;
+pub(crate) mod no_equilibrium;
 pub(crate) mod quality;
 pub(crate) mod travel;
 pub(crate) mod unsupported;

@@ -22,7 +22,7 @@ pub(crate) struct Driver {
 /// Loads along one motion at a time.
 pub(crate) struct Push {
     /// All together `[N]`.
-    total: f64,
+    pub total: f64,
     /// Sum of the sizes of all forces `[N]`.
     size: f64,
     /// Each by name.
@@ -51,7 +51,7 @@ impl Scene<'_> {
     }
 
     /// The loads along a motion at a time, with what supports that let go still carry.
-    fn push(&self, all: &[Mode], motion: &Unheld, t: f64) -> Push {
+    pub(crate) fn push(&self, all: &[Mode], motion: &Unheld, t: f64) -> Push {
         let model = self.model;
         let parts: Vec<(&Mode, f64)> = all.iter().zip(motion.iter().copied()).collect();
         let parts: Vec<_> = parts

@@ -3,7 +3,7 @@
 use super::simulation::{Simulation, view};
 use crate::assess::diagnosis;
 use crate::assess::doctor;
-use crate::error::RunError;
+use crate::error::{Error, RunError};
 use crate::results::summary::FallbackSummary;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
@@ -87,6 +87,13 @@ impl Simulation {
                 self.model.steps[self.frame.step].name, trial.from, trial.to, failure.message
             ));
         }
+    }
+
+    /// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
+    pub(crate) fn refuse_unbalanced(&mut self, trial: Trial) -> Option<Error> {
+        let (finding, error) = view!(self).refuse_unbalanced((trial.from, trial.to))?;
+        doctor::note(&mut self.summary.findings, finding);
+        Some(error.into())
     }
 
     /// The error of an increment that cannot be made smaller.

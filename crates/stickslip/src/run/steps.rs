@@ -165,6 +165,10 @@ impl Simulation {
             doctor::note(&mut self.summary.findings, finding);
             return Err(error.into());
         }
+        let first = Increments::of(self.step()).stepper.next();
+        if let Some(error) = first.and_then(|trial| self.refuse_unbalanced(trial)) {
+            return Err(error);
+        }
         let Simulation {
             model,
             contact,
@@ -414,6 +418,13 @@ impl Simulation {
         self.examine(&trial, (running.attempt, counters), &failure);
         running.attempt += 1;
         self.reject(&trial, &failure);
+        let may_be = !matches!(failure.cause, Cause::NotFinite | Cause::CollapsedCell);
+        if may_be
+            && self.step().dynamic.is_none()
+            && let Some(error) = self.refuse_unbalanced(trial)
+        {
+            return Err(error);
+        }
         if !running.stepper.reject(trial) {
             if self.may_solve_sparsely(&failure) {
                 let initial = running.stepper.initial();

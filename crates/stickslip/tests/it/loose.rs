@@ -554,3 +554,84 @@ step = [{ name = "settle" }, { name = "blow" }]
     assert_eq!(last.cause, DoctorCause::SlidesAway, "{last}");
     assert!(last.guilty.iter().any(|g| g.name == "load.wind"), "{last}");
 }
+
+/// A block on another, pressed and pushed sideways in proportion.
+fn pushed(sideways: f64, mu: f64) -> String {
+    format!(
+        "{}\nload.side = {{ set = \"upper.top\", traction = {{ value = [{sideways:?}, 0] }} }}",
+        plane_blocks(0.0, &format!("coulomb = {{ mu = {mu:?} }}"), SI)
+    )
+}
+
+#[test]
+fn a_load_that_friction_cannot_balance_is_refused_with_the_friction_that_would() {
+    // Statics of a rigid block, 30 mm wide and 20 mm high, by hand: sideways 0.4 of the pressure needs friction of 0.4, and less than 0.75, from where on
+    // the block tips about its edge whatever friction there is.
+    let (said, summary) = refused(&pushed(20e6, 0.3));
+    for part in [
+        "no equilibrium",
+        "translation x",
+        "load.side",
+        "friction of 0.4000 would hold it",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in {said}");
+    }
+    assert_eq!((summary.increments, summary.solver.iterations), (0, 0));
+    assert!(
+        summary
+            .findings
+            .last()
+            .is_some_and(|f| f.cause == DoctorCause::SlidesAway)
+    );
+    let (said, summary) = refused(&pushed(40e6, 5.0));
+    for part in ["rotation about z", "load.side", "no friction would hold it"] {
+        assert!(said.contains(part), "`{part}` is missing in {said}");
+    }
+    assert_eq!(summary.solver.iterations, 0);
+    // What friction can just hold is not refused.
+    assert!(run("held", &pushed(20e6, 0.41)).summary.completed);
+}
+
+#[test]
+fn a_load_that_grows_beyond_friction_is_told_with_its_time_and_not_by_halving() {
+    let text = pushed(20e6, 0.3).replace("step = [{ increments.fixed = 2 }]", "")
+        + r#"
+amplitude.later.table = [[0, 0], [1, 0], [2, 1]]
+step = [{ name = "press", increments.fixed = 2 }, { name = "push", increments.fixed = 10 }]
+"#;
+    let text = text.replace(
+        "value = [20000000.0, 0] }",
+        "value = [20000000.0, 0] }, amplitude = \"later\"",
+    );
+    // In full from the start.
+    let text = text.replace(
+        "pressure = { value = 50000000.0 }",
+        "pressure = { value = 50000000.0 }, amplitude = \"full\"",
+    ) + "amplitude.full.table = [[0, 0], [1, 1], [2, 1]]\n";
+    let (said, summary) = refused(&text);
+    // 0.3 * 50 MPa are reached after three quarters of the second step.
+    for part in [
+        "there is no equilibrium from 1.7500",
+        "load.side",
+        "friction of 0.3200",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing in {said}");
+    }
+    assert_eq!((summary.increments, summary.cutbacks), (9, 1));
+}
+
+#[test]
+fn a_block_in_space_is_held_by_a_cone_of_friction() {
+    let text = |mu: f64| {
+        solid_blocks(0.0, &format!("coulomb = {{ mu = {mu:?} }}"))
+            + "load.side = { set = \"upper.top\", traction = { value = [12e6, 16e6, 0] } }\n"
+    };
+    // 20 MPa across and 50 MPa down, wherever across points.
+    let (said, _) = refused(&text(0.35));
+    let found = said
+        .split("friction of ")
+        .nth(1)
+        .and_then(|s| s.split(' ').next());
+    let found: f64 = found.and_then(|s| s.parse().ok()).expect("the friction");
+    assert!((0.395..=0.4001).contains(&found), "{said}");
+}

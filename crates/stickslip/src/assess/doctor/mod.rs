@@ -31,5 +31,6 @@ pub(crate) use culprits::write as write_culprits;
 pub(crate) use diagnose::{MORE_MEMORY, diagnose, stopped};
 pub(crate) use places::body as body_at;
 pub(crate) use record::{Counters, mistake, note};
+pub(crate) use surfaces::Opposite;
 pub(crate) use unjoined::Unjoined;
 pub(crate) use watch::{Watch, watched};

@@ -8,7 +8,7 @@ use crate::math::{Vec3, distance, dot, sub};
 
 /// What lies nearest to a point.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Nearest {
+pub(crate) struct Nearest {
     /// The facet; meaningless for an obstacle.
     pub facet: usize,
     /// Place on it.
@@ -22,7 +22,7 @@ pub(super) struct Nearest {
 }
 
 /// The facets of an interface, to be asked for many points.
-pub(super) struct Opposite<'a> {
+pub(crate) struct Opposite<'a> {
     interface: &'a Interface,
     tree: Tree,
     found: Vec<usize>,
