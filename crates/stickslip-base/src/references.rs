@@ -70,5 +70,11 @@ references! {
     qi_sun_1993: "L. Qi, J. Sun, A nonsmooth version of Newton's method, Mathematical Programming 58 (1993) 353-367.",
     alart_curnier_1991: "P. Alart, A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods, Computer Methods in Applied Mechanics and Engineering 92 (1991) 353-375.",
     lawson_hanson_1974: "C. L. Lawson, R. J. Hanson, Solving least squares problems, Prentice-Hall, 1974, chapter 23.",
+    jean_moreau_1992: "M. Jean, J. J. Moreau, Unilaterality and dry friction in the dynamics of rigid body collections, in: Contact Mechanics International Symposium, Lausanne, 1992, 31-48.",
+    jourdan_1998: "F. Jourdan, P. Alart, M. Jean, A Gauss-Seidel like algorithm to solve frictional contact problems, Computer Methods in Applied Mechanics and Engineering 155 (1998) 31-47.",
+    acary_2018: "V. Acary, M. Brémond, O. Huber, On solving contact problems with Coulomb friction: formulations and numerical comparisons, in: Advanced Topics in Nonsmooth Dynamics, Springer, 2018, 375-457.",
+    rockafellar_1976: "R. T. Rockafellar, Monotone operators and the proximal point algorithm, SIAM Journal on Control and Optimization 14 (1976) 877-898.",
+    golub_van_loan_2013: "G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., Johns Hopkins University Press, 2013.",
+    haslinger_1983: "J. Haslinger, Approximation of the Signorini problem with friction, obeying the Coulomb law, Mathematical Methods in the Applied Sciences 5 (1983) 422-437.",
     armijo_1966: "L. Armijo, Minimization of functions having Lipschitz continuous first partial derivatives, Pacific Journal of Mathematics 16 (1966) 1-3.",
 }

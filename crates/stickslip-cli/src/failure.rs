@@ -14,6 +14,9 @@ pub const INPUT: u8 = 1;
 /// Results fail a check or the quality gate.
 pub const CHECK: u8 = 2;
 
+/// A run, or a friction problem, has not converged.
+pub const UNSOLVED: u8 = 3;
+
 /// Stopped by Ctrl-C; results up to there are complete.
 pub const INTERRUPTED: u8 = 130;
 
@@ -46,7 +49,7 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Failure::Library(Error::Run(_)) => 3,
+            Failure::Library(Error::Run(_)) => UNSOLVED,
             Failure::Library(Error::Interrupted(_)) => INTERRUPTED,
             _ => INPUT,
         }

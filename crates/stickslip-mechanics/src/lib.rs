@@ -2,6 +2,7 @@
 //!
 //! No time and no files. Users import these rooms from the crate `stickslip`, which hands them on.
 
+pub mod friction;
 pub mod material;
 pub mod shape;
 

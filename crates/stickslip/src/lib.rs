@@ -12,7 +12,7 @@
 //! `tests/it/layers` holds the code to it.
 
 pub use stickslip_base::{error, family, linear, machine, math, references, registry};
-pub use stickslip_mechanics::{body, contact, material, mesh, newton, shape, system};
+pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, shape, system};
 
 pub mod io;
 pub mod time;

@@ -6,6 +6,7 @@ pub mod completions;
 pub mod convert;
 pub mod curve;
 pub mod explain;
+pub mod friction;
 pub mod man;
 pub mod models;
 pub mod plot;

@@ -141,3 +141,57 @@ fn check_prints_findings_for_programs() {
     let output = stickslip(&["check", &path.display().to_string()]);
     assert!(text(&output.stdout).contains("warning (normals-not-opposed)"));
 }
+
+/// A block of mass one that is pushed along with three and down with two, at a coefficient of a half.
+const FRICTION: &str = "# one\ndim 2 contacts 1\nmu 0.5\nq\n-2\n3\nW 2\n0 0 1\n1 1 1\n";
+
+#[test]
+fn friction_problems_are_solved_alone() {
+    let path = file("sliding.txt", FRICTION);
+    let folder = path.with_file_name("sliding-forces");
+    let (path, folder) = (path.display().to_string(), folder.display().to_string());
+    let output = stickslip(&["friction", &path, "-v", "-o", &folder]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let out = text(&output.stdout);
+    assert!(out.contains("| sliding | 1 | "), "{out}");
+    assert!(out.ends_with("1 of 1 solved\n"), "{out}");
+    let table = std::fs::read_to_string(Path::new(&folder).join("sliding.csv")).expect("forces");
+    let values: Vec<f64> = table
+        .lines()
+        .nth(1)
+        .expect("a row")
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    for (value, expected) in values.iter().zip([2.0, -1.0, 0.0, 2.0]) {
+        assert!((value - expected).abs() < 1e-12, "{table}");
+    }
+}
+
+#[test]
+fn a_friction_problem_without_a_solution_is_not_called_solved() {
+    // Painlevé: pushing in the direction of slip presses the point away from its surface faster than the pressure lets it go.
+    let stuck = FRICTION
+        .replace("0 0 1\n1 1 1", "0 0 1\n0 1 3\n1 0 3\n1 1 9")
+        .replace("mu 0.5", "mu 0.9")
+        .replace("W 2", "W 4");
+    let path = file("painleve.txt", &stuck).display().to_string();
+    let output = stickslip(&["friction", &path]);
+    assert_eq!(code(&output), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("**none**"));
+}
+
+#[test]
+fn a_wrong_friction_problem_is_named_with_its_line() {
+    let path = file("wrong.txt", &FRICTION.replace("mu 0.5", "mu x"))
+        .display()
+        .to_string();
+    let output = stickslip(&["friction", &path]);
+    assert_eq!(code(&output), Some(1));
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("wrong.txt:3: `x` is no finite number"),
+        "{said}"
+    );
+    assert!(said.contains("help: the lines are"), "{said}");
+}

@@ -27,7 +27,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
     (
         "stickslip_mechanics",
         &[
-            &["material", "shape"],
+            &["friction", "material", "shape"],
             &["mesh"],
             &["system"],
             &["body", "contact", "newton"],

@@ -1,0 +1,72 @@
+use super::gauss_seidel::GaussSeidel;
+use super::newton::{Length, NewtonInForces, Step};
+use super::problem::FrictionProblem;
+use super::solver::{Best, FrictionSolver, Iterate};
+
+/// Proximal point iteration: every point is given an artificial compliance around the forces it has, which makes the problem regular, and each solution is
+/// the centre of the next ([Rockafellar](stickslip_base::references::rockafellar_1976); for friction
+/// [Acary, Brémond and Huber](stickslip_base::references::acary_2018), 4.5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ProximalPoint;
+
+/// Most problems.
+const MOST: usize = 200;
+
+/// The artificial compliance to start with, relative to that of the point, and its bounds.
+const FIRST: f64 = 1.0;
+const LARGEST: f64 = 100.0;
+const SMALLEST: f64 = 1e-8;
+
+/// What it is multiplied by after a problem that was solved, and one that was not.
+const SOLVED: f64 = 0.3;
+const FAILED: f64 = 5.0;
+
+/// Sweeps where Newton's method fails on a problem.
+const SWEEPS: usize = 100;
+
+/// Part of the error to which a problem is solved.
+const INNER: f64 = 0.1;
+
+impl FrictionSolver for ProximalPoint {
+    fn name(&self) -> &'static str {
+        "proximal point"
+    }
+
+    fn solve(&self, problem: &FrictionProblem, start: &[f64], tolerance: f64) -> Iterate {
+        let stiffness = problem.stiffness();
+        let (d, n) = (problem.dimension, problem.size());
+        let inner = NewtonInForces::new(Step::Proximal, Length::Falling);
+        let mut forces = start.to_vec();
+        let mut best = Best::new(&forces, problem.error(&forces));
+        let mut added = FIRST;
+        let mut iterations = 0;
+        let mut near = problem.clone();
+        for _ in 0..MOST {
+            if best.error() <= tolerance || added > LARGEST {
+                break;
+            }
+            for i in 0..n {
+                let own = added / stiffness[i / d];
+                near.operator[i * (n + 1)] = problem.operator[i * (n + 1)] + own;
+                near.free[i] = problem.free[i] - own * forces[i];
+            }
+            let wanted = INNER * best.error().min(1.0);
+            let mut found = inner.solve(&near, &forces, wanted);
+            iterations += found.iterations;
+            if found.error > wanted {
+                // with enough compliance of its own every point is nearly alone
+                let sweeps = GaussSeidel { sweeps: SWEEPS };
+                found = sweeps.solve(&near, &forces, wanted);
+                iterations += found.iterations;
+            }
+            if found.error <= wanted {
+                forces = found.forces;
+                best.see(&forces, problem.error(&forces));
+                added = (added * SOLVED).max(SMALLEST);
+            } else {
+                added *= FAILED;
+            }
+        }
+        best.after(iterations)
+    }
+}
