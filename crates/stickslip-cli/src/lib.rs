@@ -11,7 +11,9 @@ mod interrupt;
 mod lines;
 mod print;
 mod progress;
+mod remaining;
 mod render;
+mod voice;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Progress on standard error: a line an increment.
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::Path;
 use std::time::Instant;
 
@@ -11,6 +11,10 @@ use stickslip::contact::response::Status;
 use stickslip::newton::Strategy;
 use stickslip::results::{Analysis, Event, Observer, Row};
 
+use crate::remaining::{Remaining, part};
+use crate::voice::Voice;
+pub use crate::voice::say;
+
 /// Prints what happens.
 pub struct Progress {
     verbose: bool,
@@ -20,38 +24,27 @@ pub struct Progress {
     /// Statuses of all contact points after the last increment.
     statuses: Vec<Status>,
     started: Instant,
-    /// Characters of the line that is to be overwritten.
-    transient: usize,
+    remaining: Remaining,
+    voice: Voice,
 }
 
 impl Progress {
-    /// `verbose` shows every Newton iteration. Where standard error is no terminal, only notes and cut-backs are said.
-    pub fn new(verbose: bool) -> Self {
+    /// `verbose` shows every Newton iteration. Where standard error is no terminal, notes and cut-backs are said, and an increment now and then.
+    pub fn new(verbose: bool, voice: Voice) -> Self {
         Progress {
             verbose,
             terminal: verbose || std::io::stderr().is_terminal(),
             headed: false,
             statuses: Vec::new(),
             started: Instant::now(),
-            transient: 0,
+            remaining: Remaining::default(),
+            voice,
         }
     }
 
     /// A line that stays.
     fn line(&mut self, text: &str) {
-        if self.transient > 0 {
-            let blank = " ".repeat(self.transient);
-            let _ = write!(std::io::stderr(), "\r{blank}\r");
-            self.transient = 0;
-        }
-        say(text);
-    }
-
-    /// A line that the next one overwrites: increments of condensed bodies are reported a few at a time.
-    fn passing(&mut self, text: &str) {
-        let fill = " ".repeat(self.transient.saturating_sub(text.chars().count()));
-        let _ = write!(std::io::stderr(), "\r{text}{fill}\r");
-        self.transient = text.chars().count();
+        self.voice.line(text);
     }
 
     /// Points that have another status than after the last increment.
@@ -75,7 +68,8 @@ impl Progress {
 
     fn increment(&mut self, analysis: &Analysis, row: &Row) {
         let changes = self.changes(analysis);
-        if !self.terminal {
+        let left = self.left(analysis, row.get("TIME").unwrap_or(0.0));
+        if !self.terminal && !self.voice.is_silent(false) {
             return;
         }
         if !self.headed {
@@ -100,37 +94,33 @@ impl Progress {
             column("STICK"),
             column("SLIP"),
             column("ERESIDUAL") / scale,
-            self.left(analysis, column("TIME")),
+            left,
         );
         self.line(&text);
     }
 
-    /// The time that is left if the rest goes as fast as what is done.
-    fn left(&self, analysis: &Analysis, time: f64) -> String {
-        let steps = &analysis.model.steps;
-        let (Some(first), Some(last)) = (steps.first(), steps.last()) else {
-            return String::new();
-        };
-        let done = (time - first.start) / (last.end - first.start);
-        let seconds = self.started.elapsed().as_secs_f64() * (1.0 - done) / done.max(1e-9);
+    /// The time that is left, if it is known.
+    fn left(&mut self, analysis: &Analysis, time: f64) -> String {
+        let done = part(&analysis.model.steps, analysis.frame.step, time);
+        let seconds = done.and_then(|done| {
+            self.remaining
+                .note(done, self.started.elapsed().as_secs_f64());
+            self.remaining.seconds()
+        });
         match seconds {
-            s if s < 100.0 => format!("{s:.0} s"),
-            s if s < 6000.0 => format!("{:.0} min", s / 60.0),
-            s => format!("{:.1} h", s / 3600.0),
+            None => "?".to_string(),
+            Some(s) if s < 100.0 => format!("{s:.0} s"),
+            Some(s) if s < 6000.0 => format!("{:.0} min", s / 60.0),
+            Some(s) => format!("{:.1} h", s / 3600.0),
         }
     }
-}
-
-/// Prints a line. A closed standard error is no reason to stop.
-pub fn say(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 impl Observer for Progress {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Accepted(a) if self.terminal && !self.verbose => {
-                self.passing(&format!(
+                self.voice.passing(&format!(
                     "{:<18} {:>4} {:>3} {:>3} {:>11.5e} ...",
                     analysis.step_name(),
                     a.increment,
@@ -168,7 +158,7 @@ impl Observer for Progress {
                     trial.from, trial.to, failure.message
                 ));
                 for culprit in failure.culprits.iter().take(3) {
-                    say(&format!("    {culprit}"));
+                    self.line(&format!("    {culprit}"));
                 }
             }
             _ => {}

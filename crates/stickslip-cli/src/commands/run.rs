@@ -13,6 +13,7 @@ use crate::failure::Outcome;
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::progress::Progress;
+use crate::voice::{Heartbeat, Voice};
 
 /// Run an analysis and write its results.
 #[derive(Debug, clap::Args)]
@@ -47,6 +48,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     use_threads(arguments.threads, arguments.quiet);
     let started = Instant::now();
+    let voice = Voice::new();
+    voice.does("reading and assembling");
+    let heartbeat = (!arguments.quiet && !arguments.json).then(|| Heartbeat::start(&voice));
     let input = Input::open(&arguments.file, &arguments.set)?;
     let setup = input.build()?;
     let directory = arguments
@@ -62,6 +66,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut simulation = Simulation::with_library(setup, library)?;
     simulation.summary.phases.read = read;
     simulation.set_interrupt(crate::interrupt::watch());
+    simulation.set_watch(voice.watch());
     let stem = arguments.file.file_stem().unwrap_or_default();
     let printed = |extension: &str| format!("{}.{extension}", stem.to_string_lossy());
     let claim = Claim {
@@ -76,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         crate::progress::say(note);
     }
     super::report::keep_problem(&directory, &input.problem)?;
-    let mut progress = Progress::new(arguments.verbose);
+    let mut progress = Progress::new(arguments.verbose, voice);
     let mut lines = Lines::default();
     let beside = |extension: &str| directory.join(printed(extension));
     let mut printer = input
@@ -94,6 +99,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         observers.push(&mut lines);
     }
     simulation.run(&mut observers)?;
+    drop(heartbeat);
     if loud {
         crate::progress::closing(&simulation.analysis(), &directory);
     }

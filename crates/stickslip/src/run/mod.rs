@@ -9,5 +9,6 @@ mod queue;
 mod simulation;
 mod steps;
 
+pub use crate::solve::work::{Watch, Work};
 pub use simulation::Simulation;
 pub use steps::Interrupt;

@@ -45,7 +45,7 @@ impl Simulation {
         contact.commit(&accepted.stage(&condensed.state, *trial));
         pending.before = before;
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
-        pending.seen = std::mem::take(&mut solver.seen);
+        pending.seen = solver.seen.take();
         let interfaces = contact.interfaces.iter();
         pending.histories = interfaces.map(|i| i.history.clone()).collect();
         pending.couplings = contact.couplings.memory.clone();

@@ -17,6 +17,7 @@ use crate::model::frame::Motion;
 use crate::model::scene::Scene;
 use crate::results::observer::{Event, Observer};
 use crate::solve::accepted::Accepted;
+use crate::solve::work::{Watch, Work};
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
 use crate::time::scheme::Method;
@@ -29,6 +30,11 @@ impl Simulation {
     /// [`Simulation::advance`]. The increment at hand is given up, and those before it stay; the analysis can go on from there.
     pub fn set_interrupt(&mut self, interrupt: Interrupt) {
         self.solver.newton.interrupt = Some(interrupt);
+    }
+
+    /// Lets `watch` know what is being worked on, from within attempts: each Newton iteration, whichever way it belongs to, and what else may take a while.
+    pub fn set_watch(&mut self, watch: Watch) {
+        self.solver.seen.watch = Some(watch);
     }
 
     /// Goes on by at most one increment that is reported; `false` at the end. [`Simulation::run`] is a loop over this, and gives the same bits.
@@ -209,6 +215,12 @@ impl Simulation {
             self.prepare_floating(trial, observers)?;
         }
         let counters = doctor::Counters::of(&self.solver.newton.statistics);
+        self.solver.seen.tell(&Work::Increment {
+            step: &self.step().name,
+            from: trial.from,
+            to: trial.to,
+            attempt: running.attempt,
+        });
         let outcome = self.attempt(trial, observers)?;
         match outcome {
             Ok(ref accepted) if self.restarts(trial, accepted, observers)? => {}
@@ -265,7 +277,7 @@ impl Simulation {
         let integrator = integration.as_dyn_mut();
         let outcome = integrator.attempt(model, frame, contact, solver, trial);
         if !self.waits() {
-            let seen = std::mem::take(&mut self.solver.seen);
+            let seen = self.solver.seen.take();
             self.tell_iterations(&seen, observers);
         }
         let notes = self.solver.factors.notes();
@@ -413,7 +425,7 @@ impl Simulation {
             counters,
             failure,
         } = failed;
-        let seen = std::mem::take(&mut self.solver.seen);
+        let seen = self.solver.seen.take();
         self.tell_iterations(&seen, observers);
         self.examine(&trial, (running.attempt, counters), &failure);
         running.attempt += 1;

@@ -5,6 +5,7 @@ use super::floating_bodies::{Floating, Origin};
 use super::released::NO_LOAD;
 use super::rigid_part::rigid_part;
 use super::solver::Solver;
+use super::work::Work;
 use crate::body::{Anchors, Hold, spread};
 use crate::contact::interface::Interface;
 use crate::math::{dot, norm};
@@ -131,6 +132,7 @@ impl Solver {
         trial: Trial,
     ) -> bool {
         self.set_out(frame, contact, (trial, false));
+        self.seen.tell(&Work::Following);
         let external = frame.external(model, trial.to);
         let bodies = self.floating.bodies();
         let closure = close(model, frame, contact, (bodies, &external), trial);

@@ -1,7 +1,8 @@
 //! One increment as a system, and Newton's method on it.
 
+use super::work::Seen;
 use crate::model::definition::Model;
-use crate::newton::{Bulk, Converged, Newton, Origin, Progress, System};
+use crate::newton::{Bulk, Converged, Newton, Origin, System};
 use crate::system::{Constraints, Force, Rate, State, StepFailure};
 
 /// The forces of the bulk in an increment.
@@ -27,7 +28,7 @@ pub(crate) struct Task<'a> {
 /// Newton's method on one system: where all increments are solved.
 pub(crate) struct Iteration<'a> {
     pub newton: &'a mut Newton,
-    pub seen: &'a mut Vec<Progress>,
+    pub seen: &'a mut Seen,
     pub model: &'a Model,
     pub forces: Vec<&'a mut dyn Force>,
     pub bulk: &'a mut dyn Bulk,
@@ -50,6 +51,6 @@ impl<'a> Iteration<'a> {
             links: &self.model.links,
         };
         let seen = self.seen;
-        (self.newton).solve(&mut system, from, at, &mut |p| seen.push(*p))
+        (self.newton).solve(&mut system, from, at, &mut |p| seen.push(p))
     }
 }

@@ -34,3 +34,4 @@ mod released;
 mod rigid_part;
 pub(crate) mod solver;
 pub(crate) mod spin;
+pub(crate) mod work;

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::{Inertia, times};
+use super::work::Seen;
 use crate::linear::BlockCsr;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution, Step};
 use crate::newton::condensed::Library;
-use crate::newton::{Converged, Factors, Newton, Progress, SparseBulk};
+use crate::newton::{Converged, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
@@ -34,7 +35,7 @@ pub(crate) struct Solver {
     /// Bodies that only contact can hold.
     pub floating: Floating,
     /// Iterations that nobody has been told of.
-    pub seen: Vec<Progress>,
+    pub seen: Seen,
     /// What a user should know.
     pub log: Log,
 }
@@ -82,7 +83,7 @@ impl Solver {
             condenser: Condenser::new(library),
             inertia: None,
             floating: Floating::default(),
-            seen: Vec::new(),
+            seen: Seen::default(),
             log: Log::default(),
         }
     }

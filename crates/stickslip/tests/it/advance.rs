@@ -2,14 +2,14 @@
 
 use crate::support;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use stickslip::Error;
 use stickslip::assess::View;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::results::{Analysis, Event, Observer};
-use stickslip::run::Simulation;
+use stickslip::run::{Simulation, Work};
 
 /// A block pressed on a base and dragged; the second step has more increments than are recovered in one sweep.
 const CASE: &str = r#"
@@ -231,5 +231,86 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
         let calls = functions.calls.load(Ordering::Relaxed);
         assert!(functions.asked.load(Ordering::Relaxed) >= points * calls);
         assert!(calls < 8 * (own.iterations + own.increments), "{calls}");
+    }
+}
+
+/// What is told of work and of results, in one order.
+#[derive(Default, Clone)]
+struct Heard(Arc<Mutex<Vec<String>>>);
+
+impl Heard {
+    fn hear(&self, what: String) {
+        self.0.lock().expect("one thread").push(what);
+    }
+}
+
+impl Observer for Heard {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
+        match event {
+            Event::Iteration(p) => self.hear(format!("told of {}", p.strategy.name())),
+            Event::Increment(_) => self.hear("increment".into()),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn somebody_who_waits_hears_of_iterations_and_ways_while_they_go_on() {
+    // Its side load is too much for one increment without other ways than plain iteration.
+    let greco = support::problem(include_str!("chatter/greco.toml"));
+    for method in ["condensed", "sparse"] {
+        let mut problem = greco.clone();
+        problem.solver.method = match method {
+            "sparse" => stickslip::model::Solution::Sparse,
+            _ => stickslip::model::Solution::Condensed,
+        };
+        let heard = Heard::default();
+        let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+        let listener = heard.clone();
+        simulation.set_watch(Arc::new(move |work: &Work| match work {
+            Work::Iteration(p) => listener.hear(format!("at {}", p.strategy.name())),
+            Work::Increment { attempt, .. } => listener.hear(format!("attempt {attempt}")),
+            Work::Condensing => listener.hear("condensing".into()),
+            Work::Recovering(_) => listener.hear("recovering".into()),
+            Work::Following => {}
+        }));
+        simulation.run(&mut [&mut heard.clone()]).unwrap();
+        let heard = heard.0.lock().expect("one thread").clone();
+        let count = |what: &str| heard.iter().filter(|h| h.starts_with(what)).count();
+        // Each iteration is heard of twice: at once, and when the increment is reported.
+        let first = heard
+            .iter()
+            .position(|h| h == "increment")
+            .expect("a report");
+        assert!(
+            heard[..first].iter().any(|h| h == "at plain iteration"),
+            "{method}"
+        );
+        assert!(
+            count("at ") >= count("told of ") && count("told of ") > 0,
+            "{method}"
+        );
+        let others = count("at ") - count("at plain iteration");
+        assert_eq!(
+            others > 0,
+            simulation
+                .summary
+                .fallbacks
+                .iter()
+                .any(|f| f.tried.iterations > 0)
+        );
+        assert!(count("attempt ") >= count("increment"), "{method}");
+        if method == "condensed" {
+            let made = heard
+                .iter()
+                .position(|h| h == "condensing")
+                .expect("condensed");
+            let found = heard
+                .iter()
+                .position(|h| h == "recovering")
+                .expect("recovered");
+            assert!(made < found && found < first, "{method}");
+        }
     }
 }

@@ -16,12 +16,13 @@ use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::Document;
 use stickslip::results::{Claim, FileClaim, Observer, ResultFiles, Summary};
-use stickslip::run::{Interrupt, Simulation};
+use stickslip::run::{Interrupt, Simulation, Watch};
 
 use super::{library, spare, use_threads};
 
 use crate::failure::{Failure, Outcome, located};
-use crate::progress::{found, say};
+use crate::progress::found;
+use crate::voice::{Heartbeat, Voice};
 use columns::Columns;
 use plan::Plan;
 use table::{Row, Table};
@@ -86,14 +87,17 @@ pub fn run(arguments: &Arguments) -> Outcome {
     // That the file cannot be written should not be found after the first run.
     table.try_file()?;
     let _claim = FileClaim::take(&table.path)?;
+    let voice = Voice::new();
+    let _heartbeat = (!arguments.quiet).then(|| Heartbeat::start(&voice));
     let tell = |text: &str| {
         if !arguments.quiet {
-            say(text);
+            voice.line(text);
         }
     };
     tell(&heading(&plan));
 
     let shared = Shared {
+        watch: voice.watch(),
         library: library(Library::usual_limit(), arguments.cache.as_deref())?,
         interrupt: crate::interrupt::watch(),
     };
@@ -103,6 +107,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut told: Vec<String> = Vec::new();
     for run in 0..plan.count() {
         let begun = Instant::now();
+        voice.begins(&format!("run {} of {}", run + 1, plan.count()));
         let directory = arguments.results.as_ref();
         let directory = directory.map(|d| d.join(format!("{:04}", run + 1)));
         let mut columns = Columns::new(wanted);
@@ -182,6 +187,8 @@ struct Shared {
     library: Arc<Library>,
     /// Whether the user wants to stop.
     interrupt: Interrupt,
+    /// Who is told what is being worked on.
+    watch: Watch,
 }
 
 /// How a run ended: its error if it failed, and what is known of it if there was a simulation.
@@ -238,6 +245,7 @@ fn simulate(
         Ok(mut simulation) => {
             simulation.summary.phases.read = read;
             simulation.set_interrupt(Arc::clone(&shared.interrupt));
+            simulation.set_watch(Arc::clone(&shared.watch));
             let error = simulation.run(observers).err();
             Ended {
                 error,

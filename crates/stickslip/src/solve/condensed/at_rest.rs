@@ -15,6 +15,7 @@ use crate::solve::checks::{Recovered, check_candidates, check_change};
 use crate::solve::inertia;
 use crate::solve::iteration::Iteration;
 use crate::solve::solver::Solver;
+use crate::solve::work::Work;
 use crate::system::{Cause, Constraints, State, StepFailure};
 use crate::time::Trial;
 
@@ -141,6 +142,7 @@ impl Solver {
             all.push(std::mem::take(&mut accepted.state.u));
             owners.push(accepted);
         }
+        self.seen.tell(&Work::Recovering(owners.len()));
         condensed.condensation.recover(swept, &at, &mut all);
         for (accepted, u) in owners.into_iter().zip(all) {
             accepted.state.u = u;

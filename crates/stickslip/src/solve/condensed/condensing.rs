@@ -18,6 +18,7 @@ use crate::solve::choice::cost_fits;
 use crate::solve::inertia;
 use crate::solve::inertia::in_motion;
 use crate::solve::solver::Solver;
+use crate::solve::work::Work;
 
 impl Solver {
     /// Makes the bodies ready for a quasi-static step.
@@ -104,6 +105,7 @@ impl Solver {
             return self.not_condensed(model, frame, contact, why);
         }
         let started = Instant::now();
+        self.seen.tell(&Work::Condensing);
         let matrix = self.matrix(which);
         match Condensation::new(plan, matrix, held, springs, &library) {
             Ok((condensation, effort)) => {

@@ -1,0 +1,291 @@
+//! What is said on standard error while an analysis goes on, and a sign of life where nothing has been said for a while.
+
+use std::io::{IsTerminal, Write};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use stickslip::newton::Strategy;
+use stickslip::run::{Watch, Work};
+
+/// How long nothing may be said on a terminal, and in a file or a pipe.
+const ON_TERMINAL: Duration = Duration::from_secs(3);
+const IN_PIPE: Duration = Duration::from_secs(30);
+
+/// How often is looked whether it is time to say something.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// Prints a line. A closed standard error is no reason to stop.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// One voice for all who speak: cheap to clone.
+#[derive(Clone)]
+pub struct Voice {
+    state: Arc<Mutex<State>>,
+}
+
+struct State {
+    /// Characters of the line that is to be overwritten.
+    transient: usize,
+    /// When something was said last.
+    said: Instant,
+    begun: Instant,
+    doing: Doing,
+}
+
+impl Voice {
+    /// Nothing has been said yet.
+    pub fn new() -> Self {
+        let now = Instant::now();
+        let state = State {
+            transient: 0,
+            said: now,
+            begun: now,
+            doing: Doing::default(),
+        };
+        Voice {
+            state: Arc::new(Mutex::new(state)),
+        }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A line that stays.
+    pub fn line(&self, text: &str) {
+        self.state().line(text);
+    }
+
+    /// A line that the next one overwrites.
+    pub fn passing(&self, text: &str) {
+        self.state().passing(text);
+    }
+
+    /// Whether nothing has been said for so long that somebody may worry.
+    pub fn is_silent(&self, terminal: bool) -> bool {
+        self.state().said.elapsed() >= patience(terminal)
+    }
+
+    /// What a simulation is to tell what it works on.
+    pub fn watch(&self) -> Watch {
+        let voice = self.clone();
+        Arc::new(move |work: &Work| voice.state().doing.note(work, Instant::now()))
+    }
+
+    /// What is done now, where no simulation tells it.
+    pub fn does(&self, what: &str) {
+        self.state().doing.what = what.to_string();
+    }
+
+    /// One of several runs begins.
+    pub fn begins(&self, run: &str) {
+        self.state().doing = Doing {
+            run: run.to_string(),
+            what: "reading and assembling".to_string(),
+            ..Doing::default()
+        };
+    }
+}
+
+impl State {
+    fn line(&mut self, text: &str) {
+        if self.transient > 0 {
+            let blank = " ".repeat(self.transient);
+            let _ = write!(std::io::stderr(), "\r{blank}\r");
+            self.transient = 0;
+        }
+        say(text);
+        self.said = Instant::now();
+    }
+
+    fn passing(&mut self, text: &str) {
+        let fill = " ".repeat(self.transient.saturating_sub(text.chars().count()));
+        let _ = write!(std::io::stderr(), "\r{text}{fill}\r");
+        self.transient = text.chars().count();
+        self.said = Instant::now();
+    }
+}
+
+fn patience(terminal: bool) -> Duration {
+    match terminal {
+        true => ON_TERMINAL,
+        false => IN_PIPE,
+    }
+}
+
+/// Speaks when nobody else has for a while, until it is dropped.
+pub struct Heartbeat {
+    over: Arc<(Mutex<bool>, Condvar)>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Heartbeat {
+    /// Begins to listen to a voice.
+    pub fn start(voice: &Voice) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let over = Arc::new((Mutex::new(false), Condvar::new()));
+        let (voice, ended) = (voice.clone(), Arc::clone(&over));
+        let listen = move || {
+            let (flag, condition) = &*ended;
+            let mut over = flag.lock().unwrap_or_else(PoisonError::into_inner);
+            while !*over {
+                let waited = condition.wait_timeout(over, LOOK);
+                over = waited.unwrap_or_else(PoisonError::into_inner).0;
+                let mut state = voice.state();
+                if *over || state.said.elapsed() < patience(terminal) {
+                    continue;
+                }
+                let sentence = state.doing.sentence(state.begun, Instant::now());
+                match terminal {
+                    true => state.passing(&sentence),
+                    false => state.line(&sentence),
+                }
+            }
+        };
+        // Without it nothing is wrong but that it is quiet.
+        let thread = std::thread::Builder::new().spawn(listen).ok();
+        Heartbeat { over, thread }
+    }
+}
+
+impl Drop for Heartbeat {
+    fn drop(&mut self) {
+        let (flag, condition) = &*self.over;
+        *flag.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        condition.notify_all();
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// What is being worked on, as far as it was told.
+#[derive(Default)]
+struct Doing {
+    /// Which run of several.
+    run: String,
+    /// Where there is no increment.
+    what: String,
+    step: String,
+    /// Start and end of the increment, and its attempt.
+    increment: Option<(f64, f64, usize)>,
+    /// When that one began.
+    since: Option<Instant>,
+    /// Multiplier update, iteration and residual of the last Newton iteration, and the way it belongs to.
+    iteration: Option<(usize, usize, f64, Strategy)>,
+    /// Something beside iterations.
+    beside: String,
+}
+
+impl Doing {
+    fn note(&mut self, work: &Work, now: Instant) {
+        self.beside.clear();
+        match work {
+            Work::Increment {
+                step,
+                from,
+                to,
+                attempt,
+            } => {
+                if self.step != *step {
+                    self.step = (*step).to_string();
+                }
+                self.increment = Some((*from, *to, *attempt));
+                self.since = Some(now);
+                self.iteration = None;
+            }
+            Work::Iteration(p) => {
+                self.iteration = Some((p.round, p.iteration, p.residual, p.strategy));
+            }
+            Work::Condensing => self.beside.push_str("freeing bodies of their interiors"),
+            Work::Recovering(count) => {
+                self.beside = format!("finding the interiors of {count} increments");
+            }
+            Work::Following => self.beside.push_str("moving loose bodies until they touch"),
+        }
+    }
+
+    /// What is going on, and for how long.
+    fn sentence(&self, begun: Instant, now: Instant) -> String {
+        let mut parts = Vec::new();
+        if !self.run.is_empty() {
+            parts.push(self.run.clone());
+        }
+        if let Some((from, to, attempt)) = self.increment {
+            let spent = self
+                .since
+                .map_or(0.0, |s| now.duration_since(s).as_secs_f64());
+            parts.push(format!(
+                "{} {from:.5e} to {to:.5e}, attempt {attempt}, {spent:.0} s in it",
+                self.step
+            ));
+        }
+        if !self.beside.is_empty() {
+            parts.push(self.beside.clone());
+        } else if let Some((round, iteration, residual, strategy)) = self.iteration {
+            parts.push(format!(
+                "iteration {round}.{iteration} done ({}), residual {residual:.1e}",
+                strategy.name()
+            ));
+        } else if self.increment.is_none() {
+            parts.push(self.what.clone());
+        }
+        let all = now.duration_since(begun).as_secs_f64();
+        format!("  ... {}; {all:.0} s in all", parts.join(": "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip::newton::Progress;
+
+    #[test]
+    fn whatever_is_being_done_has_a_sentence() {
+        let begun = Instant::now();
+        let at = |seconds| begun + Duration::from_secs(seconds);
+        let mut doing = Doing {
+            what: "reading and assembling".into(),
+            ..Doing::default()
+        };
+        assert_eq!(
+            doing.sentence(begun, at(40)),
+            "  ... reading and assembling; 40 s in all"
+        );
+        let increment = Work::Increment {
+            step: "push",
+            from: 0.25,
+            to: 0.5,
+            attempt: 2,
+        };
+        doing.note(&increment, at(50));
+        assert_eq!(
+            doing.sentence(begun, at(90)),
+            "  ... push 2.50000e-1 to 5.00000e-1, attempt 2, 40 s in it; 90 s in all"
+        );
+        let progress = Progress {
+            iteration: 7,
+            round: 1,
+            residual: 3.25e-4,
+            step: 1.0,
+            krylov: 3,
+            tally: Default::default(),
+            strategy: Strategy::Continuation("softer-stick"),
+        };
+        doing.note(&Work::Iteration(&progress), at(95));
+        let said = doing.sentence(begun, at(100));
+        assert!(
+            said.contains("50 s in it: iteration 1.7 done (softer stick), residual 3.2e-4"),
+            "{said}"
+        );
+        doing.note(&Work::Recovering(16), at(101));
+        assert!(
+            doing
+                .sentence(begun, at(102))
+                .contains("the interiors of 16 increments")
+        );
+    }
+}
