@@ -13,7 +13,7 @@ use crate::print;
 /// Solve friction problems alone, u = W r + q with a law of friction at every point: solver, iterations and error of each.
 ///
 /// A file has lines `dim D contacts N`, `mu` with N values, `q` with D N lines of a value, normal component first, and `W ENTRIES` with lines of row, column
-/// (from 0) and value.
+/// (from 0) and value. `run --dump-failures` writes such files.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The files.

@@ -1,7 +1,10 @@
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use stickslip::Error;
+use stickslip::friction::text;
 use stickslip::newton::condensed::Library;
 use stickslip::results::{Claim, Observer, ResultFiles};
 use stickslip::run::Simulation;
@@ -9,7 +12,7 @@ use stickslip_deck::{Printer, Status};
 
 use super::{library, use_threads};
 
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::progress::Progress;
@@ -33,6 +36,9 @@ pub struct Arguments {
     /// interfaces and steps nothing has to be factored again. What is in it can be deleted at any time.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
+    /// Write an increment that nothing solves to DIR as a friction problem, which `stickslip friction` reads.
+    #[arg(long, value_name = "DIR")]
+    dump_failures: Option<PathBuf>,
     /// No progress on standard error.
     #[arg(short, long)]
     quiet: bool,
@@ -98,7 +104,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.json {
         observers.push(&mut lines);
     }
-    simulation.run(&mut observers)?;
+    let outcome = simulation.run(&mut observers);
+    if let (Err(Error::Run(_)), Some(folder)) = (&outcome, &arguments.dump_failures) {
+        dump(folder, &stem.to_string_lossy(), &simulation)?;
+    }
+    outcome?;
     drop(heartbeat);
     if loud {
         crate::progress::closing(&simulation.analysis(), &directory);
@@ -111,4 +121,26 @@ pub fn run(arguments: &Arguments) -> Outcome {
         true => ExitCode::from(crate::failure::CHECK),
         false => ExitCode::SUCCESS,
     })
+}
+
+/// Writes the increment that nothing has solved.
+fn dump(folder: &Path, stem: &str, simulation: &Simulation) -> Result<(), Failure> {
+    let Some(problem) = simulation.unsolved() else {
+        crate::progress::say(
+            "no friction problem is written: only an increment of condensed bodies that does not converge is one",
+        );
+        return Ok(());
+    };
+    fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
+    let path = folder.join(format!("{stem}.txt"));
+    let remarks = format!(
+        "{stem}: an increment that did not converge, after time {:e}\nu = W r + q in the units of the problem; normal component first",
+        simulation.view().frame.state.t
+    );
+    fs::write(&path, text::write(problem, &remarks)).map_err(|e| Error::io(&path, e))?;
+    crate::progress::say(&format!(
+        "the increment as a friction problem: {}",
+        path.display()
+    ));
+    Ok(())
 }

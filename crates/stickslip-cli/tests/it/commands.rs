@@ -195,3 +195,57 @@ fn a_wrong_friction_problem_is_named_with_its_line() {
     );
     assert!(said.contains("help: the lines are"), "{said}");
 }
+
+/// GRECO's punch, with so many iterations of Newton's method for an increment.
+fn punch(iterations: usize, mu: f64, more: &[&str]) -> std::process::Output {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/greco/case.toml");
+    let (case, iterations) = (
+        case.display().to_string(),
+        format!("solver.max-iterations={iterations}"),
+    );
+    let mu = format!("interface.base.friction.coulomb.mu={mu}");
+    let fixed = ["run", &case, "-q", "--set", &iterations, "--set", &mu];
+    stickslip(&[&fixed[..], more].concat())
+}
+
+#[test]
+fn a_friction_problem_finds_what_two_iterations_do_not() {
+    let folder = crate::support::folder("commands", "punch")
+        .display()
+        .to_string();
+    let output = punch(2, 1.0, &["-o", &folder]);
+    assert_eq!(code(&output), Some(0), "{}", text(&output.stderr));
+    let summary =
+        std::fs::read_to_string(Path::new(&folder).join("summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    let fallbacks = summary["fallbacks"].as_array().expect("a list");
+    let found = |f: &&serde_json::Value| f["kind"] == "friction-problem" && f["converged"] == true;
+    assert!(fallbacks.iter().any(|f| found(&f)), "{fallbacks:?}");
+}
+
+#[test]
+fn an_increment_that_fails_is_written_as_a_friction_problem_and_solved_alone() {
+    for mu in [0.3, 1.0, 2.0] {
+        let folder = crate::support::folder("commands", &format!("dumped-{mu}"));
+        let (out, dumped) = (
+            folder.join("out").display().to_string(),
+            folder.join("dumped"),
+        );
+        let output = punch(
+            1,
+            mu,
+            &["-o", &out, "--dump-failures", &dumped.display().to_string()],
+        );
+        assert_eq!(code(&output), Some(3), "{}", text(&output.stderr));
+        let written = dumped.join("case.txt").display().to_string();
+        let output = stickslip(&["friction", &written]);
+        assert_eq!(
+            code(&output),
+            Some(0),
+            "{}{}",
+            text(&output.stdout),
+            text(&output.stderr)
+        );
+        assert!(text(&output.stdout).contains("1 of 1 solved"));
+    }
+}

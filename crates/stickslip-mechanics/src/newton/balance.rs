@@ -91,7 +91,7 @@ impl Balance {
 }
 
 /// Lets what acts on the points of rigid bodies act on the bodies.
-fn transfer(links: &Links, out: &mut Assembler) {
+pub(super) fn transfer(links: &Links, out: &mut Assembler) {
     if links.is_empty() {
         return;
     }

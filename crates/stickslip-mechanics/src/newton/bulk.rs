@@ -28,6 +28,11 @@ pub trait Bulk {
         true
     }
 
+    /// Whether a solution costs little more than a product with a dense matrix, so that hundreds of them are worth an increment.
+    fn answers_cheaply(&self) -> bool {
+        false
+    }
+
     /// Whether the solution needs to know which points meet which facets.
     fn wants_pairs(&self) -> bool {
         false

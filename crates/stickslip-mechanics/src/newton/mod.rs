@@ -36,6 +36,7 @@ mod equilibrium;
 mod factors;
 mod failure;
 mod grids;
+mod in_forces;
 mod linearised;
 mod operator;
 mod progress;

@@ -8,6 +8,7 @@ use super::statistics::Statistics;
 use super::strategy::{Fallback, Strategy};
 use super::system::System;
 use super::ways::{follow, strategies};
+use crate::friction::FrictionProblem;
 use crate::system::{Cause, State, StepFailure};
 
 /// Failures after which no other way is tried.
@@ -27,6 +28,8 @@ pub struct Newton {
     pub statistics: Statistics,
     /// What was tried in the last solution when plain iteration had failed, in this order.
     pub fallbacks: Vec<Fallback>,
+    /// The friction problem of the last increment for which none of the ways led anywhere.
+    pub unsolved: Option<FrictionProblem>,
     /// Asked in every iteration whether the solution shall be given up.
     pub interrupt: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
 }
@@ -58,6 +61,7 @@ impl Newton {
         let guess = at.u.clone();
         let begun = self.statistics.iterations;
         self.fallbacks.clear();
+        self.unsolved = None;
         system.freeze(false);
         let interrupt = self.interrupt.as_deref();
         let mut attempt = Attempt {
@@ -79,7 +83,7 @@ impl Newton {
         for strategy in strategies(attempt.system) {
             let before = attempt.statistics.iterations;
             attempt.strategy = strategy;
-            let outcome = match follow(&mut attempt) {
+            let outcome = match follow(&mut attempt, &mut self.unsolved) {
                 None => continue,
                 Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
                 Some(outcome) => outcome,
@@ -91,6 +95,7 @@ impl Newton {
                 converged: outcome.is_ok(),
             });
             if let Ok(converged) = outcome {
+                self.unsolved = None;
                 return Ok(Converged {
                     iterations: attempt.statistics.iterations - begun,
                     ..converged

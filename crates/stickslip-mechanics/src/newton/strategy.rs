@@ -16,6 +16,8 @@ pub enum Strategy {
     LineSearch,
     /// From the guess again, through easier forces of the [name](crate::system::Way::name) to those wanted.
     Continuation(&'static str),
+    /// From the guess again, by the forces: the increment as a [friction problem](crate::friction), then plain iteration from its solution.
+    FrictionProblem,
 }
 
 /// A way other than the plain one that was tried.
@@ -38,6 +40,7 @@ impl Strategy {
             Strategy::StatusMemory => "status-memory",
             Strategy::LineSearch => "line-search",
             Strategy::Continuation(name) => name,
+            Strategy::FrictionProblem => "friction-problem",
         }
     }
 

@@ -2,15 +2,21 @@
 
 use super::attempt::Attempt;
 use super::equilibrium::equilibrium;
+use super::in_forces::in_forces;
 use super::progress::Converged;
 use super::rounds::rounds;
 use super::strategy::Strategy;
 use super::system::System;
+use crate::friction::FrictionProblem;
 use crate::system::{StepFailure, Way};
 
 /// All strategies but the plain one, in the order in which they are tried.
 pub(super) fn strategies(system: &mut System) -> Vec<Strategy> {
-    let mut all = vec![Strategy::StatusMemory, Strategy::LineSearch];
+    let mut all = vec![
+        Strategy::StatusMemory,
+        Strategy::FrictionProblem,
+        Strategy::LineSearch,
+    ];
     for way in system.ways() {
         let strategy = Strategy::Continuation(way.name);
         if !all.contains(&strategy) {
@@ -21,7 +27,10 @@ pub(super) fn strategies(system: &mut System) -> Vec<Strategy> {
 }
 
 /// Tries the way of the attempt; `None` if it does not apply.
-pub(super) fn follow(attempt: &mut Attempt) -> Option<Result<Converged, StepFailure>> {
+pub(super) fn follow(
+    attempt: &mut Attempt,
+    unsolved: &mut Option<FrictionProblem>,
+) -> Option<Result<Converged, StepFailure>> {
     match attempt.strategy {
         Strategy::Plain => None,
         Strategy::StatusMemory => frozen(attempt),
@@ -30,6 +39,7 @@ pub(super) fn follow(attempt: &mut Attempt) -> Option<Result<Converged, StepFail
             Some(rounds(attempt))
         }
         Strategy::Continuation(name) => continued(attempt, name),
+        Strategy::FrictionProblem => in_forces(attempt, unsolved),
     }
 }
 

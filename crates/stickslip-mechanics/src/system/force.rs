@@ -1,4 +1,5 @@
 use super::{Assembler, StepFailure};
+use crate::friction::PointLaw;
 
 /// Displacement, velocity and acceleration of all dofs at a time.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -100,6 +101,14 @@ pub trait Force: Send {
         0
     }
 
+    /// By point what it would carry if it was pressed and stuck; `None` for a point that cannot carry anything, and for a force that has no such points.
+    fn alone(&mut self, _stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
+        None
+    }
+
+    /// Takes forces by point, normal and two of shear, for those at the state of the last evaluation.
+    fn adopt(&mut self, _forces: &[Option<[f64; 3]>]) {}
+
     /// Accepts the attempt: committed history := trial.
     fn commit(&mut self, _stage: &Stage) {}
 
@@ -122,6 +131,25 @@ pub trait Force: Send {
     fn continuation(&mut self) -> Option<&mut dyn Continuation> {
         None
     }
+}
+
+/// A point of contact as a friction problem knows it: normal, and two directions of shear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointAlone {
+    /// Dofs on which its forces act.
+    pub dofs: Vec<usize>,
+    /// Gradients of the gap and of the two components of slip, row by row, shape `(3, n)`.
+    pub rows: Vec<f64>,
+    /// Area it stands for `[m²]`.
+    pub area: f64,
+    /// Stiffness of the body beneath `[N/m]`.
+    pub body: f64,
+    /// By how much its forces fall with gap and slip while it is pressed and sticks `[N/m]`.
+    pub stiffness: [f64; 3],
+    /// The forces that it would then have at the state of evaluation `[N]`.
+    pub forces: [f64; 3],
+    /// The limit of its shear.
+    pub law: PointLaw,
 }
 
 /// Points that change status from iteration to iteration, and what can be done about those that chatter.

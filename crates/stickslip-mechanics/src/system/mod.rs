@@ -17,7 +17,8 @@ pub use dofs::{Component, Dofs};
 pub use failure::{Cause, Culprit, Evidence, StepFailure};
 pub use fields::{Field, Fields, Location};
 pub use force::{
-    ActiveSet, Augmentation, Continuation, Energy, Force, Rate, Stage, State, Tally, Way,
+    ActiveSet, Augmentation, Continuation, Energy, Force, PointAlone, Rate, Stage, State, Tally,
+    Way,
 };
 pub use links::{Freedom, Link, Links, Motion, Row};
 pub use schedule::{Course, Piece, Schedule};

@@ -11,6 +11,7 @@ use crate::assess::quality;
 use crate::assess::view::View;
 use crate::body::Around;
 use crate::error::Error;
+use crate::friction::FrictionProblem;
 use crate::integrate::integration::Integration;
 use crate::integrate::quasi_static::QuasiStatic;
 use crate::model::Setup;
@@ -200,6 +201,11 @@ impl Simulation {
         self.tell_notes(observers)?;
         self.tell(observers, || Event::End)?;
         outcome
+    }
+
+    /// The last increment as a friction problem, if none of the ways of Newton's method led anywhere and its bodies are condensed.
+    pub fn unsolved(&self) -> Option<&FrictionProblem> {
+        self.solver.newton.unsolved.as_ref()
     }
 
     /// Seconds since the run started.

@@ -13,4 +13,6 @@ pub struct Directives {
     pub(super) softening: Option<f64>,
     /// Part of the limit of friction that acts; `None`: all of it.
     pub(super) mobilised: Option<f64>,
+    /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
+    pub(super) all_stick: bool,
 }

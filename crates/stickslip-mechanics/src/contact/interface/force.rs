@@ -6,8 +6,8 @@ use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::{add_scaled, scale};
 use crate::system::{
-    ActiveSet, Assembler, Augmentation, ContactPair, Continuation, Culprit, Force, Stage,
-    StepFailure, Tally,
+    ActiveSet, Assembler, Augmentation, ContactPair, Continuation, Culprit, Force, PointAlone,
+    Stage, StepFailure, Tally,
 };
 
 impl Force for Interface {
@@ -98,6 +98,14 @@ impl Force for Interface {
 
     fn augment(&mut self, stage: &Stage) -> Augmentation {
         self.update_multipliers(stage)
+    }
+
+    fn alone(&mut self, stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
+        self.points_alone(stage)
+    }
+
+    fn adopt(&mut self, forces: &[Option<[f64; 3]>]) {
+        self.adopt_forces(forces);
     }
 
     fn commit(&mut self, stage: &Stage) {

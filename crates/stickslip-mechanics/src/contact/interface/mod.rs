@@ -4,6 +4,7 @@
 //! [`Directives`] of the solver, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
 
 mod active_set;
+mod alone;
 mod attempt;
 mod augment;
 mod beginning;

@@ -8,7 +8,7 @@ use super::scene::{LawQuery, Scene};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
-use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
+use crate::contact::response::{Frozen, Kept, LawInput, Sliding, Status, Stiffnesses};
 use crate::math::{Vec3, add_scaled, dot, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
@@ -44,7 +44,10 @@ impl Interface {
             rest: self.rest(i),
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
-            frozen: (self.attempt.freezing).frozen(i, &stencil.frame_before, self.dofs.dim),
+            frozen: match self.directives.all_stick {
+                true => Some(Frozen::Stick),
+                false => (self.attempt.freezing).frozen(i, &stencil.frame_before, self.dofs.dim),
+            },
             mobilised: self.directives.mobilised.unwrap_or(1.0),
             answers: scene.answers.get(i).copied().unwrap_or_default(),
         };

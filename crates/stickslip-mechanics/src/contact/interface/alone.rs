@@ -1,0 +1,99 @@
+//! Points of an interface as a friction problem knows them.
+
+use super::definition::Interface;
+use super::evaluation::{Batch, Evaluation};
+use super::scene::Wants;
+use crate::contact::law::friction::FrictionPoint;
+use crate::friction::PointLaw;
+use crate::math::vector::dot;
+use crate::math::{add_scaled, scale};
+use crate::system::{PointAlone, Stage};
+
+impl Interface {
+    /// What every point would carry if it was pressed and stuck, and within which limit. `None` where laws are not asked point by point, or are none.
+    pub(super) fn points_alone(&mut self, stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
+        if self.laws.tied || self.laws.user.friction.is_some() || self.laws.user.normal.is_some() {
+            return None;
+        }
+        if !self.schedule.active(stage.at.t) {
+            return Some(vec![None; self.points.len()]);
+        }
+        let wants = Wants {
+            tangent: true,
+            ..Wants::default()
+        };
+        self.directives.all_stick = true;
+        let evaluations = self.evaluate_all(stage, wants);
+        self.directives.all_stick = false;
+        let found = evaluations.points.iter().enumerate();
+        let found = found
+            .map(|(i, e)| self.point_alone(i, e, evaluations.batch(i)))
+            .collect();
+        self.cache.trial = evaluations;
+        Some(found)
+    }
+
+    fn point_alone(&self, i: usize, e: &Evaluation, batch: &Batch) -> Option<PointAlone> {
+        let tangent = batch.tangent(e)?;
+        let n = e.slots.n;
+        let line = |q: usize| q * n..(q + 1) * n;
+        // by how much the traction falls along its own row
+        let stiffness = [0, 1, 2].map(|q| {
+            let (row, change) = (&tangent.rows[line(q)], &tangent.change[line(q)]);
+            match dot(row, row) {
+                size if size > 0.0 => e.area * dot(row, change) / size,
+                _ => 0.0,
+            }
+        });
+        if !(stiffness[0] > 0.0 && stiffness[0].is_finite()) {
+            return None;
+        }
+        let traction = match e.saddle {
+            Some((_, shift)) => [0, 1, 2].map(|q| e.multiplier[q] - shift[q]),
+            None => e.response.traction,
+        };
+        Some(PointAlone {
+            dofs: batch.dofs(e).to_vec(),
+            rows: tangent.rows.to_vec(),
+            area: e.area,
+            body: e.area * self.points[i].stiffness,
+            stiffness,
+            forces: traction.map(|t| e.area * t),
+            law: self.limit_alone(traction[0].max(0.0), e),
+        })
+    }
+
+    /// The tangent of the limit of friction at a pressure, in forces.
+    fn limit_alone(&self, pressure: f64, e: &Evaluation) -> PointLaw {
+        let law = self.laws.friction_law();
+        if !law.frictional() {
+            return PointLaw::default();
+        }
+        let limit = law.limit(&FrictionPoint {
+            pressure,
+            penetration: (-e.gap).max(0.0),
+            speed: 0.0,
+            sticking: true,
+        });
+        PointLaw {
+            mu: limit.d_pressure.max(0.0),
+            adhesion: e.area * (limit.value - limit.d_pressure * pressure).max(0.0),
+        }
+    }
+
+    /// Takes the forces of a friction problem for multipliers where these are unknowns; a point without any carries nothing.
+    pub(super) fn adopt_forces(&mut self, forces: &[Option<[f64; 3]>]) {
+        if !self.unknown() {
+            return;
+        }
+        let points = self.cache.last.points.iter().zip(forces);
+        for (m, (e, forces)) in self.attempt.multipliers.iter_mut().zip(points) {
+            let f = forces.unwrap_or_default();
+            let traction = f.map(|f| if e.area > 0.0 { f / e.area } else { 0.0 });
+            let frame = &e.frames.before;
+            m.pressure = traction[0];
+            m.shear = add_scaled(scale(traction[1], frame[0]), traction[2], frame[1]);
+            m.normal = e.frames.normal_before;
+        }
+    }
+}
