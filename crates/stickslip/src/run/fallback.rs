@@ -3,7 +3,7 @@
 use super::position::Increments;
 use super::queue::{Pending, TakenBack};
 use super::simulation::Simulation;
-use crate::error::{Error, RunError};
+use crate::error::Error;
 use crate::results::observer::Observer;
 use crate::system::{Cause, StepFailure};
 
@@ -16,7 +16,7 @@ impl Simulation {
             increment: one.increment,
             failure: failure.clone(),
         });
-        RunError::from(failure.at(one.trial.to)).into()
+        failure.at(one.trial.to).into()
     }
 
     /// Goes on from the increment before one that was taken back, with the sparse matrix.
