@@ -30,6 +30,9 @@ const COLUMN: f64 = 1e-9;
 /// Change of the forces from one problem to the next, relative to their size, that counts as none.
 const SETTLED: f64 = 1e-6;
 
+/// Force and point, and what it carries.
+type Found = ((usize, usize), [f64; 3]);
+
 /// A point of one of the forces.
 struct Place {
     force: usize,
@@ -48,7 +51,7 @@ pub(super) fn in_forces(
         return None;
     }
     attempt.restart();
-    let mut last: Vec<((usize, usize), [f64; 3])> = Vec::new();
+    let mut last: Vec<Found> = Vec::new();
     for _ in 0..PASSES {
         match pass(attempt, &last, unsolved) {
             Ok(Some(next)) => {
@@ -66,7 +69,7 @@ pub(super) fn in_forces(
 }
 
 /// Whether forces are those of the problem before.
-fn settled(last: &[((usize, usize), [f64; 3])], next: &[((usize, usize), [f64; 3])]) -> bool {
+fn settled(last: &[Found], next: &[Found]) -> bool {
     let same = last.len() == next.len() && last.iter().zip(next).all(|(a, b)| a.0 == b.0);
     let size = next
         .iter()
@@ -109,9 +112,9 @@ impl Linear<'_, '_, '_> {
 /// One friction problem, and the step to its solution: the forces by force and point. `None` where there is none, or it is too large.
 fn pass(
     attempt: &mut Attempt,
-    last: &[((usize, usize), [f64; 3])],
+    last: &[Found],
     unsolved: &mut Option<FrictionProblem>,
-) -> Result<Option<Vec<((usize, usize), [f64; 3])>>, StepFailure> {
+) -> Result<Option<Vec<Found>>, StepFailure> {
     let n = attempt.at.u.len();
     let mut out = Assembler::new(n);
     out.wants_surrogate = false;
@@ -158,7 +161,7 @@ fn pass(
         );
         return Err(linear.attempt.failure(Cause::NotConverged, sentence));
     }
-    let found: Vec<((usize, usize), [f64; 3])> = chosen
+    let found: Vec<Found> = chosen
         .iter()
         .zip(solution.forces.chunks(d))
         .map(|(p, r)| {
@@ -309,7 +312,7 @@ fn problem(
 /// Moves the iterate to where the forces take it.
 fn step(
     linear: &mut Linear,
-    (chosen, found): (&[&Place], &[((usize, usize), [f64; 3])]),
+    (chosen, found): (&[&Place], &[Found]),
     free: Vec<f64>,
 ) -> Result<(), StepFailure> {
     let mut b = free;
@@ -326,7 +329,7 @@ fn step(
 }
 
 /// Hands the forces back to those whose points have them.
-fn adopt(attempt: &mut Attempt, counts: &[Option<usize>], found: &[((usize, usize), [f64; 3])]) {
+fn adopt(attempt: &mut Attempt, counts: &[Option<usize>], found: &[Found]) {
     for (force, contact) in attempt.system.contact.iter_mut().enumerate() {
         let Some(count) = counts[force] else {
             continue;
