@@ -11,6 +11,7 @@ use super::figures::{
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
 use crate::math::norm;
+use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
 use crate::model::limits::{GateMode, Limits};
 
@@ -182,6 +183,11 @@ const ROUNDED: f64 = 1e-13;
 /// Forces that move by less than this part of the size of the model do no work worth a balance.
 const STILL: f64 = 1e-6;
 
+/// The energy that forces of this size stand for where nothing moves `[J]`.
+pub(crate) fn still_energy(model: &Model, forces: f64) -> f64 {
+    STILL * model.mesh.diameter() * forces
+}
+
 fn ratio(value: f64, scale: f64) -> f64 {
     if value == 0.0 || scale <= 0.0 {
         0.0
@@ -303,7 +309,7 @@ impl View<'_> {
         let limit = limits.energy.unwrap_or(self.model.energy_limit);
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
         let forces = gate.largest(&EQUILIBRIUM, None);
-        let least = STILL * self.model.mesh.diameter() * forces;
+        let least = still_energy(self.model, forces);
         let moved = self
             .frame
             .state

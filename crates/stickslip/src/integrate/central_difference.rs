@@ -71,8 +71,6 @@ impl Integrator for Explicit {
             )
             .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
-        // Damping as it is now is what it was before the next increment; an attempt that fails leaves it.
-        std::mem::swap(&mut self.damped, &mut self.damped_before);
         Ok(Accepted {
             tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
             forces,
@@ -90,6 +88,11 @@ impl Integrator for Explicit {
         })
     }
 
+    fn accept(&mut self) {
+        // Damping as it is now is what it was before the next increment.
+        std::mem::swap(&mut self.damped, &mut self.damped_before);
+    }
+
     fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
         let fixed = model.steps[frame.step].fixed;
         (!fixed).then(|| self.stable_increment(model, frame, contact))
@@ -104,6 +107,13 @@ struct End<'a> {
     external: &'a [f64],
     /// Length of the increment `[s]`.
     dt: f64,
+}
+
+impl End<'_> {
+    /// What held a dof at the start, but for its inertia `[N]`.
+    fn held(&self, i: usize, inertia: f64) -> f64 {
+        self.from.forces.get(i).map_or(0.0, |r| r - inertia)
+    }
 }
 
 /// Displacements at the end, and velocities in the middle of the increment.
@@ -232,7 +242,10 @@ impl Explicit {
                     if constraints.fixed[i] {
                         *a = (*v - from.v[i]) / dt;
                         *r = mass[i] * *a - balance;
-                        sums.work += *r * moved;
+                        // What is not inertia acts as everywhere, by its mean; inertia takes what the mass has more of, however sudden.
+                        let held = end.held(i, mass[i] * from.a[i]);
+                        sums.work += 0.5 * (held - balance) * moved
+                            + 0.5 * mass[i] * (*v * *v - from.v[i] * from.v[i]);
                     } else {
                         *a = inverse[i] * balance;
                         *v += 0.5 * dt * *a;
@@ -281,7 +294,7 @@ impl Explicit {
             for (k, i) in range.enumerate() {
                 if constraints.fixed[i] {
                     forces[i] += inertial[k];
-                    total.work += inertial[k] * (u[i] - from.u[i]);
+                    total.work += 0.5 * dt * inertial[k] * (from.v[i] + v[i]);
                     free.iter_mut().for_each(|a| a[k] = 0.0);
                 } else {
                     a[i] = turn[k];

@@ -260,18 +260,17 @@ impl Explicit {
         self.damp(&frame.state.v);
     }
 
-    /// Accelerations at the start.
+    /// Accelerations at the start, and what holds the dofs that have none.
     fn start_acceleration(&self, model: &Model, frame: &mut Frame, constraints: &Constraints) {
         let (load, contact) = (&frame.load, &frame.contact);
-        let mut a: Vec<f64> = (0..load.len())
-            .map(|i| match constraints.fixed[i] {
-                true => 0.0,
-                false => {
-                    let internal = self.force[i] + self.damped[i];
-                    self.inverse[i] * (load[i] - internal - contact[i])
-                }
+        let balance = |i: usize| load[i] - (self.force[i] + self.damped[i]) - contact[i];
+        let fixed = constraints.fixed.iter().enumerate();
+        let (mut a, forces): (Vec<f64>, Vec<f64>) = fixed
+            .map(|(i, fixed)| match fixed {
+                true => (0.0, -balance(i)),
+                false => (self.inverse[i] * balance(i), 0.0),
             })
-            .collect();
+            .unzip();
         for spin in &self.spins {
             let range = spin.range();
             let mut moment = [0.0; 3];
@@ -284,6 +283,7 @@ impl Explicit {
         }
         model.links.impose(&mut a);
         frame.state.a = a;
+        frame.forces = forces;
     }
 
     /// Sum of the highest squared frequencies of interfaces and couplings now.

@@ -20,6 +20,9 @@ pub(crate) trait Integrator {
         trial: Trial,
     ) -> Result<Accepted, StepFailure>;
 
+    /// The last attempt is accepted.
+    fn accept(&mut self) {}
+
     /// The longest increment that is stable now, with its safety; `None` where any is, or where increments are given.
     fn bound(&self, _model: &Model, _frame: &Frame, _contact: &Contact) -> Option<f64> {
         None

@@ -173,10 +173,10 @@ fn start_motion(
 }
 
 /// Forces of the interfaces at the start as the laws have them, slip at the velocities of the start. Where pressure or stick are multipliers the
-/// laws say nothing of them.
+/// laws say nothing of them. What overlap stores enters the ledger.
 pub(crate) fn initial_contact(
     model: &Model,
-    frame: &Frame,
+    frame: &mut Frame,
     contact: &mut Contact,
     t: f64,
     dt: f64,
@@ -200,7 +200,9 @@ pub(crate) fn initial_contact(
     };
     let mut forces = vec![0.0; u.len()];
     for interface in &mut contact.interfaces {
-        interface.add_initial(&stage, &mut forces)?;
+        let stored = interface.add_initial(&stage, &mut forces)?;
+        frame.ledger.initial += stored;
+        frame.ledger.contact += stored;
     }
     (contact.couplings).add_initial(t, u, &mut forces);
     model.links.transfer(&mut forces);

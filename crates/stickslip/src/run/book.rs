@@ -3,7 +3,7 @@
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::ledger::Flow;
+use crate::model::ledger::{EnergyLedger, Flow};
 use crate::results::history::Effort;
 use crate::results::summary::Summary;
 use crate::solve::accepted::Accepted;
@@ -18,11 +18,8 @@ pub(crate) fn book(
 ) -> Effort {
     let effort = effort(&accepted);
     let first = summary.increments == 0;
-    let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
-    let contact_work = match followed {
-        true => contact_work(&accepted, frame),
-        false => 0.0,
-    };
+    frame.ledger = ledger_after(model, contact, frame, (&accepted, first));
+    frame.coupled = contact.couplings.energy().stored;
     frame.state = accepted.state;
     frame.forces = accepted.forces;
     frame.contact = accepted.contact;
@@ -36,27 +33,37 @@ pub(crate) fn book(
     let turned = model.links.largest_rotation(&frame.state.u);
     // Elastic bodies are looked at where there is a row of the history.
     summary.largest_rotation = summary.largest_rotation.max(turned);
+    summary.energy_quality.note(&frame.ledger);
+    summary.energy = frame.ledger;
+    effort
+}
+
+/// The ledger after an increment that the interfaces have committed; `first`: of all.
+pub(crate) fn ledger_after(
+    model: &Model,
+    contact: &Contact,
+    frame: &Frame,
+    (accepted, first): (&Accepted, bool),
+) -> EnergyLedger {
+    let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
     // The energy of couplings counts with that of the bodies.
     let couplings = &contact.couplings;
     let (stored, coupled) = (couplings.energy().stored, couplings.work());
-    let coupled_before = std::mem::replace(&mut frame.coupled, stored);
     let flow = Flow {
         work: accepted.flow.work + coupled,
         ..accepted.flow
     };
     let interfaces: Vec<_> = contact.interfaces.iter().map(|i| i.energy()).collect();
-    let ledger = &mut frame.ledger;
+    let mut ledger = frame.ledger;
     let before = ledger.of_interfaces();
     let energies = [accepted.kinetic, accepted.strain + stored];
     ledger.enter(flow, energies, &interfaces, followed);
     if followed {
         // Less what the interfaces have entered of it.
-        let entered = ledger.of_interfaces() - before + stored - coupled_before - coupled;
-        ledger.lose(contact_work - entered);
+        let entered = ledger.of_interfaces() - before + stored - frame.coupled - coupled;
+        ledger.lose(contact_work(accepted, frame) - entered);
     }
-    summary.energy_quality.note(ledger);
-    summary.energy = *ledger;
-    effort
+    ledger
 }
 
 /// What it took.

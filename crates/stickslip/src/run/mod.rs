@@ -8,6 +8,7 @@ mod position;
 mod queue;
 mod simulation;
 mod steps;
+mod weigh;
 
 pub use crate::solve::work::{Watch, Work};
 pub use simulation::Simulation;

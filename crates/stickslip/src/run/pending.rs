@@ -24,6 +24,7 @@ impl Simulation {
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
         let Simulation {
+            model,
             contact,
             frame,
             solver,
@@ -33,7 +34,10 @@ impl Simulation {
             accepted, trial, ..
         } = &pending;
         let Some(condensed) = solver.condenser.at_rest() else {
-            contact.commit(&accepted.stage(&frame.state, *trial));
+            // In motion that has been done when it was weighed.
+            if model.steps[frame.step].dynamic.is_none() {
+                contact.commit(&accepted.stage(&frame.state, *trial));
+            }
             frame.previous = Some((trial.to - trial.from, frame.state.u.clone()));
             return self.report(pending, observers);
         };
@@ -109,7 +113,7 @@ impl Simulation {
     }
 
     /// Lets interfaces and couplings know this; what they knew.
-    fn exchange(
+    pub(super) fn exchange(
         &mut self,
         (histories, couplings): (Vec<History>, CouplingsMemory),
     ) -> (Vec<History>, CouplingsMemory) {

@@ -21,6 +21,11 @@ pub(super) struct Increments {
     pub(super) stepper: Stepper,
     pub(super) accepted: usize,
     pub(super) attempt: usize,
+    /// By how much the balance of energies opened over the first attempt at the increment at hand that was weighed and found too open, and how often it
+    /// was halved since.
+    pub(super) opened: Option<(f64, i32)>,
+    /// The last increment must not be followed by a longer one.
+    pub(super) tight: bool,
     /// An attempt that failed, kept until the increments before it are reported.
     pub(super) failed: Option<Failed>,
 }
@@ -43,6 +48,8 @@ impl Increments {
             },
             accepted: 0,
             attempt: 1,
+            opened: None,
+            tight: false,
             failed: None,
         }
     }

@@ -204,7 +204,7 @@ impl Simulation {
         }
         let integrator = self.integration.as_dyn();
         match integrator.bound(&self.model, &self.frame, &self.contact) {
-            Some(bound) if running.attempt == 1 => running.stepper.bound(bound),
+            Some(bound) if running.attempt == 1 && !running.tight => running.stepper.bound(bound),
             Some(bound) => running.stepper.bound_again(bound),
             None => {}
         }
@@ -222,9 +222,15 @@ impl Simulation {
             attempt: running.attempt,
         });
         let outcome = self.attempt(trial, observers)?;
+        let outcome = match outcome {
+            Ok(accepted) if !self.restarts(trial, &accepted, observers)? => {
+                self.weigh(&mut running, trial, accepted).map(Some)
+            }
+            other => other.map(|_| None),
+        };
         match outcome {
-            Ok(ref accepted) if self.restarts(trial, accepted, observers)? => {}
-            Ok(accepted) => self.accept(&mut running, trial, accepted, observers)?,
+            Ok(None) => {}
+            Ok(Some(accepted)) => self.accept(&mut running, trial, accepted, observers)?,
             Err(failure) if failure.cause == Cause::Interrupted => {
                 // The same increment is tried again if the analysis goes on.
                 self.steps.running = Some(running);

@@ -13,10 +13,10 @@ pub struct Tried(Vec<(Status, f64, Vec3)>);
 
 impl Interface {
     /// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
-    /// history: for the acceleration at the start.
-    pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<(), StepFailure> {
+    /// history: for the acceleration at the start. What overlap stores then `[J]`.
+    pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<f64, StepFailure> {
         if !self.schedule.active(stage.at.t) {
-            return Ok(());
+            return Ok(0.0);
         }
         self.prepare(stage);
         self.begin();
@@ -33,7 +33,7 @@ impl Interface {
             }
         }
         self.cache.trial = evaluations;
-        Ok(())
+        Ok(self.initial_energy())
     }
 
     /// The tractions of the present attempt.
