@@ -46,7 +46,8 @@ impl Simulation {
                 );
                 return Err(StepFailure::new(Cause::TooFar, message));
             }
-            accepted.hard |= opened > may / ORDER;
+            // Where the limit is passed already increments are as long as they would be without it.
+            accepted.hard |= may > 0.0 && opened > may / ORDER;
         }
         running.tight = accepted.hard;
         running.opened = None;
