@@ -125,6 +125,11 @@ fn pass(
     let Some((places, counts)) = places(attempt, &mut held)? else {
         return Ok(None);
     };
+    // Without friction the other ways know all there is to know, and a body may lie anywhere along the surface.
+    let rubs = |law: &PointLaw| law.mu > 0.0 || law.adhesion > 0.0;
+    if !places.iter().any(|p| rubs(&p.alone.law)) {
+        return Ok(None);
+    }
     let mut rest = vec![0.0; n];
     attempt.system.bulk.forces(&attempt.at.u, &mut rest);
     let free: Vec<f64> = rest

@@ -12,17 +12,14 @@ use crate::system::{StepFailure, Way};
 
 /// All strategies but the plain one, in the order in which they are tried.
 pub(super) fn strategies(system: &mut System) -> Vec<Strategy> {
-    let mut all = vec![
-        Strategy::StatusMemory,
-        Strategy::FrictionProblem,
-        Strategy::LineSearch,
-    ];
+    let mut all = vec![Strategy::StatusMemory, Strategy::LineSearch];
     for way in system.ways() {
         let strategy = Strategy::Continuation(way.name);
         if !all.contains(&strategy) {
             all.push(strategy);
         }
     }
+    all.push(Strategy::FrictionProblem);
     all
 }
 
