@@ -281,7 +281,7 @@ impl Explicit {
     fn turn(&self, end: &End, at: &mut State, forces: &mut [f64], total: &mut Sums) {
         let (constraints, dt) = (end.constraints, end.dt);
         let from = &end.from.state;
-        let State { u, v, a, .. } = at;
+        let State { v, a, .. } = at;
         for spin in &self.spins {
             let range = spin.range();
             let mut moment = [0.0; 3];
