@@ -3,6 +3,7 @@
 //! It knows neither meshes nor contact. Users import these rooms from the crate `stickslip`, which hands them on.
 
 pub mod error;
+pub mod keep;
 pub mod machine;
 pub mod math;
 pub mod references;

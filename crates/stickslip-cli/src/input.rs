@@ -18,6 +18,8 @@ pub struct Input {
     /// The deck.
     pub deck: Option<Translation>,
     meshes: Meshes,
+    /// The folder that names of files are relative to.
+    folder: PathBuf,
 }
 
 /// Whether a file is a deck, by its name.
@@ -38,11 +40,13 @@ impl Input {
         if !is_deck(file) {
             let document = Document::read(file)?.with_overrides(overrides.to_vec());
             let problem = document.problem()?;
+            let folder = document.folder();
             return Ok(Input {
                 document,
                 problem,
                 deck: None,
                 meshes: Meshes::default(),
+                folder,
             });
         }
         let deck = translate(file)?;
@@ -52,10 +56,22 @@ impl Input {
             Err(e) => return Err(of_deck(&deck, e.into())),
         };
         Ok(Input {
+            folder: document.folder(),
             document,
             problem,
             meshes: deck.meshes(),
             deck: Some(deck),
+        })
+    }
+
+    /// A problem whose names of files are relative to another folder than its own.
+    pub fn of(document: Document, folder: PathBuf) -> Result<Input, Failure> {
+        Ok(Input {
+            problem: document.problem()?,
+            document,
+            deck: None,
+            meshes: Meshes::default(),
+            folder,
         })
     }
 
@@ -69,9 +85,7 @@ impl Input {
 
     /// The model.
     pub fn build(&self) -> Result<Setup, Failure> {
-        let built = self
-            .problem
-            .build_with(&self.document.folder(), &self.meshes);
+        let built = self.problem.build_with(&self.folder, &self.meshes);
         built.map_err(|e| match &self.deck {
             Some(deck) => of_deck(deck, e),
             None => located(&self.document, e).into(),

@@ -105,6 +105,15 @@ impl Printer {
             })
     }
 
+    /// Goes on with the file that is there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be read.
+    pub fn resume(self) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
+        Ok(Printer { text, ..self })
+    }
+
     /// What was printed so far.
     pub fn text(&self) -> &str {
         &self.text
@@ -499,7 +508,9 @@ impl Observer for Printer {
                     write_atomically(&self.path, self.text.as_bytes())?;
                 }
             }
-            Event::End => write_atomically(&self.path, self.text.as_bytes())?,
+            Event::Checkpoint(_) | Event::End => {
+                write_atomically(&self.path, self.text.as_bytes())?
+            }
             _ => {}
         }
         Ok(())

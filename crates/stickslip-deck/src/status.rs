@@ -12,8 +12,6 @@ use stickslip::results::{Analysis, Event, Observer};
 pub struct Status {
     path: PathBuf,
     text: String,
-    /// Attempts of the current increment that were cut back.
-    end: f64,
 }
 
 impl Status {
@@ -22,8 +20,18 @@ impl Status {
         Status {
             path: path.to_path_buf(),
             text: " SUMMARY OF JOB INFORMATION:\n STEP  INC ATT SEVERE EQUIL TOTAL  TOTAL      STEP       INC OF\n                 DISCON ITERS ITERS  TIME/      TIME/LPF   TIME/LPF\n                 ITERS               FREQ\n".into(),
-            end: 0.0,
         }
+    }
+}
+
+impl Status {
+    /// Goes on with the file that is there.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be read.
+    pub fn resume(self) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
+        Ok(Status { text, ..self })
     }
 }
 
@@ -52,14 +60,15 @@ impl Observer for Status {
                     short(time - start),
                     short(dt)
                 );
-                self.end = time;
             }
+            Event::Checkpoint(_) => write_atomically(&self.path, self.text.as_bytes())?,
             Event::End => {
                 let total = analysis.model.steps.last().map_or(0.0, |s| s.end);
-                self.text.push_str(match self.end >= total * (1.0 - 1e-12) {
-                    true => "\n THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n",
-                    false => "\n THE ANALYSIS HAS NOT BEEN COMPLETED\n",
-                });
+                self.text
+                    .push_str(match analysis.frame.state.t >= total * (1.0 - 1e-12) {
+                        true => "\n THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n",
+                        false => "\n THE ANALYSIS HAS NOT BEEN COMPLETED\n",
+                    });
                 write_atomically(&self.path, self.text.as_bytes())?;
             }
             _ => {}

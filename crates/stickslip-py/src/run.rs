@@ -205,7 +205,7 @@ impl Simulation {
     fn write_to(&mut self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
         let claim = Claim {
             inputs: self.inputs.clone(),
-            also: Vec::new(),
+            ..Claim::default()
         };
         // What this simulation has itself is given back first.
         self.files = None;

@@ -11,6 +11,7 @@ pub mod man;
 pub mod models;
 pub mod plot;
 pub mod report;
+pub mod resume;
 pub mod run;
 pub mod schema;
 pub mod sweep;

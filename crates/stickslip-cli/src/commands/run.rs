@@ -6,7 +6,7 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::friction::text;
 use stickslip::newton::condensed::Library;
-use stickslip::results::{Claim, Observer, ResultFiles};
+use stickslip::results::{Claim, Observer, ResultFiles, Source, digest_of};
 use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
@@ -26,9 +26,6 @@ pub struct Arguments {
     /// Directory of the results; `<file>.out` beside the file if not given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Threads; all processors if not given. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
     /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
@@ -39,9 +36,19 @@ pub struct Arguments {
     /// Write an increment that nothing solves to DIR as a friction problem, which `stickslip friction` reads.
     #[arg(long, value_name = "DIR")]
     dump_failures: Option<PathBuf>,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// How an analysis is run and what is said of it.
+#[derive(Debug, clap::Args)]
+pub struct Manner {
+    /// Threads; all processors if not given. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
     /// No progress on standard error.
     #[arg(short, long)]
-    quiet: bool,
+    pub quiet: bool,
     /// Show every Newton iteration.
     #[arg(short, long)]
     verbose: bool,
@@ -50,63 +57,154 @@ pub struct Arguments {
     json: bool,
 }
 
+impl Manner {
+    /// Whether progress is shown.
+    pub fn loud(&self) -> bool {
+        !self.quiet && !self.json
+    }
+}
+
+/// What an analysis is run with.
+pub struct Session {
+    pub input: Input,
+    pub simulation: Simulation,
+    pub files: ResultFiles,
+    pub directory: PathBuf,
+    /// The name of the deck without its ending.
+    pub stem: String,
+    /// It goes on.
+    pub resumed: bool,
+    /// What says what is being worked on.
+    pub voice: Voice,
+    pub heartbeat: Option<Heartbeat>,
+    /// Where an increment that nothing solves is written to.
+    pub dump_failures: Option<PathBuf>,
+}
+
 /// Runs the analysis.
 pub fn run(arguments: &Arguments) -> Outcome {
-    use_threads(arguments.threads, arguments.quiet);
+    let manner = &arguments.manner;
+    use_threads(manner.threads, manner.quiet);
     let started = Instant::now();
     let voice = Voice::new();
     voice.does("reading and assembling");
-    let heartbeat = (!arguments.quiet && !arguments.json).then(|| Heartbeat::start(&voice));
+    let heartbeat = manner.loud().then(|| Heartbeat::start(&voice));
     let input = Input::open(&arguments.file, &arguments.set)?;
     let setup = input.build()?;
     let directory = arguments
         .output
         .clone()
         .unwrap_or_else(|| arguments.file.with_extension("out"));
-    let loud = !arguments.quiet && !arguments.json;
-    for note in input.notes(loud) {
+    for note in input.notes(manner.loud()) {
         crate::progress::say(&note);
     }
     let read = started.elapsed().as_secs_f64();
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
     let mut simulation = Simulation::with_library(setup, library)?;
     simulation.summary.phases.read = read;
-    simulation.set_interrupt(crate::interrupt::watch());
-    simulation.set_watch(voice.watch());
-    let stem = arguments.file.file_stem().unwrap_or_default();
-    let printed = |extension: &str| format!("{}.{extension}", stem.to_string_lossy());
-    let claim = Claim {
-        inputs: input.files(),
-        also: match input.deck {
-            Some(_) => vec![printed("dat"), printed("sta")],
-            None => Vec::new(),
-        },
-    };
-    let mut files = ResultFiles::new(&directory, &claim)?;
+    let stem = stem(&arguments.file);
+    let source = source(&input, arguments)?;
+    let claim = claim(&input, &stem, source);
+    let files = ResultFiles::new(&directory, &claim)?;
     for note in files.notes() {
         crate::progress::say(note);
     }
+    go(
+        Session {
+            input,
+            simulation,
+            files,
+            directory,
+            stem,
+            resumed: false,
+            voice,
+            heartbeat,
+            dump_failures: arguments.dump_failures.clone(),
+        },
+        manner,
+    )
+}
+
+/// What the run was called with, for its checkpoints.
+fn source(input: &Input, arguments: &Arguments) -> Result<Source, Failure> {
+    let name = |path: &Path| {
+        let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        whole.to_string_lossy().into_owned()
+    };
+    let mut inputs = Vec::new();
+    for file in input.files() {
+        inputs.push((name(&file), digest_of(&file)?));
+    }
+    Ok(Source {
+        problem: input.problem.to_toml().map_err(Error::Problem)?,
+        file: name(&arguments.file),
+        overrides: arguments.set.clone(),
+        inputs,
+        cache: arguments.cache.as_deref().map(name),
+    })
+}
+
+/// The name of a file without its ending.
+pub fn stem(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+/// The files that a run reads and writes.
+pub fn claim(input: &Input, stem: &str, source: Source) -> Claim {
+    Claim {
+        inputs: input.files(),
+        also: match input.deck {
+            Some(_) => vec![format!("{stem}.dat"), format!("{stem}.sta")],
+            None => Vec::new(),
+        },
+        source: Some(source),
+    }
+}
+
+/// Runs what there is to run.
+pub fn go(session: Session, manner: &Manner) -> Outcome {
+    let Session {
+        input,
+        mut simulation,
+        mut files,
+        directory,
+        stem,
+        resumed,
+        voice,
+        heartbeat,
+        dump_failures,
+    } = session;
+    let loud = manner.loud();
+    simulation.set_interrupt(crate::interrupt::watch());
+    simulation.set_watch(voice.watch());
     super::report::keep_problem(&directory, &input.problem)?;
-    let mut progress = Progress::new(arguments.verbose, voice);
+    let mut progress = Progress::new(manner.verbose, voice);
     let mut lines = Lines::default();
-    let beside = |extension: &str| directory.join(printed(extension));
+    let beside = |extension: &str| directory.join(format!("{stem}.{extension}"));
     let mut printer = input
         .deck
         .as_ref()
         .and_then(|deck| Printer::new(deck, &beside("dat")));
     let mut status = input.deck.is_some().then(|| Status::new(&beside("sta")));
-    let mut observers: Vec<&mut dyn Observer> = vec![&mut files];
+    if resumed {
+        printer = printer.map(Printer::resume).transpose()?;
+        status = status.map(Status::resume).transpose()?;
+    }
+    // Files that grow come before what notes how far they are.
+    let mut observers: Vec<&mut dyn Observer> = Vec::new();
     observers.extend(printer.as_mut().map(|p| p as &mut dyn Observer));
     observers.extend(status.as_mut().map(|s| s as &mut dyn Observer));
+    observers.push(&mut files);
     if loud {
         observers.push(&mut progress);
     }
-    if arguments.json {
+    if manner.json {
         observers.push(&mut lines);
     }
     let outcome = simulation.run(&mut observers);
-    if let (Err(Error::Run(_)), Some(folder)) = (&outcome, &arguments.dump_failures) {
-        dump(folder, &stem.to_string_lossy(), &simulation)?;
+    if let (Err(Error::Run(_)), Some(folder)) = (&outcome, &dump_failures) {
+        dump(folder, &stem, &simulation)?;
     }
     outcome?;
     drop(heartbeat);

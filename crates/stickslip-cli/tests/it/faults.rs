@@ -403,6 +403,126 @@ fn a_run_killed_at_any_moment_is_known_for_that() {
     }
 }
 
+/// Arguments of a run with many increments, a checkpoint after each.
+const LONG: [&str; 10] = [
+    "run",
+    "case.toml",
+    "-q",
+    "--set",
+    "step.0.increments.fixed=300",
+    "--set",
+    "output={ every = 50, checkpoint = { increments = 1 } }",
+    "--set",
+    "solver.method=\"sparse\"",
+    "-o",
+];
+
+/// The results in a folder without checkpoints and summary, by name; and of the summary what does not depend on the process.
+fn results(folder: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Vec<Value>) {
+    let name = |path: &Path| path.strip_prefix(folder).map(Path::to_path_buf);
+    let all = contents(folder).into_iter();
+    let all = all.filter_map(|(path, bytes)| Some((name(&path).ok()?, bytes)));
+    let of_process = |name: &str| name.starts_with("checkpoint_") || name == "summary.json";
+    let files = all.filter(|(path, _)| !of_process(&path.to_string_lossy()));
+    let text = std::fs::read_to_string(folder.join("summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    let wanted = ["status", "increments", "iterations", "energies", "quality"];
+    let said = wanted.iter().map(|key| summary[*key].clone());
+    (files.collect(), said.collect())
+}
+
+/// The numbers of the checkpoints in a folder.
+fn checkpoints(folder: &Path) -> Vec<usize> {
+    let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut all: Vec<usize> = names
+        .filter_map(|entry| {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let digits = name.strip_prefix("checkpoint_")?.strip_suffix(".bin")?;
+            digits.parse().ok()
+        })
+        .collect();
+    all.sort_unstable();
+    all
+}
+
+/// A run that was killed after at least 20 of its increments, in the folder `killed`; the numbers of its checkpoints.
+fn killed(folder: &Path) -> Vec<usize> {
+    let out = folder.join("killed");
+    let mut command = support::command(folder);
+    command.args(LONG).arg("killed");
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let mut guard = Guard(child.expect("the binary runs"));
+    for _ in 0..20000 {
+        if checkpoints(&out).last().is_some_and(|&n| n >= 20) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    guard.0.kill().expect("a process");
+    guard.0.wait().expect("it ends");
+    // It may have been killed between writing one and removing the third last.
+    let all = checkpoints(&out);
+    assert!(all.len() >= 2, "{all:?}");
+    all
+}
+
+#[test]
+fn a_run_that_was_killed_goes_on_with_the_results_of_one_that_never_stopped() {
+    let folder = place("resumed");
+    let mut whole = LONG.to_vec();
+    whole.push("whole");
+    assert_eq!(run(&folder, &whole).0, Some(0));
+    let wanted = results(&folder.join("whole"));
+    killed(&folder);
+    let (code, text) = run(&folder, &["resume", "killed", "-q"]);
+    assert_eq!((code, text.as_str()), (Some(0), ""));
+    assert!(results(&folder.join("killed")) == wanted);
+    // The last checkpoint is cut: the one before it serves.
+    let all = checkpoints(&folder.join("killed"));
+    let last = folder.join(format!("killed/checkpoint_{}.bin", all[all.len() - 1]));
+    let bytes = std::fs::read(&last).expect("a checkpoint");
+    std::fs::write(&last, &bytes[..bytes.len() / 2]).expect("it is shorter");
+    let (code, text) = run(&folder, &["resume", "killed", "-q"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("the checkpoint is damaged"), "{text}");
+    assert!(results(&folder.join("killed")) == wanted);
+}
+
+#[test]
+fn resume_says_why_it_does_not_go_on() {
+    let folder = place("not-resumed");
+    let (code, text) = run(&folder, &["resume", "nowhere"]);
+    assert_eq!(code, Some(1));
+    assert!(text.contains("nowhere: this is no folder of results"));
+    let (_, text) = run(&folder, &["resume", "."]);
+    assert!(text.contains("there is no checkpoint in this folder"));
+    let all = killed(&folder);
+    let before = results(&folder.join("killed"));
+    let (code, text) = run(&folder, &["resume", "killed", "--from", "100000"]);
+    assert_eq!(code, Some(1));
+    let known = format!("there are those after {}", all[all.len() - 1]);
+    assert!(text.contains(&known), "{text}");
+    let mu = "interface.base.friction.coulomb.mu=0.2";
+    let (code, text) = run(&folder, &["resume", "killed", "--set", mu]);
+    assert_eq!(code, Some(1));
+    let named = "`interface.base.friction.coulomb.mu` has changed since the run began";
+    assert!(text.contains(named), "{text}");
+    for n in all {
+        let path = folder.join(format!("killed/checkpoint_{n}.bin"));
+        let mut bytes = std::fs::read(&path).expect("a checkpoint");
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        std::fs::write(&path, bytes).expect("a bit is another");
+    }
+    let (code, text) = run(&folder, &["resume", "killed"]);
+    assert_eq!(code, Some(1));
+    assert!(text.contains("the checkpoint is damaged"), "{text}");
+    assert!(
+        results(&folder.join("killed")) == before,
+        "nothing was touched"
+    );
+}
+
 #[test]
 fn a_full_disk_is_told_wherever_it_happens() {
     // Standard output.

@@ -403,3 +403,25 @@ pub fn spread(mesh: &Mesh, points: std::ops::Range<usize>, count: usize) -> Vec<
     }
     out
 }
+
+crate::keep!(Anchors {
+    dofs,
+    groups,
+    rounds,
+    evaluations,
+    past,
+    near,
+    adrift,
+    others
+});
+crate::keep!(Group {
+    points,
+    stiffness,
+    first,
+    least,
+    force,
+    max_step,
+    start,
+    at,
+    now
+});

@@ -132,3 +132,5 @@ fn masses<const N: usize>(
         );
     }
 }
+
+crate::keep!(MassKind[Consistent, Lumped]);

@@ -1,7 +1,9 @@
 use std::sync::Arc;
 
 use super::grids::BodyPoints;
-use super::linearised::Linearised;
+use super::linearised::{Linearised, Recipe};
+use crate::linear::BlockCsr;
+use crate::system::StepFailure;
 
 /// The factors, or multigrid hierarchies, of several matrices, told apart by keys.
 #[derive(Debug, Default)]
@@ -12,6 +14,14 @@ pub struct Factors {
     points: Option<Arc<BodyPoints>>,
     notes: Vec<String>,
 }
+
+/// What factors were made of: enough to make them again, with the same bits.
+#[derive(Debug, Clone, Default)]
+pub struct FactorsRecipe {
+    kept: Vec<(u64, Recipe)>,
+}
+
+crate::keep!(FactorsRecipe { kept });
 
 /// Most matrices whose factors are kept.
 const MOST_FACTORS: usize = 4;
@@ -51,6 +61,43 @@ impl Factors {
         self.kept.push(last);
         let i = self.kept.len() - 1;
         &mut self.kept[i].1
+    }
+
+    /// Whether they are hierarchies.
+    pub fn are_hierarchies(&self) -> bool {
+        self.points.is_some()
+    }
+
+    /// What they were made of; without numbers of those whose matrix is not `used` any more.
+    pub fn recipe(&self, used: &dyn Fn(u64) -> bool) -> FactorsRecipe {
+        let kept = self.kept.iter();
+        FactorsRecipe {
+            kept: kept.map(|(key, l)| (*key, l.recipe(used(*key)))).collect(),
+        }
+    }
+
+    /// Makes them again: `matrix` gives those that are used still, `like` has the pattern of all of them. Without hierarchies over `points` they are
+    /// factors.
+    ///
+    /// # Errors
+    /// As when they were made first.
+    pub fn again<'a>(
+        recipe: FactorsRecipe,
+        matrix: &dyn Fn(u64) -> Option<&'a BlockCsr>,
+        like: &BlockCsr,
+        points: Option<BodyPoints>,
+    ) -> Result<Self, StepFailure> {
+        let points = points.map(Arc::new);
+        let mut kept = Vec::new();
+        for (key, recipe) in recipe.kept {
+            let made = Linearised::again(recipe, matrix(key), like, points.as_ref())?;
+            kept.push((key, made));
+        }
+        Ok(Factors {
+            kept,
+            points,
+            notes: Vec::new(),
+        })
     }
 
     /// What a user should know and has not been told yet.

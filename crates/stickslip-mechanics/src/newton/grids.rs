@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::failure::{describe, not_finite};
 use super::operator::Operator;
+use super::stand_in::{StandIn, stand_ins};
 use super::statistics::Statistics;
 use crate::linear::{
     BlockCsr, GapVariables, GmresReport, GmresSettings, LinearError, MeshHints, Multigrid,
@@ -70,9 +71,84 @@ struct Made {
     fresh: bool,
     /// The last solution took too many iterations.
     slow: bool,
+    /// Contact at the set-up, and when the finest level was made anew last.
+    at_setup: Arc<Seen>,
+    at_refresh: Option<Arc<Seen>>,
 }
 
+/// What of contact a hierarchy is made of.
+#[derive(Debug, Clone, Default)]
+struct Seen {
+    blocks: Vec<StandIn>,
+    pairs: Vec<ContactPair>,
+}
+
+crate::keep!(Seen { blocks, pairs });
+
+impl Seen {
+    fn of(operator: Operator) -> Arc<Self> {
+        Arc::new(Seen {
+            blocks: stand_ins(operator.blocks),
+            pairs: operator.pairs.to_vec(),
+        })
+    }
+
+    /// As it was, but for what no hierarchy looks at.
+    fn contact(&self) -> (Vec<ContactBlock>, Vec<ContactPair>) {
+        let block = |(dofs, surrogate): &StandIn| ContactBlock {
+            dofs: dofs.clone(),
+            surrogate: surrogate.clone(),
+            rows: Vec::new(),
+            change: Vec::new(),
+            hessian: Vec::new(),
+        };
+        (self.blocks.iter().map(block).collect(), self.pairs.clone())
+    }
+}
+
+/// What [`Grids`] were made of: enough to make them again, with the same bits.
+#[derive(Debug, Clone, Default)]
+pub(super) struct GridsRecipe {
+    given_up: bool,
+    made: Option<MadeRecipe>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct MadeRecipe {
+    fixed: Vec<bool>,
+    at_setup: Arc<Seen>,
+    at_refresh: Option<Arc<Seen>>,
+    fresh: bool,
+    slow: bool,
+}
+
+crate::keep!(GridsRecipe { given_up, made });
+crate::keep!(MadeRecipe {
+    fixed,
+    at_setup,
+    at_refresh,
+    fresh,
+    slow
+});
+
 impl Made {
+    /// Makes the finest level anew with other gap variables of the same points; `false` where other contact has changed too much for that.
+    fn refresh(&mut self, operator: Operator, gaps: GapVariables) -> Result<bool, LinearError> {
+        self.gaps = gaps;
+        self.fresh = false;
+        self.slow = false;
+        let (added, assembled) = split(operator, &self.gaps);
+        if changed(&self.assembled, &assembled) {
+            return Ok(false);
+        }
+        self.levels
+            .refresh(&transformed(operator.matrix, &self.gaps, &assembled))?;
+        self.assembled = traces(&assembled);
+        self.levels.update(&added);
+        self.at_refresh = Some(Seen::of(operator));
+        Ok(true)
+    }
+
     /// Iterates, a fresh hierarchy as long as it may, another at most so often.
     fn gmres(
         &mut self,
@@ -119,6 +195,63 @@ impl Grids {
             given_up: self.given_up,
             ..Grids::new(Arc::clone(&self.points))
         }
+    }
+
+    /// What they were made of; without levels where their matrix is not `used` any more.
+    pub fn recipe(&self, used: bool) -> GridsRecipe {
+        GridsRecipe {
+            given_up: self.given_up,
+            made: self.made.as_ref().filter(|_| used).map(|made| MadeRecipe {
+                fixed: made.fixed.clone(),
+                at_setup: Arc::clone(&made.at_setup),
+                at_refresh: made.at_refresh.clone(),
+                fresh: made.fresh,
+                slow: made.slow,
+            }),
+        }
+    }
+
+    /// Makes them again; without levels where the matrix is not used any more.
+    pub fn again(
+        recipe: GridsRecipe,
+        matrix: Option<&BlockCsr>,
+        points: &Arc<BodyPoints>,
+    ) -> Result<Self, LinearError> {
+        let mut grids = Grids {
+            given_up: recipe.given_up,
+            ..Grids::new(Arc::clone(points))
+        };
+        let (Some(made), Some(matrix)) = (recipe.made, matrix) else {
+            return Ok(grids);
+        };
+        // Counts are those of the run that goes on.
+        let mut statistics = Statistics::default();
+        for (step, seen) in [Some(&made.at_setup), made.at_refresh.as_ref()]
+            .into_iter()
+            .enumerate()
+        {
+            let Some(seen) = seen else {
+                continue;
+            };
+            let (blocks, pairs) = seen.contact();
+            let operator = Operator {
+                matrix,
+                fixed: &made.fixed,
+                blocks: &blocks,
+                couplings: &[],
+                pairs: &pairs,
+            };
+            match &mut grids.made {
+                Some(known) if step > 0 => {
+                    known.refresh(operator, variables(operator))?;
+                }
+                _ => grids.set_up(operator, &mut statistics)?,
+            }
+        }
+        if let Some(known) = &mut grids.made {
+            (known.fresh, known.slow) = (made.fresh, made.slow);
+        }
+        Ok(grids)
     }
 
     /// Whether multigrid has not been given up.
@@ -215,17 +348,9 @@ impl Grids {
             if !gaps.points().eq(made.gaps.points()) {
                 return self.set_up(operator, statistics);
             }
-            made.gaps = gaps;
-            made.fresh = false;
-            made.slow = false;
-            let (added, assembled) = split(operator, &made.gaps);
-            if changed(&made.assembled, &assembled) {
+            if !made.refresh(operator, gaps)? {
                 return self.set_up(operator, statistics);
             }
-            made.levels
-                .refresh(&transformed(operator.matrix, &made.gaps, &assembled))?;
-            made.assembled = traces(&assembled);
-            made.levels.update(&added);
             statistics.refreshes += 1;
             return Ok(());
         }
@@ -278,6 +403,8 @@ impl Grids {
             assembled: traces(&assembled),
             fresh: true,
             slow: false,
+            at_setup: Seen::of(operator),
+            at_refresh: None,
         });
         Ok(())
     }

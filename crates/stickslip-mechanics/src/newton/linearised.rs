@@ -4,11 +4,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::failure::{describe, not_finite, not_reached};
-use super::grids::{BodyPoints, Grids};
+use super::grids::{BodyPoints, Grids, GridsRecipe};
 use super::operator::Operator;
 use super::settings::Settings;
+use super::stand_in::{StandIn, stand_ins};
 use super::statistics::Statistics;
-use crate::linear::{Factor, GmresSettings, LinearError, Symbolic, gmres};
+use crate::linear::{BlockCsr, Factor, GmresSettings, LinearError, Symbolic, gmres};
 use crate::system::StepFailure;
 
 /// A symmetric positive definite factor that outlives the state it was made at.
@@ -22,17 +23,85 @@ pub struct Linearised {
     grids: Option<Grids>,
     fixed: Vec<bool>,
     symbolic: Option<Arc<Symbolic>>,
+    /// What contact may couple, of which the symbolic factor was made with the pattern of the matrix.
+    analysed: Arc<Vec<Vec<usize>>>,
     factor: Option<Factor>,
+    /// Contact that went into the factor: its dofs and stand-ins.
+    factored: Arc<Vec<StandIn>>,
     stale: bool,
 }
 
+/// What a [`Linearised`] was made of: enough to make it again, with the same bits.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Recipe {
+    pub grids: Option<GridsRecipe>,
+    fixed: Vec<bool>,
+    analysed: Option<Arc<Vec<Vec<usize>>>>,
+    factored: Option<Arc<Vec<StandIn>>>,
+    stale: bool,
+}
+
+crate::keep!(Recipe {
+    grids,
+    fixed,
+    analysed,
+    factored,
+    stale
+});
+
 impl Linearised {
+    /// What it was made of; without its numbers where its matrix is not used any more.
+    pub(super) fn recipe(&self, used: bool) -> Recipe {
+        let factor = self.factor.as_ref().filter(|_| used);
+        Recipe {
+            grids: self.grids.as_ref().map(|grids| grids.recipe(used)),
+            fixed: self.fixed.clone(),
+            analysed: (self.symbolic.as_ref()).map(|_| Arc::clone(&self.analysed)),
+            factored: factor.map(|_| Arc::clone(&self.factored)),
+            stale: self.stale,
+        }
+    }
+
+    /// Makes it again; without its numbers where its matrix is not used any more.
+    pub(super) fn again(
+        recipe: Recipe,
+        matrix: Option<&BlockCsr>,
+        like: &BlockCsr,
+        points: Option<&Arc<BodyPoints>>,
+    ) -> Result<Self, StepFailure> {
+        let mut made = Linearised {
+            fixed: recipe.fixed,
+            stale: recipe.stale,
+            ..Linearised::default()
+        };
+        if let (Some(grids), Some(points)) = (recipe.grids, points) {
+            made.grids = Some(Grids::again(grids, matrix, points).map_err(describe)?);
+        }
+        if let Some(analysed) = recipe.analysed {
+            let symbolic = Symbolic::analyze(like, &made.fixed, &analysed).map_err(describe)?;
+            made.symbolic = Some(Arc::new(symbolic));
+            made.analysed = analysed;
+        }
+        if let (Some(factored), Some(symbolic), Some(matrix)) =
+            (recipe.factored, &made.symbolic, matrix)
+        {
+            let dense: Vec<(&[usize], &[f64])> = factored
+                .iter()
+                .map(|(dofs, values)| (dofs.as_slice(), values.as_slice()))
+                .collect();
+            made.factor = Some(Factor::new(symbolic, matrix, &dense).map_err(describe)?);
+            made.factored = factored;
+        }
+        Ok(made)
+    }
+
     /// The same without numbers, for another matrix with the same pattern.
     pub(super) fn without_factor(&self) -> Self {
         Linearised {
             grids: self.grids.as_ref().map(Grids::without_levels),
             fixed: self.fixed.clone(),
             symbolic: self.symbolic.clone(),
+            analysed: Arc::clone(&self.analysed),
             ..Linearised::default()
         }
     }
@@ -82,6 +151,7 @@ impl Linearised {
             statistics.analyses += 1;
             statistics.factor_nonzeros = symbolic.factor_nonzeros();
             self.symbolic = Some(Arc::new(symbolic));
+            self.analysed = Arc::new(couplings.to_vec());
             self.fixed = fixed.to_vec();
         }
         let ordering = started.elapsed().as_secs_f64();
@@ -94,6 +164,7 @@ impl Linearised {
         self.factor = None;
         if let Some(symbolic) = &self.symbolic {
             self.factor = Some(Factor::new(symbolic, matrix, &dense)?);
+            self.factored = Arc::new(stand_ins(blocks));
             statistics.factorisations += 1;
             statistics.flops += symbolic.flops();
             statistics.factor_bytes = 8 * symbolic.factor_nonzeros() as u64;

@@ -44,6 +44,7 @@ mod rounds;
 mod settings;
 mod solve;
 mod sparse_bulk;
+mod stand_in;
 mod statistics;
 mod step_length;
 mod strategy;
@@ -51,7 +52,7 @@ mod system;
 mod ways;
 
 pub use bulk::Bulk;
-pub use factors::Factors;
+pub use factors::{Factors, FactorsRecipe};
 pub use grids::BodyPoints;
 pub use linearised::Linearised;
 pub use operator::Operator;

@@ -57,3 +57,33 @@ pub struct Statistics {
     /// Its size `[bytes]`.
     pub hierarchy_bytes: usize,
 }
+
+crate::keep!(Statistics {
+    iterations,
+    augmentations,
+    continuations,
+    fallbacks,
+    analyses,
+    factorisations,
+    substructures_made,
+    substructures_shared,
+    substructures_read,
+    krylov,
+    reduced,
+    seconds_find,
+    seconds_order,
+    seconds_factor,
+    seconds_solve,
+    seconds_condense,
+    seconds_recover,
+    seconds_contact,
+    factor_nonzeros,
+    flops,
+    factor_bytes,
+    linear_solve,
+    setups,
+    refreshes,
+    levels,
+    operator_complexity,
+    hierarchy_bytes
+});

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::keep::{Broken, Keep, Kept};
+
 /// How an equilibrium is looked for. When one way fails the next one is tried; the order is always the same.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Strategy {
@@ -58,3 +60,24 @@ impl Serialize for Strategy {
         serializer.serialize_str(self.key())
     }
 }
+
+impl Keep for Strategy {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.key().keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        Ok(match <&str>::back(from)? {
+            "plain" => Strategy::Plain,
+            "status-memory" => Strategy::StatusMemory,
+            "line-search" => Strategy::LineSearch,
+            name => Strategy::Continuation(name),
+        })
+    }
+}
+
+crate::keep!(Fallback {
+    kind,
+    iterations,
+    converged
+});

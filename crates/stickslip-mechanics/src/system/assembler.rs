@@ -64,6 +64,12 @@ pub struct ContactPair {
     pub normal: Vec3,
 }
 
+crate::keep!(ContactPair {
+    point,
+    facet,
+    normal
+});
+
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a> {

@@ -33,3 +33,5 @@ impl Constraints {
         }
     }
 }
+
+crate::keep!(Constraints { fixed, values });

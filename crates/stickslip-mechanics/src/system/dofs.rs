@@ -47,3 +47,5 @@ pub enum Component {
     /// Along z.
     Z,
 }
+
+crate::keep!(Dofs { dim, points });

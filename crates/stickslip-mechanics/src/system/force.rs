@@ -206,3 +206,21 @@ impl std::iter::Sum for Tally {
         })
     }
 }
+
+crate::keep!(State { t, u, v, a });
+crate::keep!(Energy {
+    stored,
+    dissipated,
+    work,
+    damped,
+    path,
+    uncertain,
+    excess
+});
+
+crate::keep!(Tally {
+    open,
+    stick,
+    slip,
+    changed
+});

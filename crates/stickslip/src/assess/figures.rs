@@ -37,7 +37,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 15] = [
+pub(crate) static ALL: [&Kind; 16] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -46,6 +46,7 @@ pub(crate) static ALL: [&Kind; 15] = [
     &COMPLEMENTARITY,
     &OSCILLATION,
     &EXCESS_SHEAR,
+    &FRICTION_LAW,
     &ACTION_REACTION,
     &MOMENT,
     &EQUILIBRIUM,
@@ -303,6 +304,18 @@ impl Track {
         )
     }
 }
+
+crate::keep!(Noted {
+    amount,
+    scale,
+    time
+});
+crate::keep!(Octave { largest, steepest });
+crate::keep!(Track {
+    largest,
+    octaves,
+    moving
+});
 
 #[cfg(test)]
 mod tests {

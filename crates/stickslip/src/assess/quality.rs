@@ -10,6 +10,7 @@ use super::figures::{
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
+use crate::keep::{Broken, Keep, Kept};
 use crate::math::norm;
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
@@ -424,3 +425,46 @@ pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
     })
     .collect()
 }
+
+impl Keep for Figure {
+    fn keep(&self, out: &mut Vec<u8>) {
+        // Its name stands for what it is.
+        let Figure {
+            figure,
+            place,
+            value,
+            limit,
+            met,
+            time,
+            kind: _,
+        } = self;
+        figure.to_string().keep(out);
+        place.keep(out);
+        (*value, *limit, *met).keep(out);
+        time.keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let name = String::back(from)?;
+        let kind = figures::ALL.iter().find(|kind| kind.name == name);
+        let kind: &'static Kind = kind.ok_or(Broken)?;
+        let place = Keep::back(from)?;
+        let (value, limit, met) = Keep::back(from)?;
+        Ok(Figure {
+            figure: kind.name,
+            place,
+            value,
+            limit,
+            met,
+            time: Keep::back(from)?,
+            kind,
+        })
+    }
+}
+
+crate::keep!(Gate {
+    gate,
+    met,
+    figures,
+    tracks
+});

@@ -315,3 +315,50 @@ pub(crate) fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f6
         )),
     }
 }
+
+/// What explicit increments take along.
+#[derive(Debug, Clone)]
+pub(crate) struct ExplicitState {
+    damped: Vec<f64>,
+    damped_before: Vec<f64>,
+    still: Option<Arc<Constraints>>,
+    mass_added: f64,
+    at_start: f64,
+    loaded: bool,
+}
+
+crate::keep!(ExplicitState {
+    damped,
+    damped_before,
+    still,
+    mass_added,
+    at_start,
+    loaded
+});
+
+impl Explicit {
+    /// What it takes along.
+    pub fn state(&self) -> ExplicitState {
+        ExplicitState {
+            damped: self.damped.clone(),
+            damped_before: self.damped_before.clone(),
+            still: self.still.clone(),
+            mass_added: self.mass_added,
+            at_start: self.at_start,
+            loaded: self.loaded,
+        }
+    }
+
+    /// Goes on with that.
+    pub fn again(model: &Model, method: Method, state: ExplicitState) -> Self {
+        Explicit {
+            damped: state.damped,
+            damped_before: state.damped_before,
+            still: state.still,
+            mass_added: state.mass_added,
+            at_start: state.at_start,
+            loaded: state.loaded,
+            ..Explicit::new(model, method)
+        }
+    }
+}

@@ -151,7 +151,7 @@ fn start_motion(
     let inertia = match solver.inertia.take() {
         Some(inertia) if inertia.suits(contact, dynamic) => inertia,
         old => {
-            let keys = old.map_or(0, |inertia| inertia.keys());
+            let keys = old.map_or(solver.keys, |inertia| inertia.keys());
             Inertia::new((model, contact), &solver.stiffness, dynamic, keys)
         }
     };

@@ -37,6 +37,27 @@ impl History {
         })
     }
 
+    /// Goes on with a file that has so many columns.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be opened.
+    pub fn resume(path: &Path, columns: usize) -> Result<Self, Error> {
+        let file = File::options()
+            .append(true)
+            .open(path)
+            .map_err(|e| Error::io(path, e))?;
+        Ok(History {
+            path: path.to_path_buf(),
+            file,
+            columns,
+        })
+    }
+
+    /// How many columns it has.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
     /// Appends a row.
     ///
     /// # Errors
@@ -162,7 +183,7 @@ fn number(value: f64) -> String {
 }
 
 /// The entries of a line; a quote within quotes is doubled.
-fn split(line: &str) -> Vec<String> {
+pub fn split(line: &str) -> Vec<String> {
     let mut entries = vec![String::new()];
     let mut quoted = false;
     let mut letters = line.trim_end_matches('\r').chars().peekable();

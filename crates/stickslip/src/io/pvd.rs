@@ -23,6 +23,25 @@ impl Collection {
         }
     }
 
+    /// Goes on with a collection of these files; it is written anew.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be written.
+    pub fn resume(path: &Path, entries: &[(f64, String)]) -> Result<Self, Error> {
+        let mut collection = Collection::new(path);
+        let Some(((t, last), before)) = entries.split_last() else {
+            return Ok(collection);
+        };
+        collection.entries = before.to_vec();
+        collection.push(*t, last)?;
+        Ok(collection)
+    }
+
+    /// Time and file of each entry.
+    pub fn entries(&self) -> &[(f64, String)] {
+        &self.entries
+    }
+
     /// Adds the file of time `t`, as a path relative to the collection, and writes the collection anew.
     ///
     /// # Errors

@@ -10,12 +10,7 @@ impl Frame {
     /// force those that end let go.
     pub(crate) fn begin_step(&mut self, model: &Model, contact: &mut Contact) {
         let step = &model.steps[self.step];
-        for (name, change) in &step.changes {
-            let all = contact.interfaces.iter_mut();
-            for interface in all.filter(|i| i.name == *name) {
-                self.ledger.initial += interface.change(change);
-            }
-        }
+        contact.change_laws(step, |energy| self.ledger.initial += energy);
         let middle = 0.5 * (step.start + step.end);
         let before = self.step.checked_sub(1).map(|i| {
             let s = &model.steps[i];

@@ -40,6 +40,16 @@ impl Contact {
         bring(self.couplings.use_springs(wanted));
     }
 
+    /// Exchanges the laws that change with a step; the energy by which they now store more `[J]`, one by one.
+    pub(crate) fn change_laws(&mut self, step: &Step, mut bring: impl FnMut(f64)) {
+        for (name, change) in &step.changes {
+            let all = self.interfaces.iter_mut();
+            for interface in all.filter(|i| i.name == *name) {
+                bring(interface.change(change));
+            }
+        }
+    }
+
     /// Tells the interfaces that begin to act in the step at hand with which gaps they do.
     pub(crate) fn begin_acting(&mut self, step: &Step, state: &State) {
         let span = [step.start, step.end];

@@ -283,4 +283,8 @@ pub struct OutputPlan {
     pub times: Vec<f64>,
     /// A row of the history after every so many increments, and at times of output; at least 1.
     pub history_every: usize,
+    /// A checkpoint after every so many increments, and after so many seconds of wall clock; 0: not by that.
+    pub checkpoint: (usize, f64),
 }
+
+crate::keep!(Solution[Automatic, Condensed, Sparse, Multigrid]);

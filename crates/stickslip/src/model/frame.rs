@@ -42,3 +42,22 @@ pub struct Motion {
     /// The farthest the bodies have been from there, in the norm of the mass `[m √kg]`.
     pub travel: f64,
 }
+
+crate::keep!(Frame {
+    step,
+    state,
+    forces,
+    contact,
+    load,
+    coupled,
+    starts,
+    released,
+    previous,
+    motion,
+    ledger
+});
+crate::keep!(Motion {
+    internal,
+    start,
+    travel
+});

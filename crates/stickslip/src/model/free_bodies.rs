@@ -6,6 +6,7 @@ use crate::body::{RigidMode, rigid_modes};
 use crate::math::{Vec3, symmetric_eigen};
 
 /// A body that supports and springs leave free to move.
+#[derive(Clone)]
 pub(crate) struct FreeBody {
     /// Its index.
     pub body: usize,
@@ -143,3 +144,9 @@ pub(crate) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
         })
         .collect()
 }
+
+crate::keep!(FreeBody {
+    body,
+    motions,
+    slides
+});

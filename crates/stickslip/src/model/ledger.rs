@@ -175,3 +175,36 @@ impl EnergyQuality {
         self.met = self.residual <= self.limit;
     }
 }
+
+crate::keep!(EnergyLedger {
+    kinetic,
+    strain,
+    contact,
+    friction,
+    contact_damping,
+    rayleigh_damping,
+    numerical,
+    artificial,
+    external_work,
+    belt_work,
+    path,
+    uncertain,
+    passed,
+    moved,
+    exceeded,
+    initial,
+    residual
+});
+crate::keep!(EnergyQuality {
+    scale,
+    largest,
+    residual,
+    limit,
+    met
+});
+
+crate::keep!(Flow {
+    work,
+    damped,
+    numerical
+});

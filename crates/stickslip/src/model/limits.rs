@@ -114,3 +114,5 @@ impl Default for Limits {
         }
     }
 }
+
+crate::keep!(GateMode[Error, Warn, Off]);

@@ -10,6 +10,7 @@
 mod amplitude;
 mod body;
 mod build;
+mod changes;
 mod check;
 mod coupling;
 mod data;
@@ -44,6 +45,7 @@ use crate::error::{Diagnostic, Error, ProblemError};
 pub use amplitude::AmplitudeTable;
 pub use body::{Body, GmshFile, MeshSource, Rayleigh};
 pub use build::Meshes;
+pub use changes::changed_keys;
 pub use coupling::Coupling;
 pub use data::{FORMAT, Problem};
 pub use document::Document;
@@ -56,7 +58,7 @@ pub use mass::Mass;
 pub use model::{Model, SpaceKind};
 pub use nearest::nearest;
 pub use obstacle::Obstacle;
-pub use output::Output;
+pub use output::{CheckpointPlan, Output};
 pub use probe::Probe;
 pub use quality::Quality;
 #[cfg(feature = "schema")]

@@ -12,6 +12,29 @@ pub struct Output {
     pub history_every: usize,
     /// Further times `[time]` at which fields are written, increasing. Increments land on them.
     pub times: Vec<f64>,
+    /// When the state is written from which `stickslip resume` goes on. It is written in any case when a run is asked to stop.
+    pub checkpoint: CheckpointPlan,
+}
+
+/// When checkpoints are written: whichever comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct CheckpointPlan {
+    /// After so many increments; 0: not by their number. Of condensed bodies up to sixteen are found together: then after the last of them.
+    pub increments: usize,
+    /// After so many minutes of the clock on the wall; 0: not by the clock.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub minutes: f64,
+}
+
+impl Default for CheckpointPlan {
+    fn default() -> Self {
+        CheckpointPlan {
+            increments: 0,
+            minutes: 10.0,
+        }
+    }
 }
 
 impl Default for Output {
@@ -20,6 +43,7 @@ impl Default for Output {
             every: 1,
             history_every: 1,
             times: Vec::new(),
+            checkpoint: CheckpointPlan::default(),
         }
     }
 }

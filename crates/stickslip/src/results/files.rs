@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::analysis::Analysis;
 use super::folder::{Claim, Folder, INTERFACES};
-use super::observer::{Event, Observer};
+use super::observer::{Event, Observer, Snapshot};
+use super::saved::{Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
@@ -19,6 +20,9 @@ pub struct ResultFiles {
     pvd: pvd::Collection,
     history: Option<csv::History>,
     count: usize,
+    source: Option<Source>,
+    /// Other files that grow.
+    also: Vec<String>,
 }
 
 impl ResultFiles {
@@ -33,7 +37,61 @@ impl ResultFiles {
             pvd: pvd::Collection::new(&directory.join("fields.pvd")),
             history: None,
             count: 0,
+            source: claim.source.clone(),
+            also: claim.also.clone(),
         })
+    }
+
+    /// Goes on in a folder where a run was stopped: its files are cut back to where they were at a checkpoint.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if another run writes there, or a file cannot be cut.
+    pub fn resume(directory: &Path, claim: &Claim, saved: &Saved) -> Result<Self, Error> {
+        let folder = Folder::take_again(directory)?;
+        let positions = &saved.positions;
+        positions.restore(directory)?;
+        let known = |name: &str| positions.fields.iter().any(|(_, known)| known == name);
+        folder.drop_fields(|name| !known(name))?;
+        let history = directory.join("history.csv");
+        Ok(ResultFiles {
+            folder,
+            pvd: pvd::Collection::resume(&directory.join("fields.pvd"), &positions.fields)?,
+            history: match positions.columns {
+                0 => None,
+                columns => Some(csv::History::resume(&history, columns)?),
+            },
+            count: positions.fields.len(),
+            source: claim.source.clone(),
+            also: claim.also.clone(),
+        })
+    }
+
+    /// Writes a checkpoint.
+    fn save(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let Some(source) = &self.source else {
+            return Ok(());
+        };
+        let directory = &self.folder.directory;
+        let mut lengths = Vec::new();
+        let growing = self.history.iter().map(|_| "history.csv");
+        for name in growing.chain(self.also.iter().map(String::as_str)) {
+            let path = directory.join(name);
+            if let Ok(file) = std::fs::File::open(&path) {
+                let length = file.sync_all().and_then(|()| file.metadata());
+                let length = length.map_err(|e| Error::io(&path, e))?.len();
+                lengths.push((name.to_string(), length));
+            }
+        }
+        let saved = Saved {
+            source: source.clone(),
+            snapshot: snapshot.clone(),
+            positions: Positions {
+                fields: self.pvd.entries().to_vec(),
+                lengths,
+                columns: self.history.as_ref().map_or(0, csv::History::columns),
+            },
+        };
+        saved.write(directory)
     }
 
     /// What a user should know of what was in the directory.
@@ -147,7 +205,7 @@ impl Observer for ResultFiles {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         // A run that was stopped may go on.
         self.folder.resume()?;
-        if matches!(event, Event::Output | Event::End) {
+        if matches!(event, Event::Output | Event::Checkpoint(_) | Event::End) {
             self.folder.check()?;
         }
         match event {
@@ -161,6 +219,7 @@ impl Observer for ResultFiles {
                 }
             }
             Event::Output => self.output(analysis)?,
+            Event::Checkpoint(snapshot) => self.save(snapshot)?,
             Event::End => {
                 let ended = self.end(analysis.summary);
                 self.folder.release();

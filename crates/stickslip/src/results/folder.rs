@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::lock::{self, Lock, Refused};
+use super::saved::{self, Source};
 use super::summary::Status;
 use crate::error::{Error, IoError};
 use crate::io::write_atomically;
@@ -16,6 +17,8 @@ pub struct Claim {
     pub inputs: Vec<PathBuf>,
     /// Names of files that are written into the folder beside the usual ones.
     pub also: Vec<String>,
+    /// What the run was called with; without it no checkpoints are written.
+    pub source: Option<Source>,
 }
 
 /// A folder that belongs to this run.
@@ -63,6 +66,21 @@ impl Folder {
         Ok(folder)
     }
 
+    /// Takes a folder in which a run is to go on: what it holds stays.
+    ///
+    /// # Errors
+    /// As [`Folder::take`].
+    pub fn take_again(directory: &Path) -> Result<Folder, Error> {
+        let lock = hold(directory)?;
+        let folder = Folder {
+            directory: directory.to_path_buf(),
+            notes: Vec::new(),
+            lock: Some(lock),
+        };
+        folder.say_running()?;
+        Ok(folder)
+    }
+
     /// Gives the folder back: all is written.
     pub fn release(&mut self) {
         self.lock = None;
@@ -93,6 +111,14 @@ impl Folder {
         if self.lock.is_none() {
             self.lock = Some(hold(&self.directory)?);
             self.say_running()?;
+        }
+        Ok(())
+    }
+
+    /// Removes files of fields.
+    pub fn drop_fields(&self, unwanted: impl Fn(&str) -> bool) -> Result<(), Error> {
+        for path in files(&self.directory, |name| is_field(name) && unwanted(name))? {
+            fs::remove_file(&path).map_err(|e| Error::io(&path, e))?;
         }
         Ok(())
     }
@@ -161,12 +187,15 @@ const FILES: &[&str] = &[
 
 /// Whether a file in the folder has the name of a result.
 fn is_result(name: &str, claim: &Claim) -> bool {
+    let kept = saved::number(name).is_some();
+    is_field(name) || kept || FILES.contains(&name) || claim.also.iter().any(|also| also == name)
+}
+
+fn is_field(name: &str) -> bool {
     let number = name
         .strip_prefix("fields_")
         .and_then(|n| n.strip_suffix(".vtu"));
-    let is_field =
-        number.is_some_and(|n| n.len() >= 5 && n.bytes().all(|byte| byte.is_ascii_digit()));
-    is_field || FILES.contains(&name) || claim.also.iter().any(|also| also == name)
+    number.is_some_and(|n| n.len() >= 5 && n.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// All files in the folder that have names of results.

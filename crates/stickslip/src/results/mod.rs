@@ -7,11 +7,13 @@ pub(crate) mod folder;
 pub(crate) mod history;
 pub(crate) mod lock;
 pub(crate) mod observer;
+pub(crate) mod saved;
 pub(crate) mod summary;
 
 pub use analysis::Analysis;
 pub use files::{ResultFiles, fields};
 pub use folder::{Claim, FileClaim, running};
 pub use history::Row;
-pub use observer::{Advance, Event, Observer};
+pub use observer::{Advance, Event, Observer, Snapshot};
+pub use saved::{Saved, Source, checkpoints, digest_of};
 pub use summary::{Phases, Status, Summary};

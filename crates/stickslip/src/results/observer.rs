@@ -24,9 +24,34 @@ pub enum Event<'a> {
     Output,
     /// An increment failed and will be tried again, smaller.
     Cutback(&'a Trial, &'a StepFailure),
+    /// The state from which the run can go on, as bytes.
+    Checkpoint(&'a Snapshot),
     /// The run is over, well or not.
     End,
 }
+
+/// The state from which a run can go on, and what is worth knowing of it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Snapshot {
+    /// Accepted increments.
+    pub increments: usize,
+    /// Its time `[the problem's unit of time]`.
+    pub time: f64,
+    /// The index of the step at hand.
+    pub step: usize,
+    /// Whether that has ended.
+    pub ended: bool,
+    /// The state, see [`Checkpoint`](crate::run::Checkpoint).
+    pub state: Vec<u8>,
+}
+
+crate::keep!(Snapshot {
+    increments,
+    time,
+    step,
+    ended,
+    state
+});
 
 /// An accepted increment at a glance.
 #[derive(Debug, Clone, Copy, PartialEq)]

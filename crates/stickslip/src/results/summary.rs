@@ -192,3 +192,65 @@ impl Summary {
         self.peak_memory = peak_memory();
     }
 }
+
+// What a run says of its end is said again at the next one.
+crate::keep!(Summary {
+    title,
+    status,
+    outcome,
+    completed,
+    findings,
+    method,
+    method_reason,
+    notes,
+    size,
+    increments,
+    iterations,
+    events,
+    cutbacks,
+    cutback_reasons,
+    fallbacks,
+    stable_increment,
+    mass_added,
+    largest_rotation,
+    followed,
+    artificial_energy,
+    solver,
+    phases,
+    linear_solve,
+    relative_to_linear,
+    peak_memory,
+    energy,
+    energy_quality,
+    quality,
+    last
+} and {
+    version: env!("CARGO_PKG_VERSION"),
+    threads: rayon::current_num_threads(),
+    interfaces: Vec::new(),
+});
+crate::keep!(Status[Running, Done, Failed, Interrupted]);
+crate::keep!(FallbackSummary {
+    step,
+    from,
+    to,
+    tried
+});
+crate::keep!(Size {
+    points,
+    cells,
+    dofs,
+    contact_points
+});
+crate::keep!(Phases {
+    read,
+    assemble,
+    order,
+    factor,
+    condense,
+    iterate,
+    contact,
+    recover,
+    write,
+    total
+});

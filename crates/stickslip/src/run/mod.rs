@@ -1,15 +1,18 @@
 //! The driver: steps, attempts, cut-backs and pending increments.
 
 mod book;
+mod checkpoint;
 mod failures;
 mod fallback;
 mod pending;
 mod position;
 mod queue;
+mod restart;
 mod simulation;
 mod steps;
 mod weigh;
 
 pub use crate::solve::work::{Watch, Work};
+pub use checkpoint::Checkpoint;
 pub use simulation::Simulation;
 pub use steps::Interrupt;

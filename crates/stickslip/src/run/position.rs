@@ -1,5 +1,6 @@
 //! How far an analysis has come.
 
+use super::checkpoint::Standing;
 use crate::assess::doctor;
 use crate::model::definition::Step;
 use crate::system::StepFailure;
@@ -50,6 +51,37 @@ impl Increments {
             attempt: 1,
             opened: None,
             tight: false,
+            failed: None,
+        }
+    }
+
+    /// Where they stand.
+    pub fn standing(&self) -> Standing {
+        Standing {
+            pace: self.stepper.pace(),
+            accepted: self.accepted,
+            attempt: self.attempt,
+            opened: self.opened,
+            tight: self.tight,
+        }
+    }
+
+    /// Those of a step that go on from where they stood.
+    pub fn at(step: &Step, standing: Standing) -> Self {
+        let Standing {
+            pace,
+            accepted,
+            attempt,
+            opened,
+            tight,
+        } = standing;
+        let fresh = Increments::of(step);
+        Increments {
+            stepper: fresh.stepper.at(pace),
+            accepted,
+            attempt,
+            opened,
+            tight,
             failed: None,
         }
     }

@@ -12,6 +12,7 @@ use crate::system::StepFailure;
 use crate::time::Trial;
 
 /// An accepted increment that nobody has been told of.
+#[derive(Clone)]
 pub(crate) struct Pending {
     pub trial: Trial,
     pub accepted: Accepted,
@@ -68,6 +69,22 @@ impl Pending {
         }
     }
 }
+
+// Whoever goes on from it is told of iterations from there on.
+crate::keep!(Pending {
+    trial,
+    accepted,
+    increment,
+    attempt,
+    fields,
+    row,
+    histories,
+    couplings,
+    before,
+    found
+} and {
+    seen: Vec::new(),
+});
 
 /// Increments whose interiors are known, on their way to the observers.
 pub(crate) struct Recovered {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::checkpoint::Working;
 use super::position::Steps;
 use super::queue::{Pending, Recovered, TakenBack};
 use crate::assess::diagnosis::{CheckReport, start_gaps};
@@ -52,6 +53,10 @@ pub struct Simulation {
     /// Cells at the probes; `None` at rigid bodies.
     pub(crate) around: Vec<Option<Around>>,
     pub(crate) started: Instant,
+    /// Increments at the last checkpoint, and when it was taken.
+    pub(super) saved: (usize, Instant),
+    /// What the attempt at hand may change, as it was at its beginning, where a run may be stopped in the middle of one.
+    pub(super) before: Option<Working>,
 }
 
 /// What looks at a simulation, with its summary and what judges remember left free.
@@ -117,6 +122,8 @@ impl Simulation {
             summary,
             solver,
             started,
+            saved: (0, started),
+            before: None,
         })
     }
 

@@ -15,7 +15,7 @@ use crate::integrate::quasi_static::QuasiStatic;
 use crate::model::definition::Step;
 use crate::model::frame::Motion;
 use crate::model::scene::Scene;
-use crate::results::observer::{Event, Observer};
+use crate::results::observer::{Event, Observer, Snapshot};
 use crate::solve::accepted::Accepted;
 use crate::solve::work::{Watch, Work};
 use crate::system::{Cause, StepFailure};
@@ -52,9 +52,14 @@ impl Simulation {
         if !self.steps.begun {
             self.steps.begun = true;
             self.started = Instant::now();
+            self.saved = (0, self.started);
             self.ask_first(observers)?;
         }
         let outcome = self.next(observers);
+        let outcome = outcome.and_then(|more| match more {
+            true => self.save_if_due(observers).map(|()| true),
+            false => Ok(false),
+        });
         if matches!(outcome, Ok(true)) {
             return outcome;
         }
@@ -85,7 +90,13 @@ impl Simulation {
         if self.report_next(observers)? {
             return Ok(true);
         }
-        if self.solver.newton.interrupted() {
+        // An attempt that has failed is dealt with first: its increment may have to be smaller.
+        let failed = self
+            .steps
+            .running
+            .as_ref()
+            .is_some_and(|r| r.failed.is_some());
+        if !failed && self.solver.newton.interrupted() {
             return Err(self.stop(observers));
         }
         let running = match self.steps.running.take() {
@@ -105,10 +116,49 @@ impl Simulation {
 
     /// Reports what has been accepted; the error of an analysis that was asked to stop.
     fn stop(&mut self, observers: &mut [&mut dyn Observer]) -> Error {
-        match self.flush(observers) {
+        // What is reported from here on, who goes on from there reports again.
+        match self.save(observers).and_then(|()| self.flush(observers)) {
             Ok(()) => Error::Interrupted(self.frame.state.t),
             Err(e) => e,
         }
+    }
+
+    /// Hands on a checkpoint where one is due and can be taken.
+    fn save_if_due(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let (every, seconds) = self.model.output.checkpoint;
+        let (increments, at) = self.saved;
+        let passed = self.summary.increments - increments;
+        if !self.pending.is_empty() {
+            return Ok(());
+        }
+        let due = every > 0 && passed >= every
+            || seconds > 0.0 && passed > 0 && at.elapsed().as_secs_f64() >= seconds;
+        match due {
+            true => self.save(observers),
+            false => Ok(()),
+        }
+    }
+
+    /// Hands on a checkpoint where one can be taken.
+    fn save(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let before = self.before.take();
+        let taken = match before {
+            Some(before) => Some(self.checkpoint_with(before)),
+            None => self.checkpoint(),
+        };
+        let Some(checkpoint) = taken else {
+            return Ok(());
+        };
+        let (step, ended) = checkpoint.step();
+        let snapshot = Snapshot {
+            increments: checkpoint.increments(),
+            time: checkpoint.time(),
+            step,
+            ended,
+            state: checkpoint.to_bytes(),
+        };
+        self.saved = (snapshot.increments, Instant::now());
+        self.tell(observers, || Event::Checkpoint(&snapshot))
     }
 
     /// Begins a step.
@@ -132,7 +182,11 @@ impl Simulation {
         self.integration = match dynamic.method {
             Method::Implicit(alphas) => {
                 let scheme = (dynamic, alphas);
-                Integration::Implicit(Implicit::begin(model, frame, contact, solver, scheme)?)
+                // What is tried for the forces at the start is no increment that could be tried again.
+                let interrupt = solver.newton.interrupt.take();
+                let begun = Implicit::begin(model, frame, contact, solver, scheme);
+                solver.newton.interrupt = interrupt;
+                Integration::Implicit(begun?)
             }
             Method::Explicit { .. } => {
                 solver.include_all(model, contact);
@@ -160,7 +214,7 @@ impl Simulation {
         frame.state.v.clear();
         frame.state.a.clear();
         frame.motion = Motion::default();
-        solver.inertia = None;
+        solver.come_to_rest();
         for interface in &mut contact.interfaces {
             interface.set_masses(&[]);
         }
@@ -221,7 +275,14 @@ impl Simulation {
             to: trial.to,
             attempt: running.attempt,
         });
+        let stoppable = self.solver.newton.interrupt.is_some();
+        let solves = self.integration.explicit().is_none();
+        self.before = (stoppable && solves).then(|| self.working());
         let outcome = self.attempt(trial, observers)?;
+        let stopped = matches!(&outcome, Err(e) if e.cause == Cause::Interrupted);
+        if !stopped {
+            self.before = None;
+        }
         let outcome = match outcome {
             Ok(accepted) if !self.restarts(trial, &accepted, observers)? => {
                 self.weigh(&mut running, trial, accepted).map(Some)
@@ -285,6 +346,11 @@ impl Simulation {
         if !self.waits() {
             let seen = self.solver.seen.take();
             self.tell_iterations(&seen, observers);
+        }
+        if matches!(&outcome, Err(e) if e.cause == Cause::Interrupted) {
+            // It is tried again from its beginning, as if nothing had been tried.
+            self.solver.newton.fallbacks.clear();
+            return Ok(outcome);
         }
         let notes = self.solver.factors.notes();
         self.solver.log.notes.extend(notes);

@@ -6,7 +6,7 @@ use crate::system::{Rate, Stage, State, Tally};
 use crate::time::Trial;
 
 /// An increment that may be accepted.
-#[derive(Default)]
+#[derive(Default, Clone)]
 pub(crate) struct Accepted {
     pub state: State,
     /// Out-of-balance forces: reactions at fixed dofs.
@@ -57,3 +57,22 @@ impl Accepted {
         }
     }
 }
+
+crate::keep!(Accepted {
+    state,
+    forces,
+    contact,
+    external,
+    flow,
+    rate,
+    kinetic,
+    strain,
+    internal,
+    travel,
+    iterations,
+    rounds,
+    residual,
+    tally,
+    followed,
+    hard
+});

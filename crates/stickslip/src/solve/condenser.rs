@@ -27,6 +27,8 @@ pub(super) struct Moving {
     /// Key of the matrix.
     pub(super) key: u64,
     pub(super) condensation: Condensation,
+    /// The candidates it was made for.
+    pub(super) kept: Vec<bool>,
     pub(super) reduced: ReducedSystem,
 }
 
@@ -48,6 +50,7 @@ pub(crate) struct Condensed {
 }
 
 /// An increment whose interior is not known yet: its loads and the displacements of the candidates.
+#[derive(Clone)]
 pub(crate) struct Candidates {
     pub(super) amplitudes: Amplitudes,
     pub(super) displacements: Vec<f64>,
@@ -60,6 +63,8 @@ pub(crate) struct Candidates {
 pub(super) enum Which {
     Stiffness,
     Increment,
+    /// That of an increment in motion with this key.
+    Of(u64),
 }
 
 impl Condensed {
@@ -93,6 +98,11 @@ impl Condenser {
         self.at_rest = None;
     }
 
+    /// Nothing is condensed in motion until it is made anew.
+    pub fn drop_in_motion(&mut self) {
+        self.moving.clear();
+    }
+
     /// What the last increment did is no guide for the next.
     pub fn forget_direction(&mut self) {
         if let Some(condensed) = &mut self.at_rest {
@@ -100,3 +110,9 @@ impl Condenser {
         }
     }
 }
+
+crate::keep!(Candidates {
+    amplitudes,
+    displacements,
+    contact
+});

@@ -12,7 +12,7 @@ use crate::system::{Cause, Culprit, Force, StepFailure};
 use crate::time::Trial;
 
 /// What is known of floating bodies: those that only contact can hold.
-#[derive(Default)]
+#[derive(Default, Clone)]
 pub(crate) struct Floating {
     pub(super) anchors: Option<Anchors>,
     /// The step for which bodies were looked at, and those that interfaces may hold.
@@ -44,6 +44,7 @@ pub(crate) struct Floating {
 }
 
 /// Where an increment began in which bodies are moved or followed.
+#[derive(Clone)]
 pub(super) struct Origin {
     pub(super) u: Vec<f64>,
     /// Gaps that bodies may have to close `[m]`: the largest of each interface, all together, and how far obstacles move in the increment.
@@ -324,3 +325,21 @@ fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
         "smaller increments; a law that presses across the gap, or points that are pressed in far by one increment, can throw a body that nothing else holds: support it, or hold it by weak springs (`[load.NAME] spring`)",
     )
 }
+
+crate::keep!(Floating {
+    anchors,
+    known,
+    places,
+    stay,
+    vain,
+    moved,
+    firmness,
+    weak,
+    fresh,
+    left,
+    astray,
+    origin,
+    pushed,
+    told
+});
+crate::keep!(Origin { u, gaps, size });

@@ -40,6 +40,36 @@ struct Matrix {
     diagonal: Vec<f64>,
 }
 
+/// What [`Inertia`] was made of: enough to make it again, with the same bits.
+#[derive(Debug, Clone)]
+pub(crate) struct InertiaRecipe {
+    mass_kind: MassKind,
+    redistributed: Vec<bool>,
+    matrices: Vec<MatrixRecipe>,
+    keys: u64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct MatrixRecipe {
+    key: u64,
+    dt: f64,
+    alphas: Alphas,
+    weight: f64,
+}
+
+crate::keep!(InertiaRecipe {
+    mass_kind,
+    redistributed,
+    matrices,
+    keys
+});
+crate::keep!(MatrixRecipe {
+    key,
+    dt,
+    alphas,
+    weight
+});
+
 /// Most matrices that are kept.
 const MOST_MATRICES: usize = 4;
 
@@ -54,13 +84,24 @@ impl Inertia {
         dynamic: &Dynamic,
         before: u64,
     ) -> Self {
+        let kind = (dynamic.mass, redistributed(contact, dynamic));
+        Inertia::of((model, contact), stiffness, kind, before)
+    }
+
+    /// The same with masses that are given to points in a way that is known.
+    fn of(
+        (model, contact): (&Model, &Contact),
+        stiffness: &BlockCsr,
+        (mass_kind, redistributed): (MassKind, Vec<bool>),
+        before: u64,
+    ) -> Self {
         let dim = model.dofs.dim;
-        let mut light = light(model, contact, dynamic);
+        let mut light = light_points(model, contact, &redistributed);
         let mut mass = stiffness.zeros_like();
         for body in &model.bodies {
             if body.rigid.is_some() {
                 light[body.points.clone()].fill(false);
-            } else if !body.elastic.add_mass(dynamic.mass, &light, &mut mass) {
+            } else if !body.elastic.add_mass(mass_kind, &light, &mut mass) {
                 body.points.clone().for_each(|p| light[p] = false);
             }
         }
@@ -70,8 +111,8 @@ impl Inertia {
         }
         let damping = damping(model, stiffness, &mass);
         Inertia {
-            mass_kind: dynamic.mass,
-            redistributed: redistributed(contact, dynamic),
+            mass_kind,
+            redistributed,
             masses: Isotropic::of(&mass),
             mass,
             damping,
@@ -126,22 +167,14 @@ impl Inertia {
         let matrix = match found {
             Some(i) => self.matrices.remove(i),
             None => {
-                let [mass, damping, elastic] = factors(alphas, dt, weight);
-                let mut values = self.mass.zeros_like();
-                values.add_scaled(mass, &self.mass);
-                if let Some(matrix) = &self.damping {
-                    values.add_scaled(damping, matrix);
-                }
-                values.add_scaled(elastic, stiffness);
                 self.keys += 1;
-                Matrix {
+                let recipe = MatrixRecipe {
                     key: self.keys,
                     dt,
                     alphas,
                     weight,
-                    diagonal: values.diagonal(),
-                    values,
-                }
+                };
+                self.make(stiffness, recipe)
             }
         };
         if self.matrices.len() == MOST_MATRICES {
@@ -150,6 +183,63 @@ impl Inertia {
         let dt = matrix.dt;
         self.matrices.push(matrix);
         dt
+    }
+
+    fn make(&self, stiffness: &BlockCsr, recipe: MatrixRecipe) -> Matrix {
+        let MatrixRecipe {
+            key,
+            dt,
+            alphas,
+            weight,
+        } = recipe;
+        let [mass, damping, elastic] = factors(alphas, dt, weight);
+        let mut values = self.mass.zeros_like();
+        values.add_scaled(mass, &self.mass);
+        if let Some(matrix) = &self.damping {
+            values.add_scaled(damping, matrix);
+        }
+        values.add_scaled(elastic, stiffness);
+        Matrix {
+            key,
+            dt,
+            alphas,
+            weight,
+            diagonal: values.diagonal(),
+            values,
+        }
+    }
+
+    /// What it was made of.
+    pub fn recipe(&self) -> InertiaRecipe {
+        let recipe = |m: &Matrix| MatrixRecipe {
+            key: m.key,
+            dt: m.dt,
+            alphas: m.alphas,
+            weight: m.weight,
+        };
+        InertiaRecipe {
+            mass_kind: self.mass_kind,
+            redistributed: self.redistributed.clone(),
+            matrices: self.matrices.iter().map(recipe).collect(),
+            keys: self.keys,
+        }
+    }
+
+    /// Makes it again.
+    pub fn again(scene: (&Model, &Contact), stiffness: &BlockCsr, recipe: InertiaRecipe) -> Self {
+        let kind = (recipe.mass_kind, recipe.redistributed);
+        let mut inertia = Inertia::of(scene, stiffness, kind, recipe.keys);
+        for matrix in recipe.matrices {
+            let made = inertia.make(stiffness, matrix);
+            inertia.matrices.push(made);
+        }
+        inertia
+    }
+
+    /// The matrix of a key, as long as it is kept.
+    pub fn matrix_of(&self, key: u64) -> Option<&BlockCsr> {
+        let mut all = self.matrices.iter();
+        all.find(|m| m.key == key).map(|m| &m.values)
     }
 
     /// The matrix made ready last, its diagonal and its key.
@@ -284,9 +374,13 @@ fn redistributed(contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
 
 /// Points whose mass is to be given to their neighbours. Where a body has no others, and in rigid bodies, they keep it all the same.
 pub(crate) fn light(model: &Model, contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
+    light_points(model, contact, &redistributed(contact, dynamic))
+}
+
+/// The same where it is known which interfaces hand on their masses.
+fn light_points(model: &Model, contact: &Contact, redistributed: &[bool]) -> Vec<bool> {
     let mut light = vec![false; model.dofs.points];
-    let redistributed = redistributed(contact, dynamic);
-    for (interface, &wanted) in contact.interfaces.iter().zip(&redistributed) {
+    for (interface, &wanted) in contact.interfaces.iter().zip(redistributed) {
         if wanted {
             // The numbering of an interface has the nodes of both sides. A primary point with mass would ring against the secondary
             // as a secondary one does against a wall.

@@ -34,4 +34,5 @@ mod released;
 mod rigid_part;
 pub(crate) mod solver;
 pub(crate) mod spin;
+pub(crate) mod state;
 pub(crate) mod work;

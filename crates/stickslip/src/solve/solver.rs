@@ -32,6 +32,8 @@ pub(crate) struct Solver {
     pub condenser: Condenser,
     /// Mass and damping, in implicit steps.
     pub inertia: Option<Inertia>,
+    /// How many matrices of increments in motion there have been: no key is given twice.
+    pub keys: u64,
     /// Bodies that only contact can hold.
     pub floating: Floating,
     /// Iterations that nobody has been told of.
@@ -82,10 +84,19 @@ impl Solver {
             },
             condenser: Condenser::new(library),
             inertia: None,
+            keys: 0,
             floating: Floating::default(),
             seen: Seen::default(),
             log: Log::default(),
         }
+    }
+
+    /// Nothing moves any more: what was made of the masses goes.
+    pub fn come_to_rest(&mut self) {
+        if let Some(inertia) = self.inertia.take() {
+            self.keys = inertia.keys();
+        }
+        self.condenser.drop_in_motion();
     }
 
     /// Solves an increment with the sparse matrix. `at` is the guess before and the solution after.

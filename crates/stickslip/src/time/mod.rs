@@ -6,4 +6,4 @@ pub mod scheme;
 mod stepper;
 
 pub use contact::{ContactAt, ContactMass};
-pub use stepper::{Increments, Stepper, Trial};
+pub use stepper::{Increments, Pace, Stepper, Trial};

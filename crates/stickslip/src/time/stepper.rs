@@ -132,6 +132,40 @@ impl Stepper {
     }
 }
 
+/// Where the increments of a step stand: all that a [`Stepper`] knows beyond the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    now: f64,
+    wish: f64,
+    easy: usize,
+}
+
+crate::keep!(Pace { now, wish, easy });
+
+impl Stepper {
+    /// Where it stands.
+    pub fn pace(&self) -> Pace {
+        Pace {
+            now: self.now,
+            wish: self.wish,
+            easy: self.easy,
+        }
+    }
+
+    /// Goes on from there.
+    pub fn at(self, pace: Pace) -> Self {
+        let Pace { now, wish, easy } = pace;
+        Stepper {
+            now,
+            wish,
+            easy,
+            ..self
+        }
+    }
+}
+
+crate::keep!(Trial { from, to });
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -24,6 +24,7 @@ mod multigrid;
 mod pairing;
 mod problem_files;
 mod quality;
+mod restart;
 mod restep;
 mod rigid;
 mod schema;

@@ -1,5 +1,6 @@
 //! `sweep`: a problem file, many values, one table.
 
+mod begun;
 mod columns;
 mod plan;
 mod table;
@@ -23,6 +24,7 @@ use super::{library, spare, use_threads};
 use crate::failure::{Failure, Outcome, located};
 use crate::progress::found;
 use crate::voice::{Heartbeat, Voice};
+use begun::Begun;
 use columns::Columns;
 use plan::Plan;
 use table::{Row, Table};
@@ -66,6 +68,9 @@ pub struct Arguments {
     /// Threads; all processors if not given. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+    /// Go on with a sweep that was stopped or killed: runs that are in the table are not run again.
+    #[arg(long)]
+    resume: bool,
     /// No progress on standard error.
     #[arg(short, long)]
     quiet: bool,
@@ -95,6 +100,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     };
     tell(&heading(&plan));
+    let begun = Begun::of(&arguments.file, &case, &plan, &table.path)?;
+    let mut done = 0;
+    if arguments.resume && begun.same()? {
+        done = table.take_over(|run| {
+            let values = plan.values(run).into_iter();
+            values.map(str::to_string).collect()
+        })?;
+        tell(&format!("{} in the table already", runs(done)));
+    }
+    begun.write()?;
 
     let shared = Shared {
         watch: voice.watch(),
@@ -103,9 +118,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
-    let (mut failed, mut poor) = (0, 0);
+    let (mut failed, mut poor) = table.not_done();
     let mut told: Vec<String> = Vec::new();
-    for run in 0..plan.count() {
+    for run in done..plan.count() {
         let begun = Instant::now();
         voice.begins(&format!("run {} of {}", run + 1, plan.count()));
         let directory = arguments.results.as_ref();
@@ -123,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         table.add_quantities(&columns.names);
 
         let seconds = begun.elapsed().as_secs_f64();
-        if run == 0 {
+        if run == done {
             first = seconds;
         }
         if let Some(stopped @ Error::Interrupted(_)) = ended.error {
@@ -164,6 +179,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         };
         table.push(row.with_summary(ended.summary))?;
     }
+    begun.end();
     tell(&format!(
         "{} in {:.3} s, the first in {first:.3} s; table in {}",
         runs(plan.count()),
@@ -221,7 +237,7 @@ fn analyse(
     let mut observers: Vec<&mut dyn Observer> = vec![columns];
     let claim = Claim {
         inputs: document.inputs(&problem),
-        also: Vec::new(),
+        ..Claim::default()
     };
     let files = directory.map(|directory| ResultFiles::new(directory, &claim));
     let mut files = match files.transpose() {

@@ -61,6 +61,11 @@ impl Plan {
         })
     }
 
+    /// The changes that are the same in all.
+    pub fn fixed(&self) -> &[String] {
+        &self.fixed
+    }
+
     /// Number of runs.
     pub fn count(&self) -> usize {
         self.count

@@ -5,6 +5,8 @@ use std::fs::File;
 use std::path::PathBuf;
 
 use stickslip::Error;
+use stickslip::error::IoError;
+use stickslip::io::csv::split;
 use stickslip::io::write_atomically;
 use stickslip::results::Summary;
 
@@ -97,6 +99,73 @@ impl Table {
         File::create(&aside)
             .and_then(|_| std::fs::remove_file(&aside))
             .map_err(|e| Error::io(path, e))
+    }
+
+    /// Takes over the rows of a table that was begun, of runs with these values in this order; how many there are.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file is no table of this sweep.
+    pub fn take_over(&mut self, values: impl Fn(usize) -> Vec<String>) -> Result<usize, Error> {
+        let other = |what: &str| {
+            Error::Io(IoError {
+                file: self.path.clone(),
+                message: format!("this is no table of the same sweep: {what}"),
+            })
+        };
+        let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
+        let mut lines = text.lines().map(split);
+        let names = lines.next().unwrap_or_default();
+        let mut wanted = vec!["run".to_string()];
+        wanted.extend(self.axes.iter().cloned());
+        wanted.push("outcome".into());
+        wanted.extend(COUNTS.map(str::to_string));
+        wanted.push("seconds".into());
+        if names.get(..wanted.len()) != Some(&wanted) {
+            return Err(other("its columns are others"));
+        }
+        let quantities = names[wanted.len()..].to_vec();
+        let mut rows = Vec::new();
+        for cells in lines {
+            let run = rows.len();
+            let axes = cells.get(1..=self.axes.len());
+            if cells.len() != names.len() || axes != Some(&values(run)) {
+                return Err(other(&format!("line {} is none of its runs", run + 2)));
+            }
+            rows.push(self.read(&cells, &quantities));
+        }
+        let count = rows.len();
+        self.add_quantities(&quantities);
+        rows.into_iter().for_each(|row| self.add(row));
+        Ok(count)
+    }
+
+    /// How many rows are those of runs that failed, and how many of runs that did not pass the quality gate.
+    pub fn not_done(&self) -> (usize, usize) {
+        let poor = |row: &&Row| row.outcome.starts_with("quality: ");
+        let done = |row: &&Row| row.outcome == "done";
+        let poor = self.rows.iter().filter(poor).count();
+        let done = self.rows.iter().filter(done).count();
+        (self.rows.len() - poor - done, poor)
+    }
+
+    fn read(&self, cells: &[String], quantities: &[String]) -> Row {
+        let at = 1 + self.axes.len();
+        let count = |i: usize| cells[at + 1 + i].parse::<usize>().ok();
+        let counts = [count(0), count(1), count(2), count(3)];
+        let numbers = cells[at + 6..].iter().map(|cell| cell.parse::<f64>().ok());
+        let named = quantities.iter().zip(numbers);
+        Row {
+            values: cells[1..at].to_vec(),
+            outcome: cells[at].clone(),
+            seconds: cells[at + 5].parse().unwrap_or_default(),
+            counts: match counts {
+                [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
+                _ => None,
+            },
+            last: named
+                .filter_map(|(name, x)| Some((name.clone(), x?)))
+                .collect(),
+        }
     }
 
     /// Adds a row and writes the table again, aside and renamed, so that the file is complete after every run and a

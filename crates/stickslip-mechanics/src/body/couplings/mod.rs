@@ -22,7 +22,7 @@ mod motion;
 mod row;
 mod spring;
 
-pub use all::{Coupling, Couplings, CouplingsMemory, Tie};
+pub use all::{Coupling, Couplings, CouplingsMemory, CouplingsState, Tie};
 pub use axial_spring::AxialSpring;
 pub use equation::{Equation, Term};
 pub use model::CouplingModel;

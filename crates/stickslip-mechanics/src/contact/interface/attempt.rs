@@ -109,6 +109,36 @@ impl Flips {
     }
 }
 
+crate::keep!(Attempt {
+    multipliers,
+    flips,
+    freezing,
+    changed,
+    tentative,
+    never_in_contact,
+    accepted_gap,
+    tightened,
+    violation
+});
+crate::keep!(Multiplier {
+    pressure,
+    shear,
+    normal,
+    centre_pressure,
+    centre_shear,
+    centre_normal,
+    base,
+    frame,
+    frame_normal
+});
+crate::keep!(Flips {
+    count,
+    last,
+    over,
+    left,
+    returned
+});
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -16,3 +16,12 @@ pub struct Directives {
     /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
     pub(super) all_stick: bool,
 }
+
+crate::keep!(Directives {
+    inertia,
+    excluded,
+    inner,
+    softening,
+    mobilised,
+    all_stick
+});

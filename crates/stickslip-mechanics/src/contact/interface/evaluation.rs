@@ -17,11 +17,61 @@ pub(super) struct Evaluations {
 }
 
 impl Evaluations {
+    /// What goes beyond the increment that they are of: how fast tractions change, and where something lies opposite the nodes that take part.
+    pub fn traces(&self) -> Vec<Trace> {
+        let points = self.points.iter().enumerate();
+        points
+            .map(|(i, e)| Trace {
+                slope: e.slope(),
+                over: e.over,
+                sides: match e.over {
+                    true => self.batch(i).sides(e).to_vec(),
+                    false => Vec::new(),
+                },
+            })
+            .collect()
+    }
+
+    /// Evaluations of which nothing else is known.
+    pub fn of_traces(traces: Vec<Trace>) -> Self {
+        let mut batches = Vec::new();
+        batches.resize_with(traces.len().div_ceil(CHUNK), Batch::default);
+        let traces = traces.into_iter().enumerate();
+        let points = traces.map(|(i, trace)| {
+            let mut e = Evaluation {
+                over: trace.over,
+                ..Evaluation::default()
+            };
+            e.response.d_gap[0][0] = trace.slope;
+            let batch: &mut Batch = &mut batches[i / CHUNK];
+            e.slots.sides = batch.sides.len();
+            e.slots.nodes = trace.sides.len();
+            batch.sides.extend(trace.sides);
+            e
+        });
+        Evaluations {
+            points: points.collect(),
+            batches,
+        }
+    }
+
     /// The numbers of a point.
     pub fn batch(&self, i: usize) -> &Batch {
         &self.batches[i / CHUNK]
     }
 }
+
+/// What an evaluation of a point leaves for the length of an explicit increment after it.
+#[derive(Debug, Clone)]
+pub(super) struct Trace {
+    /// The largest change of a traction with its own gap or slip `[Pa/m]`.
+    slope: f64,
+    /// Whether something lies opposite, and the nodes that take part there with their weights.
+    over: bool,
+    sides: Vec<(usize, f64)>,
+}
+
+crate::keep!(Trace { slope, over, sides });
 
 /// What a law is asked at a point.
 #[derive(Debug, Clone, Copy)]
@@ -87,6 +137,12 @@ pub(super) struct Frames {
 }
 
 impl Evaluation {
+    /// The largest change of a traction with its own gap or slip `[Pa/m]`.
+    pub fn slope(&self) -> f64 {
+        let d = &self.response.d_gap;
+        d[0][0].abs().max(d[1][1].abs()).max(d[2][2].abs())
+    }
+
     /// A point that carries nothing.
     pub fn open(gap: f64) -> Self {
         Evaluation {

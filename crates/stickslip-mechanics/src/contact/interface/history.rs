@@ -1,4 +1,4 @@
-//! What an interface knows of accepted increments: plain data, which a checkpoint would hold and an increment that waits for its report keeps.
+//! What an interface knows of accepted increments: plain data, which a checkpoint holds and an increment that waits for its report keeps.
 
 use crate::contact::response::Status;
 use crate::math::Vec3;
@@ -125,6 +125,11 @@ impl History {
         }
     }
 
+    /// Whether it can be that of an interface with so many points.
+    pub fn fits(&self, points: usize) -> bool {
+        self.points.is_empty() || self.points.len() == points
+    }
+
     /// Memory that it takes `[bytes]`.
     #[cfg(test)]
     pub(super) fn taken(&self) -> usize {
@@ -145,6 +150,47 @@ impl History {
         points * point + opposite * size_of::<(usize, f64)>() + nodes * node
     }
 }
+
+crate::keep!(History {
+    points,
+    acting,
+    opposite,
+    start,
+    springs,
+    rest,
+    energy,
+    rubbed,
+    nodal,
+    traces,
+    pushed,
+    creep,
+    cone
+});
+crate::keep!(PointHistory {
+    pressure,
+    shear,
+    slip,
+    moved,
+    gap,
+    normal,
+    status,
+    facet,
+    area,
+    damping,
+    dissipated,
+    rubbed,
+    limit,
+    sheared,
+    stiffness
+});
+crate::keep!(Opposite { ends, nodes });
+crate::keep!(Origin {
+    begun,
+    span,
+    offset,
+    glued
+});
+crate::keep!(Cone { worst, limit });
 
 #[cfg(test)]
 mod tests {

@@ -49,3 +49,9 @@ impl Interface {
         })
     }
 }
+
+crate::keep!(Resolution {
+    points,
+    of,
+    resolved
+});

@@ -88,6 +88,11 @@ impl Search {
 }
 
 impl FaceSearch {
+    /// Coordinates at the last search; empty before there was one.
+    pub fn at(&self) -> &[Vec3] {
+        &self.at
+    }
+
     /// Searches anew when nodes have moved so far that a facet might be missing from the candidates of a face.
     pub fn renew(&mut self, faces: &[Face], facets: &[Facet], x: &[Vec3]) {
         let size = |nodes: &[usize]| {

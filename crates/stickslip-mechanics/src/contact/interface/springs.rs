@@ -52,10 +52,7 @@ impl Interface {
             } else {
                 0.0
             };
-            let now = last.map_or(0.0, |e| {
-                let d = &e.response.d_gap;
-                d[0][0].abs().max(d[1][1].abs()).max(d[2][2].abs())
-            });
+            let now = last.map_or(0.0, |e| e.slope());
             // A rigid body has no cells whose frequency would bound the step on the way to a compliant surface.
             let rigid = |&node: &usize| links.of_point(self.nodes[node]).is_some();
             let ahead = match point.nodes.iter().any(rigid) {

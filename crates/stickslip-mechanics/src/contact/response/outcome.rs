@@ -32,3 +32,5 @@ pub struct Response {
     /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
     pub damping: f64,
 }
+
+crate::keep!(Status[Open, Stick, Slip]);

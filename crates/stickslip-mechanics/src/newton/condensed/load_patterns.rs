@@ -16,7 +16,7 @@ pub struct LoadPatterns {
 /// A unit vector over all dofs and what the factors make of the forces it brings.
 #[derive(Debug)]
 struct Pattern {
-    unit: Vec<f64>,
+    unit: Arc<Vec<f64>>,
     root: Vec<f64>,
     interior: Vec<Vec<f64>>,
 }
@@ -36,7 +36,61 @@ const MOST: usize = 24;
 /// What is left of a vector, relative to it, when it counts as made up of the patterns: rounding.
 const ROUNDING: f64 = 4e-15;
 
+crate::keep!(Pattern {
+    unit,
+    root,
+    interior
+});
+crate::keep!(Amplitudes {
+    loads,
+    motions,
+    others
+});
+
+/// The patterns met so far, without what the factors make of them.
+#[derive(Debug, Clone, Default)]
+pub struct PatternsRecipe {
+    loads: Vec<Arc<Vec<f64>>>,
+    motions: Vec<Arc<Vec<f64>>>,
+}
+
+crate::keep!(PatternsRecipe { loads, motions });
+
 impl LoadPatterns {
+    /// The patterns met so far.
+    pub fn recipe(&self) -> PatternsRecipe {
+        let units = |all: &[Pattern]| all.iter().map(|p| Arc::clone(&p.unit)).collect();
+        PatternsRecipe {
+            loads: units(&self.loads),
+            motions: units(&self.motions),
+        }
+    }
+
+    /// Sweeps them through the factors again.
+    pub fn again(recipe: PatternsRecipe, condensation: &Condensation, matrix: &BlockCsr) -> Self {
+        let pattern = |(unit, (root, interior)): (Arc<Vec<f64>>, Swept)| Pattern {
+            unit,
+            root,
+            interior,
+        };
+        let loads = recipe.loads.into_iter();
+        let motions = recipe.motions.into_iter();
+        LoadPatterns {
+            loads: loads
+                .map(|unit| {
+                    let swept = condensation.sweep(&unit);
+                    pattern((unit, swept))
+                })
+                .collect(),
+            motions: motions
+                .map(|unit| {
+                    let swept = condensation.sweep(&resisted(matrix, &unit));
+                    pattern((unit, swept))
+                })
+                .collect(),
+        }
+    }
+
     /// Finds the amplitudes of external forces and prescribed displacements, both over all dofs.
     pub fn resolve(
         &mut self,
@@ -50,10 +104,7 @@ impl LoadPatterns {
             condensation.sweep(pattern)
         });
         let motions = resolve(&mut self.motions, &mut others, prescribed, &mut |pattern| {
-            let mut forces = vec![0.0; pattern.len()];
-            matrix.mul(pattern, &mut forces);
-            forces.iter_mut().for_each(|f| *f = -*f);
-            condensation.sweep(&forces)
+            condensation.sweep(&resisted(matrix, pattern))
         });
         Amplitudes {
             loads,
@@ -101,6 +152,14 @@ impl LoadPatterns {
     }
 }
 
+/// The forces that prescribed displacements bring to the free dofs.
+fn resisted(matrix: &BlockCsr, motion: &[f64]) -> Vec<f64> {
+    let mut forces = vec![0.0; motion.len()];
+    matrix.mul(motion, &mut forces);
+    forces.iter_mut().for_each(|f| *f = -*f);
+    forces
+}
+
 fn resolve(
     patterns: &mut Vec<Pattern>,
     others: &mut Vec<Arc<Pattern>>,
@@ -118,7 +177,7 @@ fn resolve(
         for (a, pattern) in amplitudes.iter_mut().zip(patterns.iter()) {
             let part = dot(&pattern.unit, &left);
             *a += part;
-            for (l, s) in left.iter_mut().zip(&pattern.unit) {
+            for (l, s) in left.iter_mut().zip(pattern.unit.iter()) {
                 *l -= part * s;
             }
         }
@@ -130,7 +189,7 @@ fn resolve(
         left.iter_mut().for_each(|l| *l /= size);
         let (root, interior) = sweep(&left);
         let pattern = Pattern {
-            unit: left,
+            unit: Arc::new(left),
             root,
             interior,
         };

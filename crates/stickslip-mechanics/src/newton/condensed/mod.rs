@@ -36,6 +36,6 @@ pub use bulk::CondensedBulk;
 pub use condensation::{Condensation, Cost, Effort, Places, Plan, Swept};
 pub use identity::{Identity, Part};
 pub use library::{Library, Source};
-pub use load_patterns::{Amplitudes, LoadPatterns};
-pub use reduced_system::{ReducedSolution, ReducedSystem};
+pub use load_patterns::{Amplitudes, LoadPatterns, PatternsRecipe};
+pub use reduced_system::{ReducedRecipe, ReducedSolution, ReducedSystem};
 pub use substructure::{Floating, Seconds, Substructure};

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::lu::Lu;
 use super::rows::Rows;
 use super::small_matrix::SmallMatrix;
@@ -12,13 +14,22 @@ use crate::system::{Cause, StepFailure};
 /// springs are rows of it too.
 #[derive(Debug)]
 pub(super) struct Preconditioner {
-    rows: Vec<Rows>,
+    rows: Arc<Vec<Rows>>,
     /// Rows of gaps and slips.
     count: usize,
     lu: Lu,
     /// `σ` and `Z` at the active dofs of each spring.
     springs: Vec<(f64, Vec<f64>)>,
 }
+
+/// What the factor was made of beside the bodies.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Factored {
+    rows: Arc<Vec<Rows>>,
+    count: usize,
+}
+
+crate::keep!(Factored { rows, count });
 
 /// Amplification `C W Bᵀ` up to which the factor may be in single precision: of its seven digits three are left.
 const SINGLE: f64 = 1e4;
@@ -30,6 +41,21 @@ impl Preconditioner {
     /// Factors the tangent of an iteration.
     pub fn of(tangent: &Tangent) -> Result<Preconditioner, StepFailure> {
         let (rows, count) = Rows::of(tangent.blocks);
+        let rows = Arc::new(rows);
+        Preconditioner::again(Factored { rows, count }, tangent)
+    }
+
+    /// What it was made of beside the bodies.
+    pub fn factored(&self) -> Factored {
+        Factored {
+            rows: Arc::clone(&self.rows),
+            count: self.count,
+        }
+    }
+
+    /// Factors the tangent of an iteration before; the blocks of the one given play no part.
+    pub fn again(factored: Factored, tangent: &Tangent) -> Result<Preconditioner, StepFailure> {
+        let Factored { rows, count } = factored;
         let springs: Vec<(f64, Vec<f64>)> = tangent
             .springs
             .iter()
@@ -63,14 +89,14 @@ impl Preconditioner {
         let (y, beta) = v.split_at_mut(tangent.active.len());
         let u = tangent.apply_compliance(y, precision);
         let mut q = vec![0.0; self.count + self.springs.len()];
-        for rows in &self.rows {
+        for rows in self.rows.iter() {
             rows.apply_changes(&u, &mut q);
         }
         for (k, (sigma, z)) in self.springs.iter().enumerate() {
             q[self.count + k] = beta[k] + sigma * dot(z, y);
         }
         self.lu.solve(&mut q);
-        for rows in &self.rows {
+        for rows in self.rows.iter() {
             rows.subtract_forces(&q, y);
         }
         beta.copy_from_slice(&q[self.count..]);

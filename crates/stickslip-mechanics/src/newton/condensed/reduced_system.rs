@@ -2,7 +2,7 @@
 
 use super::active::{Active, Placed};
 use super::condensation::Condensation;
-use super::preconditioner::{Preconditioner, SMALL};
+use super::preconditioner::{Factored, Preconditioner, SMALL};
 use super::tangent::{Precision, Spring, Tangent};
 use crate::linear::{GmresSettings, gmres};
 use crate::math::vector::norm;
@@ -95,7 +95,55 @@ impl Attempt {
     }
 }
 
+/// What a [`ReducedSystem`] was made of: enough to make it again, with the same bits.
+#[derive(Debug, Clone, Default)]
+pub struct ReducedRecipe {
+    active: Option<Vec<usize>>,
+    factored: Option<Factored>,
+}
+
+crate::keep!(ReducedRecipe { active, factored });
+
 impl ReducedSystem {
+    /// What it was made of.
+    pub fn recipe(&self) -> ReducedRecipe {
+        ReducedRecipe {
+            active: self.active.as_ref().map(|a| a.list.clone()),
+            factored: self.preconditioner.as_ref().map(Preconditioner::factored),
+        }
+    }
+
+    /// Makes it again.
+    ///
+    /// # Errors
+    /// As when it was made first.
+    pub fn again(recipe: ReducedRecipe, condensation: &Condensation) -> Result<Self, StepFailure> {
+        let Some(list) = recipe.active else {
+            return Ok(ReducedSystem::default());
+        };
+        let mut touched = vec![false; condensation.size()];
+        for i in list {
+            // A list of other bodies would be one of another problem.
+            if let Some(touched) = touched.get_mut(i) {
+                *touched = true;
+            }
+        }
+        let active = Active::new(condensation, &touched);
+        let springs = springs(condensation);
+        let tangent = Tangent {
+            condensation,
+            active: &active,
+            blocks: &[],
+            springs: &springs,
+        };
+        let make = |factored| Preconditioner::again(factored, &tangent);
+        let preconditioner = recipe.factored.map(make).transpose()?;
+        Ok(ReducedSystem {
+            active: Some(active),
+            preconditioner,
+        })
+    }
+
     /// Forgets everything: the bodies have changed.
     pub fn clear(&mut self) {
         *self = ReducedSystem::default();

@@ -88,3 +88,10 @@ pub(super) fn at_active<'a>(
         .filter(|(at, _)| **at != NONE)
         .map(|(&at, &value)| (at as usize, value))
 }
+
+crate::keep!(Rows {
+    at,
+    first,
+    gradients,
+    changes
+});

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::keep::{Broken, Keep, Kept};
+
 /// Makes [`DoctorCause`] of rows: meaning, variant, name in files, and `mistake` where advice about how a model is solved does not help.
 macro_rules! causes {
     ($($(#[doc = $meaning:literal])+ $cause:ident = $name:literal $($mistake:ident)?,)*) => {
@@ -142,6 +144,18 @@ impl DoctorCause {
 impl fmt::Display for DoctorCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
+    }
+}
+
+impl Keep for DoctorCause {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.name().to_string().keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let name = String::back(from)?;
+        let mut all = DoctorCause::ALL.iter();
+        all.find(|c| c.name() == name).copied().ok_or(Broken)
     }
 }
 

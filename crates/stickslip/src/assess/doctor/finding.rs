@@ -237,6 +237,28 @@ impl fmt::Display for Finding {
     }
 }
 
+crate::keep!(Severity[Note, Warning, Error]);
+crate::keep!(What[Node, Facet, Cell, Body, Interface, Key]);
+crate::keep!(Guilty {
+    what,
+    name,
+    id,
+    body,
+    interface,
+    position,
+    remark
+});
+crate::keep!(Finding {
+    cause,
+    severity,
+    message,
+    guilty,
+    tried,
+    advice,
+    step,
+    time
+});
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -129,3 +129,12 @@ fn coarse(interface: &Interface, watch: &Watch) -> Option<Finding> {
     );
     Some(finding)
 }
+
+crate::keep!(Watch {
+    force,
+    time,
+    resolution,
+    acted,
+    turn,
+    turned_at
+});

@@ -157,6 +157,10 @@ impl Problem {
                 every: self.output.every,
                 times: self.output.times.clone(),
                 history_every: self.output.history_every,
+                checkpoint: (
+                    self.output.checkpoint.increments,
+                    60.0 * self.output.checkpoint.minutes,
+                ),
             },
             settings: Settings {
                 tolerance: self.solver.tolerance,

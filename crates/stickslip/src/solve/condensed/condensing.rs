@@ -67,7 +67,7 @@ impl Solver {
     }
 
     /// Factors the bodies with one of their matrices, as far as the library does not have them; `None` where the analysis goes on with the sparse matrix.
-    pub(super) fn condensation(
+    pub(in crate::solve) fn condensation(
         &mut self,
         model: &Model,
         frame: &Frame,
@@ -122,6 +122,10 @@ impl Solver {
         match which {
             Which::Stiffness => &self.stiffness,
             Which::Increment => in_motion(&self.inertia).matrix().0,
+            Which::Of(key) => {
+                let kept = in_motion(&self.inertia).matrix_of(key);
+                kept.expect("bodies in motion go with their matrix")
+            }
         }
     }
 

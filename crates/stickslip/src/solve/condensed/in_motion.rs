@@ -42,12 +42,16 @@ impl Solver {
                 };
                 Moving {
                     key,
+                    kept: self.condenser.kept.clone().unwrap_or_default(),
                     condensation,
                     reduced: ReducedSystem::default(),
                 }
             }
         };
         let moving = &mut self.condenser.moving;
+        // Those of a matrix that is gone cannot be asked for again.
+        let inertia = in_motion(&self.inertia);
+        moving.retain(|m| inertia.matrix_of(m.key).is_some());
         if moving.len() == MOST_CONDENSED {
             moving.remove(0);
         }

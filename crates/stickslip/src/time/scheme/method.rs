@@ -51,3 +51,10 @@ pub trait Scheme: Send + Sync {
     /// What is wrong with the parameters, as `(key, message)`; empty if nothing.
     fn faults(&self) -> Vec<(&'static str, String)>;
 }
+
+crate::keep!(Alphas {
+    alpha_m,
+    alpha_f,
+    beta,
+    gamma
+});

@@ -20,7 +20,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
     (
         "stickslip_base",
         &[
-            &["error", "machine", "math", "references", "registry"],
+            &["error", "keep", "machine", "math", "references", "registry"],
             &["linear"],
         ],
     ),

@@ -58,6 +58,7 @@ impl Observer for Record {
             | Event::Note(_)
             | Event::Finding(_)
             | Event::Output
+            | Event::Checkpoint(_)
             | Event::End => {}
         }
         Ok(())

@@ -1,0 +1,329 @@
+//! State as bytes and back, to the bit: what a checkpoint is written with.
+//!
+//! A struct names its fields once, in [`keep!`](crate::keep); a field that is left out does not compile. Numbers are little-endian, floats keep
+//! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by the program
+//! that wrote them, and who stores them adds a version and a digest. A general format was considered; those that serde feeds either skip what is
+//! skipped in `summary.json`, which here must not be, or lose the bits of NaN.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Bytes that are read from the front.
+#[derive(Debug)]
+pub struct Kept<'a> {
+    bytes: &'a [u8],
+}
+
+/// Bytes that do not hold what is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Broken;
+
+/// State that can be written and read back.
+pub trait Keep: Sized {
+    /// Appends it.
+    fn keep(&self, out: &mut Vec<u8>);
+
+    /// Takes it from the front.
+    ///
+    /// # Errors
+    /// [`Broken`] where the bytes end too early or cannot be what is asked for.
+    fn back(from: &mut Kept) -> Result<Self, Broken>;
+}
+
+impl<'a> Kept<'a> {
+    /// These bytes.
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Kept { bytes }
+    }
+
+    /// Whether all of them have been read.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    /// What has not been read.
+    pub fn rest(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], Broken> {
+        let (taken, rest) = self.bytes.split_at_checked(count).ok_or(Broken)?;
+        self.bytes = rest;
+        Ok(taken)
+    }
+}
+
+/// Says of a struct, by naming all of its fields, or of an enum of names, by naming all of them, that it can be kept. What follows `and` is made again.
+#[macro_export]
+macro_rules! keep {
+    ($name:ty { $($field:ident),* $(,)? }) => {
+        impl $crate::keep::Keep for $name {
+            fn keep(&self, out: &mut Vec<u8>) {
+                let Self { $($field),* } = self;
+                $($crate::keep::Keep::keep($field, out);)*
+            }
+
+            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
+                Ok(Self { $($field: $crate::keep::Keep::back(from)?),* })
+            }
+        }
+    };
+    // Fields that are made again.
+    ($name:ty { $($field:ident),* $(,)? } and { $($again:ident: $value:expr),* $(,)? }) => {
+        impl $crate::keep::Keep for $name {
+            fn keep(&self, out: &mut Vec<u8>) {
+                let Self { $($field,)* $($again: _),* } = self;
+                $($crate::keep::Keep::keep($field, out);)*
+            }
+
+            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
+                Ok(Self { $($field: $crate::keep::Keep::back(from)?,)* $($again: $value),* })
+            }
+        }
+    };
+    ($name:ty [ $($variant:ident),* $(,)? ]) => {
+        impl $crate::keep::Keep for $name {
+            fn keep(&self, out: &mut Vec<u8>) {
+                let all = [$((Self::$variant, matches!(self, Self::$variant))),*];
+                let at = all.iter().position(|(_, is)| *is);
+                out.push(at.unwrap_or(usize::from(u8::MAX)) as u8);
+            }
+
+            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
+                // A new variant has to be named here.
+                let _ = |one: Self| match one { $(Self::$variant => ()),* };
+                let at: u8 = $crate::keep::Keep::back(from)?;
+                let all = [$(Self::$variant),*];
+                all.into_iter().nth(usize::from(at)).ok_or($crate::keep::Broken)
+            }
+        }
+    };
+}
+
+macro_rules! keep_numbers {
+    ($($number:ty),*) => { $(
+        impl Keep for $number {
+            fn keep(&self, out: &mut Vec<u8>) {
+                out.extend_from_slice(&self.to_le_bytes());
+            }
+
+            fn back(from: &mut Kept) -> Result<Self, Broken> {
+                let bytes = from.take(size_of::<$number>())?;
+                Ok(<$number>::from_le_bytes(bytes.try_into().map_err(|_| Broken)?))
+            }
+        }
+    )* };
+}
+
+keep_numbers!(u8, u32, u64, i32, f64);
+
+impl Keep for usize {
+    fn keep(&self, out: &mut Vec<u8>) {
+        (*self as u64).keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        usize::try_from(u64::back(from)?).map_err(|_| Broken)
+    }
+}
+
+impl Keep for bool {
+    fn keep(&self, out: &mut Vec<u8>) {
+        out.push(u8::from(*self));
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        match u8::back(from)? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(Broken),
+        }
+    }
+}
+
+impl Keep for String {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.len().keep(out);
+        out.extend_from_slice(self.as_bytes());
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let count = usize::back(from)?;
+        let bytes = from.take(count)?.to_vec();
+        String::from_utf8(bytes).map_err(|_| Broken)
+    }
+}
+
+impl Keep for &'static str {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.to_string().keep(out);
+    }
+
+    /// Names are those of the program, a few and short: one that is read stays for as long as the process.
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        Ok(String::leak(String::back(from)?))
+    }
+}
+
+impl<T: Keep> Keep for Option<T> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.is_some().keep(out);
+        if let Some(value) = self {
+            value.keep(out);
+        }
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        match bool::back(from)? {
+            true => Ok(Some(T::back(from)?)),
+            false => Ok(None),
+        }
+    }
+}
+
+impl<T: Keep> Keep for Vec<T> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.len().keep(out);
+        self.iter().for_each(|value| value.keep(out));
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let count = usize::back(from)?;
+        // No more room than there are bytes: a length may be wrong.
+        let mut out = Vec::with_capacity(count.min(from.bytes.len()));
+        for _ in 0..count {
+            out.push(T::back(from)?);
+        }
+        Ok(out)
+    }
+}
+
+impl<T: Keep> Keep for Arc<T> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.as_ref().keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        T::back(from).map(Arc::new)
+    }
+}
+
+impl<T: Keep, const N: usize> Keep for [T; N] {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.iter().for_each(|value| value.keep(out));
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let mut all = Vec::with_capacity(N);
+        for _ in 0..N {
+            all.push(T::back(from)?);
+        }
+        all.try_into().map_err(|_| Broken)
+    }
+}
+
+impl<A: Keep, B: Keep> Keep for (A, B) {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.0.keep(out);
+        self.1.keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        Ok((A::back(from)?, B::back(from)?))
+    }
+}
+
+impl<A: Keep, B: Keep, C: Keep> Keep for (A, B, C) {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.0.keep(out);
+        self.1.keep(out);
+        self.2.keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        Ok((A::back(from)?, B::back(from)?, C::back(from)?))
+    }
+}
+
+impl<A: Keep + Ord, B: Keep> Keep for BTreeMap<A, B> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.len().keep(out);
+        for (key, value) in self {
+            key.keep(out);
+            value.keep(out);
+        }
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        let all: Vec<(A, B)> = Vec::back(from)?;
+        Ok(all.into_iter().collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, PartialEq)]
+    enum Name {
+        One,
+        Other,
+    }
+
+    #[derive(Debug, PartialEq)]
+    struct Some {
+        bits: Vec<u64>,
+        name: Option<Name>,
+        by: BTreeMap<String, (usize, bool)>,
+        all: [i32; 3],
+    }
+
+    keep!(Name[One, Other]);
+    keep!(Some {
+        bits,
+        name,
+        by,
+        all
+    });
+
+    fn some() -> Some {
+        Some {
+            bits: vec![f64::NAN.to_bits() | 5, (-0.0_f64).to_bits()],
+            name: Option::Some(Name::Other),
+            by: [("é".to_string(), (7, true))].into(),
+            all: [-1, 0, 1],
+        }
+    }
+
+    #[test]
+    fn what_was_kept_comes_back() {
+        let mut bytes = Vec::new();
+        some().keep(&mut bytes);
+        let mut kept = Kept::new(&bytes);
+        assert_eq!(Some::back(&mut kept), Ok(some()));
+        assert!(kept.is_empty());
+    }
+
+    #[test]
+    fn floats_keep_every_bit() {
+        let odd = f64::from_bits(f64::NAN.to_bits() | 5);
+        let mut bytes = Vec::new();
+        vec![odd, -0.0, 5e-324, f64::NEG_INFINITY].keep(&mut bytes);
+        let back = Vec::<f64>::back(&mut Kept::new(&bytes)).unwrap_or_default();
+        let bits: Vec<u64> = back.iter().map(|x| x.to_bits()).collect();
+        let same = [odd, -0.0, 5e-324, f64::NEG_INFINITY].map(f64::to_bits);
+        assert_eq!(bits, same);
+    }
+
+    #[test]
+    fn bytes_cut_anywhere_are_refused() {
+        let mut bytes = Vec::new();
+        some().keep(&mut bytes);
+        for end in 0..bytes.len() {
+            assert_eq!(Some::back(&mut Kept::new(&bytes[..end])), Err(Broken));
+        }
+        // A length of nearly all the memory there is.
+        let long = u64::MAX.to_le_bytes();
+        assert_eq!(Vec::<u8>::back(&mut Kept::new(&long)), Err(Broken));
+    }
+}

@@ -1,0 +1,116 @@
+use std::path::{Path, PathBuf};
+
+use stickslip::Error;
+use stickslip::error::IoError;
+use stickslip::newton::condensed::Library;
+use stickslip::problem::{Document, changed_keys};
+use stickslip::results::{ResultFiles, Saved, Source};
+use stickslip::run::{Checkpoint, Simulation};
+
+use super::run::{Manner, Session, claim, go, stem};
+use super::{library, use_threads};
+use crate::failure::{Failure, Outcome};
+use crate::input::Input;
+use crate::voice::{Heartbeat, Voice};
+
+/// Go on with an analysis that was stopped or killed, from its last checkpoint.
+///
+/// Results are those, to the last bit, of a run that was never stopped. The problem is `problem.toml` in the folder of results, where the
+/// duration of the step at hand, later steps, `output` and `title` may be changed before.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The folder of results.
+    directory: PathBuf,
+    /// Go on from the checkpoint after N increments; the last one if not given.
+    #[arg(long, value_name = "N")]
+    from: Option<usize>,
+    /// Change a value that may be changed: path=value, for example step.0.duration=2.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// Goes on.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let manner = &arguments.manner;
+    use_threads(manner.threads, manner.quiet);
+    let voice = Voice::new();
+    voice.does("reading and assembling");
+    let heartbeat = manner.loud().then(|| Heartbeat::start(&voice));
+    let directory = &arguments.directory;
+    let (saved, notes) = Saved::find(directory, arguments.from)?;
+    for note in &notes {
+        crate::progress::say(note);
+    }
+    saved.check_inputs()?;
+    let input = open(&saved.source, directory, &arguments.set)?;
+    check_changes(&saved, &input)?;
+    let setup = input.build()?;
+    let cache = saved.source.cache.as_deref().map(Path::new);
+    let library = library(Library::small_limit(), cache)?;
+    let checkpoint = Checkpoint::from_bytes(&saved.snapshot.state).ok_or_else(|| {
+        Error::Io(IoError {
+            file: directory.clone(),
+            message: "the state in the checkpoint is one of another build of stickslip: resume with the build that wrote it".into(),
+        })
+    })?;
+    let simulation = Simulation::resume(setup, library, checkpoint)?;
+    let stem = stem(Path::new(&saved.source.file));
+    let source = Source {
+        problem: input.problem.to_toml().map_err(Error::Problem)?,
+        ..saved.source.clone()
+    };
+    let claim = claim(&input, &stem, source);
+    let files = ResultFiles::resume(directory, &claim, &saved)?;
+    if manner.loud() {
+        crate::progress::say(&format!(
+            "goes on after {} increments, at time {:.6e}",
+            saved.snapshot.increments, saved.snapshot.time
+        ));
+    }
+    go(
+        Session {
+            input,
+            simulation,
+            files,
+            directory: directory.clone(),
+            stem,
+            resumed: true,
+            voice,
+            heartbeat,
+            dump_failures: None,
+        },
+        manner,
+    )
+}
+
+/// The problem of the folder, or the deck that it was translated from.
+fn open(source: &Source, directory: &Path, set: &[String]) -> Result<Input, Failure> {
+    let file = Path::new(&source.file);
+    if crate::input::is_deck(file) {
+        let overrides: Vec<String> = source.overrides.iter().chain(set).cloned().collect();
+        return Input::open(file, &overrides);
+    }
+    let own = directory.join("problem.toml");
+    let document = match own.is_file() {
+        true => Document::read(&own)?,
+        false => Document::new(source.problem.clone(), None),
+    };
+    let document = document.with_overrides(set.to_vec());
+    let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+    Input::of(document, folder)
+}
+
+/// Refuses what cannot change in the middle of a run.
+fn check_changes(saved: &Saved, input: &Input) -> Result<(), Failure> {
+    let before = Document::new(saved.source.problem.clone(), None);
+    let before = before.problem().map_err(Error::Problem)?;
+    let snapshot = &saved.snapshot;
+    let at = (snapshot.step, snapshot.ended);
+    let findings = changed_keys(&before, &input.problem, at, snapshot.time);
+    match findings.is_empty() {
+        true => Ok(()),
+        false => Err(Error::Problem(input.document.error(findings)).into()),
+    }
+}

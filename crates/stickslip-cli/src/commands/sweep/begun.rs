@@ -1,0 +1,75 @@
+//! What a sweep was begun with: a file beside its table as long as the sweep goes on, by which one that goes on later knows that it is the same.
+
+use std::path::{Path, PathBuf};
+
+use stickslip::Error;
+use stickslip::error::IoError;
+use stickslip::io::write_atomically;
+use stickslip::problem::Document;
+use stickslip::results::digest_of;
+
+use super::plan::Plan;
+
+/// What a sweep was begun with.
+pub struct Begun {
+    path: PathBuf,
+    table: PathBuf,
+    text: String,
+}
+
+impl Begun {
+    /// That of a sweep: the digests of its files and the values of its first run.
+    pub fn of(file: &Path, case: &Document, plan: &Plan, table: &Path) -> Result<Begun, Error> {
+        let mut path = table.as_os_str().to_owned();
+        path.push(".begun");
+        let mut text = String::new();
+        let mut files = vec![file.to_path_buf()];
+        // What is wrong with a problem is said of each of its runs.
+        if let Ok(problem) = plan.document(case, 0).problem() {
+            files = case.inputs(&problem);
+        }
+        for file in files.iter().filter(|f| f.is_file()) {
+            let [a, b] = digest_of(file)?;
+            text += &format!("{a:016x}{b:016x} {}\n", file.display());
+        }
+        text += &format!("{} runs\n{}\n", plan.count(), plan.fixed().join("\n"));
+        Ok(Begun {
+            path: path.into(),
+            table: table.to_path_buf(),
+            text,
+        })
+    }
+
+    /// Whether there is a table to go on with, which then is one of this sweep.
+    pub fn same(&self) -> Result<bool, Error> {
+        if !self.table.is_file() {
+            return Ok(false);
+        }
+        let fault = |message: &str| {
+            Err(Error::Io(IoError {
+                file: self.table.clone(),
+                message: message.into(),
+            }))
+        };
+        match std::fs::read_to_string(&self.path) {
+            Ok(text) if text == self.text => Ok(true),
+            Ok(_) => fault(
+                "the problem, a mesh or a fixed value has changed since this sweep began: rows of both do not belong in one table; run it anew into another file",
+            ),
+            Err(_) => fault(
+                "nothing beside this table says that its sweep goes on: it is complete, or its file `.begun` was removed; without `--resume` it is run anew",
+            ),
+        }
+    }
+
+    /// Leaves it beside the table.
+    pub fn write(&self) -> Result<(), Error> {
+        write_atomically(&self.path, self.text.as_bytes())
+    }
+
+    /// The sweep is complete.
+    pub fn end(&self) {
+        // What is left would only be told of when the sweep were to go on.
+        let _ = std::fs::remove_file(&self.path);
+    }
+}

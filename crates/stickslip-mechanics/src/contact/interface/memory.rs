@@ -1,0 +1,89 @@
+//! What an interface takes along from one attempt to the next beside its history: with both, another copy of it goes on with the same bits.
+
+use super::attempt::Attempt;
+use super::cache::Cache;
+use super::definition::{Interface, Primary};
+use super::directives::Directives;
+use super::evaluation::{Evaluations, Trace};
+use crate::math::Vec3;
+
+/// What an interface takes along beside its [`History`](super::History).
+///
+/// Of the [`Cache`] it is the places for which facets were looked for last, as which facets a point may meet follows from them, and they are as old as the
+/// search, not those of the accepted state; and of the last evaluation how fast tractions changed and which nodes
+/// took part, by which explicit increments get their length. All else that is kept there is made for every evaluation, or is a function of the definition.
+#[derive(Debug, Clone, Default)]
+pub struct Memory {
+    attempt: Attempt,
+    directives: Directives,
+    searched: Vec<Vec3>,
+    faces_searched: Vec<Vec3>,
+    /// Of the last evaluation what the length of an explicit increment follows from.
+    last: Vec<Trace>,
+    /// Pairs or integrals of the reference configuration were made.
+    paired: bool,
+}
+
+crate::keep!(Memory {
+    attempt,
+    directives,
+    searched,
+    faces_searched,
+    last,
+    paired
+});
+
+impl Interface {
+    /// What it takes along beside its history.
+    pub fn memory(&self) -> Memory {
+        Memory {
+            attempt: self.attempt.clone(),
+            directives: self.directives.clone(),
+            searched: self.cache.search.at().to_vec(),
+            faces_searched: self.cache.faces.at().to_vec(),
+            last: self.cache.last.traces(),
+            paired: self.kinematics.as_dyn().frozen()
+                && !(self.cache.frozen.is_empty() && self.cache.integrals.is_empty()),
+        }
+    }
+
+    /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an increment that ended
+    /// with displacements `u`.
+    pub fn remember(&mut self, memory: Memory, u: &[f64]) {
+        let Memory {
+            attempt,
+            directives,
+            searched,
+            faces_searched,
+            last,
+            paired,
+        } = memory;
+        self.attempt = attempt;
+        self.directives = directives;
+        self.cache = Cache::default();
+        let evaluated = !last.is_empty();
+        self.cache.last = Evaluations::of_traces(last);
+        self.lend(|interface, cache| {
+            if paired {
+                interface.pair_reference(cache);
+                interface.integrate(cache, false);
+            }
+            if cache.search.at() != searched.as_slice() {
+                cache.search = super::search::Search::default();
+                interface.search(&mut cache.search, &searched);
+            }
+            if let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary)
+                && !faces_searched.is_empty()
+                && cache.faces.at() != faces_searched.as_slice()
+            {
+                cache.faces = super::search::FaceSearch::default();
+                cache.faces.renew(&mortar.faces, facets, &faces_searched);
+            }
+            // The weights of a mortar's points are those of the last evaluation.
+            if interface.mortar.is_some() && !paired && evaluated {
+                interface.coordinates_into(u, &mut cache.x);
+                interface.integrate(cache, false);
+            }
+        });
+    }
+}

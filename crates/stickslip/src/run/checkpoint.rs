@@ -1,0 +1,131 @@
+//! All state from which an analysis goes on, as plain data that can be written and read back.
+//!
+//! Between two increments an analysis consists of
+//!
+//! | what | where | in a checkpoint |
+//! |---|---|---|
+//! | the model and the definitions of interfaces and couplings | `Model`, `Contact` | built again from the problem |
+//! | laws that steps have changed | `Interface::laws` | changed again, step by step |
+//! | step, state, forces, starts of supports, direction, ledger | `Frame` | as it is |
+//! | histories of interfaces; multipliers, targets and holds of couplings | `History`, `CouplingsState` | as they are |
+//! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
+//! | increments that wait for their interiors | `Pending` | as they are |
+//! | how far the steps are: increments, attempts, the length that is wished | `Steps` | as it is |
+//! | damping forces and constraints of an explicit step | `ExplicitState` | as they are; masses, springs and frequencies made again |
+//! | the way to solve, candidates, condensed state and direction, floating bodies with their anchors, counts | `SolverState` | as they are |
+//! | factors, hierarchies, condensed bodies, load patterns, the matrices of increments in motion | `SolverState` | what they were made of |
+//! | figures, findings, notes, counts, the last row | `Summary`, `Watch` | as they are |
+//! | facets, boxes, evaluations, projections | `Cache` | nothing: functions of the above |
+//! | cells at probes, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
+//!
+//! Condensed increments that wait are in it only where a run is stopped: how many interiors are found together shows in their last digits. They are
+//! reported twice then, and who goes on cuts back what they left. Other checkpoints are taken where none waits.
+//!
+//! An attempt changes nothing of this but what is in [`Working`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
+//! the increment is tried again with the same bits.
+
+use super::queue::Pending;
+use crate::assess::doctor::Watch;
+use crate::body::couplings::CouplingsState;
+use crate::contact::interface::{History, Memory};
+use crate::integrate::explicit::ExplicitState;
+use crate::keep::{Keep, Kept};
+use crate::model::frame::Frame;
+use crate::results::summary::Summary;
+use crate::solve::state::SolverState;
+use crate::time::Pace;
+
+/// All state from which an analysis goes on.
+pub struct Checkpoint {
+    pub(super) frame: Frame,
+    pub(super) histories: Vec<History>,
+    pub(super) position: Position,
+    /// Increments that wait for their interiors; only where a run was stopped.
+    pub(super) pending: Vec<Pending>,
+    pub(super) summary: Summary,
+    pub(super) watches: Vec<Watch>,
+    pub(super) working: Working,
+}
+
+/// How far the steps are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Position {
+    pub next: usize,
+    pub running: Option<Standing>,
+}
+
+/// Where the increments of the step at hand stand: their length, how many were accepted, the attempt, and what [`Increments`] knows of the balance.
+///
+/// [`Increments`]: super::position::Increments
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Standing {
+    pub pace: Pace,
+    pub accepted: usize,
+    pub attempt: usize,
+    pub opened: Option<(f64, i32)>,
+    pub tight: bool,
+}
+
+/// The state that attempts change.
+#[derive(Clone)]
+pub(crate) struct Working {
+    pub(super) interfaces: Vec<Memory>,
+    pub(super) couplings: CouplingsState,
+    pub(super) explicit: Option<ExplicitState>,
+    pub(super) solver: SolverState,
+}
+
+crate::keep!(Checkpoint {
+    frame,
+    histories,
+    position,
+    pending,
+    summary,
+    watches,
+    working
+});
+crate::keep!(Position { next, running });
+crate::keep!(Standing {
+    pace,
+    accepted,
+    attempt,
+    opened,
+    tight
+});
+crate::keep!(Working {
+    interfaces,
+    couplings,
+    explicit,
+    solver
+});
+
+impl Checkpoint {
+    /// Its bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        self.keep(&mut out);
+        out
+    }
+
+    /// From its bytes; `None` where they are no checkpoint of this version of the program.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        let mut kept = Kept::new(bytes);
+        let checkpoint = Checkpoint::back(&mut kept).ok()?;
+        kept.is_empty().then_some(checkpoint)
+    }
+
+    /// The time it was taken at.
+    pub fn time(&self) -> f64 {
+        self.frame.state.t
+    }
+
+    /// Accepted increments.
+    pub fn increments(&self) -> usize {
+        self.summary.increments
+    }
+
+    /// The index of the step at hand, and whether it has ended.
+    pub fn step(&self) -> (usize, bool) {
+        (self.frame.step, self.position.running.is_none())
+    }
+}

@@ -1,0 +1,162 @@
+//! How a checkpoint is taken, and how an analysis goes on from one.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::checkpoint::{Checkpoint, Position, Working};
+use super::position::{Increments, Steps};
+use super::simulation::Simulation;
+use crate::contact::interface::History;
+use crate::error::{Error, RunError};
+use crate::integrate::explicit::{Explicit, ExplicitState};
+use crate::integrate::implicit::Implicit;
+use crate::integrate::integration::Integration;
+use crate::integrate::quasi_static::QuasiStatic;
+use crate::model::Setup;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::newton::condensed::Library;
+use crate::time::scheme::Method;
+
+impl Simulation {
+    /// All state from which the analysis goes on; `None` while increments wait for their report, and before the first step.
+    /// Where increments wait for their interiors they are part of it, and what is reported of them before they are made again is reported twice.
+    pub fn checkpoint(&self) -> Option<Checkpoint> {
+        let ready = self.steps.begun
+            && self.steps.next > 0
+            && self.recovered.is_none()
+            && self.taken_back.is_none()
+            && (self.steps.running.as_ref()).is_none_or(|r| r.failed.is_none());
+        ready.then(|| self.checkpoint_with(self.working()))
+    }
+
+    /// The same with another working state than that of now.
+    pub(super) fn checkpoint_with(&self, working: Working) -> Checkpoint {
+        let interfaces = self.contact.interfaces.iter();
+        Checkpoint {
+            frame: self.frame.clone(),
+            histories: interfaces.map(|i| i.history.clone()).collect(),
+            position: Position {
+                next: self.steps.next,
+                running: (self.steps.running.as_ref()).map(Increments::standing),
+            },
+            pending: self.pending.clone(),
+            summary: self.summary.clone(),
+            watches: self.watches.clone(),
+            working,
+        }
+    }
+
+    /// The state that attempts change.
+    pub(super) fn working(&self) -> Working {
+        let interfaces = self.contact.interfaces.iter();
+        Working {
+            interfaces: interfaces.map(|i| i.memory()).collect(),
+            couplings: self.contact.couplings.state(),
+            explicit: self.integration.explicit().map(Explicit::state),
+            solver: self.solver.state(),
+        }
+    }
+
+    /// An analysis that goes on from a checkpoint, with the bits of one that never stopped. `setup` is what the problem builds to; `library` as in
+    /// [`Simulation::with_library`].
+    ///
+    /// # Errors
+    /// [`Error::Run`] if the checkpoint is one of another model, or bodies cannot be factored again.
+    pub fn resume(
+        setup: Setup,
+        library: Arc<Library>,
+        checkpoint: Checkpoint,
+    ) -> Result<Self, Error> {
+        let mut simulation = Simulation::with_library(setup, library)?;
+        let Checkpoint {
+            frame,
+            histories,
+            position,
+            pending,
+            summary,
+            watches,
+            working,
+        } = checkpoint;
+        fits(&simulation, &frame, (&histories, &working))?;
+        let Simulation {
+            model,
+            contact,
+            solver,
+            ..
+        } = &mut simulation;
+        for step in &model.steps[..=frame.step] {
+            // Their energies are in the ledger.
+            contact.change_laws(step, |_| {});
+        }
+        for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
+            interface.history = history;
+        }
+        for (interface, memory) in contact.interfaces.iter_mut().zip(working.interfaces) {
+            interface.remember(memory, &frame.state.u);
+        }
+        contact.couplings.go_on_from(working.couplings);
+        let t = frame.state.t;
+        (solver.go_on_from(working.solver, model, &frame, contact)).map_err(|e| e.at(t))?;
+        simulation.integration = integration(&simulation.model, frame.step, working.explicit);
+        simulation.steps = Steps {
+            begun: true,
+            over: false,
+            next: position.next,
+            running: (position.running)
+                .map(|standing| Increments::at(&simulation.model.steps[frame.step], standing)),
+        };
+        simulation.frame = frame;
+        simulation.pending = pending;
+        simulation.summary = summary;
+        simulation.watches = watches;
+        simulation.started = Instant::now();
+        simulation.saved = (simulation.summary.increments, simulation.started);
+        Ok(simulation)
+    }
+}
+
+/// The integrator of a step that has begun.
+fn integration(model: &Model, step: usize, explicit: Option<ExplicitState>) -> Integration {
+    match (model.steps[step].dynamic, explicit) {
+        (Some(dynamic), explicit) => match (dynamic.method, explicit) {
+            (Method::Implicit(alphas), _) => Integration::Implicit(Implicit { dynamic, alphas }),
+            (method, Some(state)) => {
+                Integration::Explicit(Box::new(Explicit::again(model, method, state)))
+            }
+            (method, None) => Integration::Explicit(Box::new(Explicit::new(model, method))),
+        },
+        (None, _) => Integration::QuasiStatic(QuasiStatic),
+    }
+}
+
+/// Whether a checkpoint is one of this model, by all lengths that there are.
+fn fits(
+    simulation: &Simulation,
+    frame: &Frame,
+    (histories, working): (&[History], &Working),
+) -> Result<(), Error> {
+    let n = simulation.model.dofs.count();
+    let interfaces = simulation.contact.interfaces.len();
+    let fits = frame.state.u.len() == n
+        && frame.forces.len() == n
+        && frame.step < simulation.model.steps.len()
+        && histories.len() == interfaces
+        && working.interfaces.len() == interfaces
+        && fits_contact(&simulation.contact, histories);
+    match fits {
+        true => Ok(()),
+        false => Err(Error::Run(RunError {
+            message: "the checkpoint was taken of another model".into(),
+            time: frame.state.t,
+            culprits: Vec::new(),
+            help: Some("resume with the problem and the meshes of the run that was stopped".into()),
+        })),
+    }
+}
+
+fn fits_contact(contact: &Contact, histories: &[History]) -> bool {
+    let mut pairs = contact.interfaces.iter().zip(histories);
+    pairs.all(|(interface, history)| history.fits(interface.points.len()))
+}

@@ -1,0 +1,262 @@
+//! What a solver takes along from one attempt to the next: enough to make another one that goes on with the same bits.
+//!
+//! Factors, hierarchies and condensed bodies are large, and made again; but a factor is kept over iterations and increments, and GMRES with an older one comes
+//! to other last digits. So what each was made of is here: the dofs that were fixed, the contact that was put in, the loads that were swept.
+
+use super::condenser::{Condensed, Condenser, Moving, Which};
+use super::floating_bodies::Floating;
+use super::inertia::{Inertia, InertiaRecipe};
+use super::solver::Solver;
+use crate::linear::BlockCsr;
+use crate::model::contact::Contact;
+use crate::model::definition::{Model, Solution};
+use crate::model::frame::Frame;
+use crate::newton::condensed::{LoadPatterns, PatternsRecipe, ReducedRecipe, ReducedSystem};
+use crate::newton::{Factors, FactorsRecipe, Statistics};
+use crate::system::{Cause, State, StepFailure};
+
+/// What a solver takes along.
+#[derive(Clone)]
+pub(crate) struct SolverState {
+    method: Solution,
+    multigrid: bool,
+    notes: Vec<String>,
+    called: &'static str,
+    reason: String,
+    statistics: Statistics,
+    factors: FactorsRecipe,
+    inertia: Option<InertiaRecipe>,
+    keys: u64,
+    floating: Floating,
+    kept: Option<Vec<bool>>,
+    widened: usize,
+    decided: Option<Vec<bool>>,
+    largest_forces: f64,
+    at_rest: Option<AtRest>,
+    moving: Vec<InMotion>,
+}
+
+/// Where a quasi-static analysis of condensed bodies stands.
+#[derive(Clone)]
+struct AtRest {
+    bodies: Bodies,
+    patterns: PatternsRecipe,
+    state: State,
+    carried: Vec<f64>,
+    previous: Option<(f64, Vec<f64>, Vec<f64>)>,
+}
+
+/// Bodies that were condensed with the matrix of an increment in motion.
+#[derive(Clone)]
+struct InMotion {
+    key: u64,
+    bodies: Bodies,
+}
+
+/// What bodies were condensed for, and the factor of their contact.
+#[derive(Clone)]
+struct Bodies {
+    held: Vec<bool>,
+    kept: Vec<bool>,
+    reduced: ReducedRecipe,
+}
+
+crate::keep!(SolverState {
+    method,
+    multigrid,
+    notes,
+    called,
+    reason,
+    statistics,
+    factors,
+    inertia,
+    keys,
+    floating,
+    kept,
+    widened,
+    decided,
+    largest_forces,
+    at_rest,
+    moving
+});
+crate::keep!(AtRest {
+    bodies,
+    patterns,
+    state,
+    carried,
+    previous
+});
+crate::keep!(InMotion { key, bodies });
+crate::keep!(Bodies {
+    held,
+    kept,
+    reduced
+});
+
+impl Solver {
+    /// What it takes along.
+    pub fn state(&self) -> SolverState {
+        let Condenser {
+            library: _,
+            kept,
+            widened,
+            decided,
+            at_rest,
+            moving,
+            largest_forces,
+        } = &self.condenser;
+        SolverState {
+            method: self.method,
+            multigrid: self.factors.are_hierarchies(),
+            notes: self.log.notes.clone(),
+            called: self.log.method,
+            reason: self.log.reason.clone(),
+            statistics: self.newton.statistics,
+            factors: self.factors.recipe(&|key| self.matrix_of(key).is_some()),
+            inertia: self.inertia.as_ref().map(Inertia::recipe),
+            keys: self.keys,
+            floating: self.floating.clone(),
+            kept: kept.clone(),
+            widened: *widened,
+            decided: decided.clone(),
+            largest_forces: *largest_forces,
+            at_rest: at_rest.as_ref().map(|c| AtRest {
+                bodies: Bodies {
+                    held: c.condensation.held.clone(),
+                    kept: c.kept.clone(),
+                    reduced: c.reduced.recipe(),
+                },
+                patterns: c.patterns.recipe(),
+                state: c.state.clone(),
+                carried: c.carried.clone(),
+                previous: c.previous.clone(),
+            }),
+            // Those of a matrix that is gone are not asked for again.
+            moving: moving
+                .iter()
+                .filter(|m| self.matrix_of(m.key).is_some())
+                .map(|m| InMotion {
+                    key: m.key,
+                    bodies: Bodies {
+                        held: m.condensation.held.clone(),
+                        kept: m.kept.clone(),
+                        reduced: m.reduced.recipe(),
+                    },
+                })
+                .collect(),
+        }
+    }
+
+    /// Goes on with that, and makes again what it was made of. Of a solver of the same model.
+    pub fn go_on_from(
+        &mut self,
+        state: SolverState,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+    ) -> Result<(), StepFailure> {
+        let recipe = state.inertia;
+        self.inertia = recipe.map(|r| Inertia::again((model, contact), &self.stiffness, r));
+        // As it was when bodies were condensed: there is nothing to be decided.
+        self.method = Solution::Condensed;
+        self.condenser.at_rest = match state.at_rest {
+            Some(at_rest) => Some(self.condense_again(at_rest, model, frame, contact)?),
+            None => None,
+        };
+        self.condenser.moving.clear();
+        for InMotion { key, bodies } in state.moving {
+            let one = self.move_again(key, bodies, model, frame, contact)?;
+            self.condenser.moving.push(one);
+        }
+        let hierarchies = state.multigrid.then(|| model.places());
+        let matrix = |key| self.matrix_of(key);
+        let factors = Factors::again(state.factors, &matrix, &self.stiffness, hierarchies)?;
+        self.factors = factors;
+        self.method = state.method;
+        self.log.notes = state.notes;
+        self.log.method = state.called;
+        self.log.reason = state.reason;
+        self.newton.statistics = state.statistics;
+        self.keys = state.keys;
+        self.floating = state.floating;
+        self.condenser.kept = state.kept;
+        self.condenser.widened = state.widened;
+        self.condenser.decided = state.decided;
+        self.condenser.largest_forces = state.largest_forces;
+        Ok(())
+    }
+
+    /// The stiffness, or the matrix of an increment in motion as long as it is kept.
+    fn matrix_of(&self, key: u64) -> Option<&BlockCsr> {
+        match key {
+            0 => Some(&self.stiffness),
+            key => self.inertia.as_ref()?.matrix_of(key),
+        }
+    }
+
+    fn condense_again(
+        &mut self,
+        at_rest: AtRest,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+    ) -> Result<Condensed, StepFailure> {
+        let Bodies {
+            held,
+            kept,
+            reduced,
+        } = at_rest.bodies;
+        self.condenser.decided = Some(held.clone());
+        self.condenser.kept = Some(kept.clone());
+        let condensation = self
+            .condensation(model, frame, contact, &held, Which::Stiffness)
+            .ok_or_else(|| self.not_again())?;
+        let patterns = LoadPatterns::again(at_rest.patterns, &condensation, &self.stiffness);
+        Ok(Condensed {
+            reduced: ReducedSystem::again(reduced, &condensation)?,
+            patterns,
+            condensation,
+            kept,
+            state: at_rest.state,
+            carried: at_rest.carried,
+            previous: at_rest.previous,
+            found: None,
+        })
+    }
+
+    fn move_again(
+        &mut self,
+        key: u64,
+        bodies: Bodies,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+    ) -> Result<Moving, StepFailure> {
+        let Bodies {
+            held,
+            kept,
+            reduced,
+        } = bodies;
+        self.condenser.decided = Some(held.clone());
+        self.condenser.kept = Some(kept.clone());
+        let condensation = self
+            .condensation(model, frame, contact, &held, Which::Of(key))
+            .ok_or_else(|| self.not_again())?;
+        Ok(Moving {
+            key,
+            kept,
+            reduced: ReducedSystem::again(reduced, &condensation)?,
+            condensation,
+        })
+    }
+
+    /// Bodies that were condensed cannot be condensed again.
+    fn not_again(&self) -> StepFailure {
+        let why = self.log.notes.last().cloned().unwrap_or_default();
+        StepFailure::new(
+            Cause::Memory,
+            format!("the bodies that were condensed cannot be condensed again: {why}"),
+        )
+        .help("resume where as much memory is free as when the run began")
+    }
+}
