@@ -1,6 +1,6 @@
 //! State as bytes and back, to the bit: what a checkpoint is written with.
 //!
-//! A struct names its fields once, in [`keep!`](crate::keep); a field that is left out does not compile. Numbers are little-endian, floats keep
+//! A struct names its fields once, in [`keep!`](crate::keep!); a field that is left out does not compile. Numbers are little-endian, floats keep
 //! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by the program
 //! that wrote them, and who stores them adds a version and a digest. A general format was considered; those that serde feeds either skip what is
 //! skipped in `summary.json`, which here must not be, or lose the bits of NaN.
