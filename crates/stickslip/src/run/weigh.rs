@@ -29,12 +29,14 @@ impl Simulation {
         if self.step().dynamic.is_none() {
             return Ok(accepted);
         }
-        let interfaces = self.contact.interfaces.iter();
-        let histories = interfaces.map(|i| i.history.clone()).collect();
-        let before = (histories, self.contact.couplings.memory.clone());
+        let before = self.is_weighed().then(|| {
+            let interfaces = self.contact.interfaces.iter();
+            let histories = interfaces.map(|i| i.history.clone()).collect();
+            (histories, self.contact.couplings.memory.clone())
+        });
         let stage = accepted.stage(&self.frame.state, trial);
         self.contact.commit(&stage);
-        if self.is_weighed() {
+        if let Some(before) = before {
             let [opened, may] = self.opened(&accepted);
             let half = 0.5 * (trial.to - trial.from);
             if running.too_open(opened, may) && half >= self.step().increments.smallest {
