@@ -79,6 +79,18 @@ fn row(out: &mut String, head: &str, values: &[f64]) {
     out.push('\n');
 }
 
+/// Step and increment that stand last in a file.
+fn last_printed(text: &str) -> Option<(usize, usize)> {
+    let number = |line: &str, head: &str| -> Option<usize> {
+        line.trim().strip_prefix(head)?.trim().parse().ok()
+    };
+    let increment = |line| number(line, "INCREMENT");
+    let last = text.lines().rev().find_map(increment)?;
+    let step = |line| number(line, "S T E P");
+    let step = text.lines().rev().find_map(step)?;
+    Some((step, last))
+}
+
 impl Printer {
     /// A printer for a deck, or none if the deck prints nothing.
     pub fn new(translation: &Translation, path: &Path) -> Option<Self> {
@@ -111,7 +123,11 @@ impl Printer {
     /// [`Error::Io`] if it cannot be read.
     pub fn resume(self) -> Result<Self, Error> {
         let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
-        Ok(Printer { text, ..self })
+        Ok(Printer {
+            done: last_printed(&text),
+            text,
+            ..self
+        })
     }
 
     /// What was printed so far.

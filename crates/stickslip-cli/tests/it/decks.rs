@@ -106,3 +106,35 @@ fn check_reads_a_deck_for_those_who_solve_it_elsewhere() {
         );
     }
 }
+
+#[test]
+fn what_a_deck_prints_goes_on_where_it_was() {
+    let folder = folder("deck-goes-on");
+    let out = folder.join("out");
+    let mut words: Vec<String> = ["run", "-q", "--output"].map(String::from).to_vec();
+    words.extend([
+        out.display().to_string(),
+        deck("slide.inp").display().to_string(),
+    ]);
+    for value in [
+        "step.0.increments={ fixed = 4 }",
+        "step.1.increments={ fixed = 6 }",
+        "output.checkpoint.increments=1",
+        "solver.method=sparse",
+    ] {
+        words.extend(["--set".to_string(), value.to_string()]);
+    }
+    let output = stickslip(&words);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let files = ["slide.dat", "slide.sta", "history.csv"];
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap_or_default();
+    let whole = files.map(read);
+    let results = out.display().to_string();
+    let words = ["resume", results.as_str(), "-q", "--from", "9"];
+    let output = stickslip(&words);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for (name, before) in files.iter().zip(&whole) {
+        assert!(read(name) == *before, "{name} differs");
+    }
+    assert_eq!(whole[0].matches("S T E P").count(), 2);
+}
