@@ -5,7 +5,7 @@
 //! that wrote them, and who stores them adds a version and a digest. A general format was considered; those that serde feeds either skip what is
 //! skipped in `summary.json`, which here must not be, or lose the bits of NaN.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 /// Bytes that are read from the front.
@@ -53,7 +53,7 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Says of a struct, by naming all of its fields, or of an enum of names, by naming all of them, that it can be kept. What follows `and` is made again.
+/// Says of a struct, by naming all of its fields, or of an enum, by naming all of its variants, that it can be kept. What follows `and` is made again.
 #[macro_export]
 macro_rules! keep {
     ($name:ty { $($field:ident),* $(,)? }) => {
@@ -81,20 +81,29 @@ macro_rules! keep {
             }
         }
     };
-    ($name:ty [ $($variant:ident),* $(,)? ]) => {
+    // Variants by their place in this list; what they carry is named in brackets. The list is the only one: a variant that it lacks does not compile.
+    ($name:ty [ $($variant:ident $(( $($carried:ident),+ ))?),* $(,)? ]) => {
         impl $crate::keep::Keep for $name {
             fn keep(&self, out: &mut Vec<u8>) {
-                let all = [$((Self::$variant, matches!(self, Self::$variant))),*];
-                let at = all.iter().position(|(_, is)| *is);
-                out.push(at.unwrap_or(usize::from(u8::MAX)) as u8);
+                let names = [$(stringify!($variant)),*];
+                let place = |name: &str| names.iter().position(|one| *one == name);
+                match self { $(
+                    Self::$variant $(( $($carried),+ ))? => {
+                        out.push(place(stringify!($variant)).unwrap_or(usize::from(u8::MAX)) as u8);
+                        $($($crate::keep::Keep::keep($carried, out);)+)?
+                    }
+                )* }
             }
 
             fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
-                // A new variant has to be named here.
-                let _ = |one: Self| match one { $(Self::$variant => ()),* };
+                let names = [$(stringify!($variant)),*];
                 let at: u8 = $crate::keep::Keep::back(from)?;
-                let all = [$(Self::$variant),*];
-                all.into_iter().nth(usize::from(at)).ok_or($crate::keep::Broken)
+                let name = names.get(usize::from(at)).copied();
+                $(if name == Some(stringify!($variant)) {
+                    $($(let $carried = $crate::keep::Keep::back(from)?;)+)?
+                    return Ok(Self::$variant $(( $($carried),+ ))?);
+                })*
+                Err($crate::keep::Broken)
             }
         }
     };
@@ -190,11 +199,33 @@ impl<T: Keep> Keep for Vec<T> {
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         let count = usize::back(from)?;
         // No more room than there are bytes: a length may be wrong.
-        let mut out = Vec::with_capacity(count.min(from.bytes.len()));
+        let most = from.bytes.len() / size_of::<T>().max(1);
+        let mut out = Vec::with_capacity(count.min(most));
         for _ in 0..count {
             out.push(T::back(from)?);
         }
         Ok(out)
+    }
+}
+
+impl<T: Keep> Keep for VecDeque<T> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.len().keep(out);
+        self.iter().for_each(|value| value.keep(out));
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        Vec::back(from).map(VecDeque::from)
+    }
+}
+
+impl<T: Keep> Keep for Box<T> {
+    fn keep(&self, out: &mut Vec<u8>) {
+        self.as_ref().keep(out);
+    }
+
+    fn back(from: &mut Kept) -> Result<Self, Broken> {
+        T::back(from).map(Box::new)
     }
 }
 
@@ -267,6 +298,7 @@ mod tests {
     #[derive(Debug, PartialEq)]
     enum Name {
         One,
+        Both(usize, [f64; 2]),
         Other,
     }
 
@@ -278,7 +310,7 @@ mod tests {
         all: [i32; 3],
     }
 
-    keep!(Name[One, Other]);
+    keep!(Name[One, Both(count, values), Other]);
     keep!(Some {
         bits,
         name,
@@ -302,6 +334,19 @@ mod tests {
         let mut kept = Kept::new(&bytes);
         assert_eq!(Some::back(&mut kept), Ok(some()));
         assert!(kept.is_empty());
+    }
+
+    #[test]
+    fn every_variant_comes_back_with_what_it_carries() {
+        let all = [Name::One, Name::Both(3, [0.5, -0.0]), Name::Other];
+        for one in all {
+            let mut bytes = Vec::new();
+            one.keep(&mut bytes);
+            let mut kept = Kept::new(&bytes);
+            assert_eq!(Name::back(&mut kept), Ok(one));
+            assert!(kept.is_empty());
+        }
+        assert_eq!(Name::back(&mut Kept::new(&[3])), Err(Broken));
     }
 
     #[test]

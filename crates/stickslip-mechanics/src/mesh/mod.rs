@@ -61,3 +61,20 @@ pub struct FacetRef {
     /// Which of its faces.
     pub face: usize,
 }
+
+crate::keep!(Mesh {
+    dim,
+    points,
+    point_ids,
+    blocks,
+    point_sets,
+    cell_sets,
+    facet_sets
+});
+crate::keep!(Block {
+    kind,
+    connectivity,
+    cell_ids
+});
+crate::keep!(CellRef { block, cell });
+crate::keep!(FacetRef { cell, face });

@@ -33,6 +33,10 @@ pub enum ElementKind {
     Wedge15,
 }
 
+crate::keep!(ElementKind[
+    Line2, Line3, Tri3, Tri6, Quad4, Quad8, Tet4, Tet10, Hex8, Hex20, Wedge6, Wedge15
+]);
+
 /// Most nodes any element has.
 pub const MAX_NODES: usize = 20;
 

@@ -468,3 +468,25 @@ crate::keep!(Gate {
     figures,
     tracks
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_figure_comes_back_as_what_it_was() {
+        let mut gate = Gate::default();
+        for kind in figures::ALL {
+            gate.note(kind, "model", [2.0, 1.0], 0.5, 0.25);
+        }
+        gate.settle();
+        let mut bytes = Vec::new();
+        gate.keep(&mut bytes);
+        let back = Gate::back(&mut Kept::new(&bytes)).expect("its bytes");
+        let known = |gate: &Gate| format!("{:?}", gate.figures);
+        assert_eq!(known(&back), known(&gate));
+        for (a, b) in back.figures.iter().zip(&gate.figures) {
+            assert!(std::ptr::eq(a.kind, b.kind), "{}", a.figure);
+        }
+    }
+}

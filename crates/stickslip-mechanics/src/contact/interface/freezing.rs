@@ -7,7 +7,6 @@
 
 use super::evaluation::{Evaluation, components};
 use crate::contact::response::{Frozen, Status};
-use crate::keep::{Broken, Keep, Kept};
 use crate::math::{Vec3, dot};
 
 /// Changes of status or reversals of slip after which a point is frozen.
@@ -162,23 +161,4 @@ crate::keep!(StatusRecord {
     closed
 });
 
-impl Keep for Choice {
-    fn keep(&self, out: &mut Vec<u8>) {
-        let (kind, shear) = match *self {
-            Choice::Open => (0_u8, [0.0; 3]),
-            Choice::Stick => (1, [0.0; 3]),
-            Choice::Slip(shear) => (2, shear),
-        };
-        (kind, shear).keep(out);
-    }
-
-    fn back(from: &mut Kept) -> Result<Self, Broken> {
-        let (kind, shear): (u8, Vec3) = Keep::back(from)?;
-        match kind {
-            0 => Ok(Choice::Open),
-            1 => Ok(Choice::Stick),
-            2 => Ok(Choice::Slip(shear)),
-            _ => Err(Broken),
-        }
-    }
-}
+crate::keep!(Choice[Open, Stick, Slip(shear)]);

@@ -176,6 +176,15 @@ mod tests {
     }
 
     #[test]
+    fn every_cause_comes_back_as_what_it_was() {
+        for cause in DoctorCause::ALL {
+            let mut bytes = Vec::new();
+            cause.keep(&mut bytes);
+            assert_eq!(DoctorCause::back(&mut Kept::new(&bytes)), Ok(*cause));
+        }
+    }
+
+    #[test]
     fn every_cause_has_a_row_in_the_book() {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../book/src/doctor.md");
         let page = std::fs::read_to_string(page).expect("the page of the doctor");
