@@ -20,6 +20,16 @@ pub struct Progress {
     pub strategy: Strategy,
 }
 
+crate::keep!(Progress {
+    iteration,
+    round,
+    residual,
+    step,
+    krylov,
+    tally,
+    strategy
+});
+
 /// An equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Converged {

@@ -124,3 +124,47 @@ impl StepFailure {
         }
     }
 }
+
+crate::keep!(Cause[
+    NotConverged,
+    NotFinite,
+    Singular,
+    LinearSolver,
+    Interior,
+    CollapsedCell,
+    TooFar,
+    Reach,
+    Event,
+    Memory,
+    Interrupted
+]);
+crate::keep!(Culprit {
+    place,
+    what,
+    evidence
+});
+crate::keep!(Evidence {
+    interface,
+    node,
+    points,
+    position,
+    normal,
+    flips,
+    course,
+    left,
+    slip,
+    facet,
+    cell,
+    gap,
+    pressure,
+    shear,
+    limit,
+    kink
+});
+crate::keep!(StepFailure {
+    cause,
+    message,
+    culprits,
+    help,
+    dof
+});

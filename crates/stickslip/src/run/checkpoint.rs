@@ -9,7 +9,7 @@
 //! | step, state, forces, starts of supports, direction, ledger | `Frame` | as it is |
 //! | histories of interfaces; multipliers, targets and holds of couplings | `History`, `CouplingsState` | as they are |
 //! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
-//! | increments that wait for their interiors | `Pending` | as they are |
+//! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Recovered`, `Failed` | as they are |
 //! | how far the steps are: increments, attempts, the length that is wished | `Steps` | as it is |
 //! | damping forces and constraints of an explicit step | `ExplicitState` | as they are; masses, springs and frequencies made again |
 //! | the way to solve, candidates, condensed state and direction, floating bodies with their anchors, counts | `SolverState` | as they are |
@@ -18,19 +18,23 @@
 //! | facets, boxes, evaluations, projections | `Cache` | nothing: functions of the above |
 //! | cells at probes, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
 //!
-//! Condensed increments that wait are in it only where a run is stopped: how many interiors are found together shows in their last digits. They are
-//! reported twice then, and who goes on cuts back what they left. Other checkpoints are taken where none waits.
+//! Condensed increments that wait are in those that observers are handed only where a run is stopped: how many interiors are found together shows in
+//! their last digits. They are reported twice then, and who goes on cuts back what they left. Others are taken where none waits.
 //!
 //! An attempt changes nothing of this but what is in [`Working`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
 //! the increment is tried again with the same bits.
 
-use super::queue::Pending;
+use std::path::Path;
+
+use super::queue::{Failed, Pending, Recovered};
 use crate::assess::doctor::Watch;
 use crate::body::couplings::CouplingsState;
 use crate::contact::interface::{History, Memory};
+use crate::error::{Error, IoError};
 use crate::integrate::explicit::ExplicitState;
 use crate::keep::{Keep, Kept};
 use crate::model::frame::Frame;
+use crate::results::saved::Saved;
 use crate::results::summary::Summary;
 use crate::solve::state::SolverState;
 use crate::time::Pace;
@@ -40,30 +44,35 @@ pub struct Checkpoint {
     pub(super) frame: Frame,
     pub(super) histories: Vec<History>,
     pub(super) position: Position,
-    /// Increments that wait for their interiors; only where a run was stopped.
+    /// Increments that wait for their interiors.
     pub(super) pending: Vec<Pending>,
+    /// Those whose interiors are known and nobody has been told of.
+    pub(super) recovered: Option<Recovered>,
     pub(super) summary: Summary,
     pub(super) watches: Vec<Watch>,
     pub(super) working: Working,
 }
 
 /// How far the steps are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Position {
     pub next: usize,
     pub running: Option<Standing>,
+    /// The analysis has ended, well or not.
+    pub over: bool,
 }
 
 /// Where the increments of the step at hand stand: their length, how many were accepted, the attempt, and what [`Increments`] knows of the balance.
 ///
 /// [`Increments`]: super::position::Increments
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Standing {
     pub pace: Pace,
     pub accepted: usize,
     pub attempt: usize,
     pub opened: Option<(f64, i32)>,
     pub tight: bool,
+    pub failed: Option<Failed>,
 }
 
 /// The state that attempts change.
@@ -80,17 +89,23 @@ crate::keep!(Checkpoint {
     histories,
     position,
     pending,
+    recovered,
     summary,
     watches,
     working
 });
-crate::keep!(Position { next, running });
+crate::keep!(Position {
+    next,
+    running,
+    over
+});
 crate::keep!(Standing {
     pace,
     accepted,
     attempt,
     opened,
-    tight
+    tight,
+    failed
 });
 crate::keep!(Working {
     interfaces,
@@ -112,6 +127,19 @@ impl Checkpoint {
         let mut kept = Kept::new(bytes);
         let checkpoint = Checkpoint::back(&mut kept).ok()?;
         kept.is_empty().then_some(checkpoint)
+    }
+
+    /// That of a file in a folder of results.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if another build of the program, of the same version, wrote it.
+    pub fn of(saved: &Saved, directory: &Path) -> Result<Self, Error> {
+        Checkpoint::from_bytes(&saved.snapshot.state).ok_or_else(|| {
+            Error::Io(IoError {
+                file: directory.to_path_buf(),
+                message: "the state in the checkpoint is one of another build of stickslip: resume with the build that wrote it".into(),
+            })
+        })
     }
 
     /// The time it was taken at.

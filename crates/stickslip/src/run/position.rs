@@ -1,10 +1,9 @@
 //! How far an analysis has come.
 
 use super::checkpoint::Standing;
-use crate::assess::doctor;
+use super::queue::Failed;
 use crate::model::definition::Step;
-use crate::system::StepFailure;
-use crate::time::{Stepper, Trial};
+use crate::time::Stepper;
 
 /// How far an analysis has come.
 #[derive(Default)]
@@ -31,14 +30,6 @@ pub(super) struct Increments {
     pub(super) failed: Option<Failed>,
 }
 
-/// An attempt that failed.
-pub(super) struct Failed {
-    pub(super) trial: Trial,
-    /// Counts from before it.
-    pub(super) counters: doctor::Counters,
-    pub(super) failure: StepFailure,
-}
-
 impl Increments {
     pub fn of(step: &Step) -> Self {
         let stepper = Stepper::new(step.start, step.milestones.clone(), step.increments);
@@ -63,6 +54,7 @@ impl Increments {
             attempt: self.attempt,
             opened: self.opened,
             tight: self.tight,
+            failed: self.failed.clone(),
         }
     }
 
@@ -74,6 +66,7 @@ impl Increments {
             attempt,
             opened,
             tight,
+            failed,
         } = standing;
         let fresh = Increments::of(step);
         Increments {
@@ -82,7 +75,7 @@ impl Increments {
             attempt,
             opened,
             tight,
-            failed: None,
+            failed,
         }
     }
 }

@@ -1,7 +1,8 @@
-//! Accepted increments that wait for their interiors, or to be reported.
+//! What waits: accepted increments for their interiors, or to be reported, and an attempt that failed until they are.
 
 use std::collections::VecDeque;
 
+use crate::assess::doctor;
 use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::History;
 use crate::newton::Progress;
@@ -70,7 +71,6 @@ impl Pending {
     }
 }
 
-// Whoever goes on from it is told of iterations from there on.
 crate::keep!(Pending {
     trial,
     accepted,
@@ -78,15 +78,20 @@ crate::keep!(Pending {
     attempt,
     fields,
     row,
+    seen,
     histories,
     couplings,
     before,
     found
-} and {
-    seen: Vec::new(),
+});
+crate::keep!(Recovered {
+    queue,
+    now,
+    coupled
 });
 
 /// Increments whose interiors are known, on their way to the observers.
+#[derive(Clone)]
 pub(crate) struct Recovered {
     pub(super) queue: VecDeque<Pending>,
     /// The histories of the interfaces after the last of them.
@@ -102,3 +107,18 @@ pub(crate) struct TakenBack {
     pub(super) increment: usize,
     pub(super) failure: StepFailure,
 }
+
+/// An attempt that failed.
+#[derive(Clone)]
+pub(super) struct Failed {
+    pub(super) trial: Trial,
+    /// Counts from before it.
+    pub(super) counters: doctor::Counters,
+    pub(super) failure: StepFailure,
+}
+
+crate::keep!(Failed {
+    trial,
+    counters,
+    failure
+});

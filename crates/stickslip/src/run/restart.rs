@@ -20,14 +20,10 @@ use crate::newton::condensed::Library;
 use crate::time::scheme::Method;
 
 impl Simulation {
-    /// All state from which the analysis goes on; `None` while increments wait for their report, and before the first step.
-    /// Where increments wait for their interiors they are part of it, and what is reported of them before they are made again is reported twice.
+    /// All state from which the analysis goes on; `None` before the first step.
+    /// Increments that wait for their interiors or for their report are part of it: what is reported of them after it was taken, who goes on from it reports again.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let ready = self.steps.begun
-            && self.steps.next > 0
-            && self.recovered.is_none()
-            && self.taken_back.is_none()
-            && (self.steps.running.as_ref()).is_none_or(|r| r.failed.is_none());
+        let ready = self.steps.begun && self.steps.next > 0 && self.taken_back.is_none();
         ready.then(|| self.checkpoint_with(self.working()))
     }
 
@@ -40,8 +36,10 @@ impl Simulation {
             position: Position {
                 next: self.steps.next,
                 running: (self.steps.running.as_ref()).map(Increments::standing),
+                over: self.steps.over,
             },
             pending: self.pending.clone(),
+            recovered: self.recovered.clone(),
             summary: self.summary.clone(),
             watches: self.watches.clone(),
             working,
@@ -75,6 +73,7 @@ impl Simulation {
             histories,
             position,
             pending,
+            recovered,
             summary,
             watches,
             working,
@@ -102,13 +101,14 @@ impl Simulation {
         simulation.integration = integration(&simulation.model, frame.step, working.explicit);
         simulation.steps = Steps {
             begun: true,
-            over: false,
+            over: position.over,
             next: position.next,
             running: (position.running)
                 .map(|standing| Increments::at(&simulation.model.steps[frame.step], standing)),
         };
         simulation.frame = frame;
         simulation.pending = pending;
+        simulation.recovered = recovered;
         simulation.summary = summary;
         simulation.watches = watches;
         simulation.started = Instant::now();

@@ -1,10 +1,10 @@
 //! The way through the steps, an increment at a time: [`Simulation::advance`].
 
-use super::position::{Failed, Increments};
+use super::position::Increments;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::queue::Pending;
+use super::queue::{Failed, Pending};
 use super::simulation::{Simulation, view};
 use crate::assess::doctor;
 use crate::error::Error;
@@ -128,7 +128,8 @@ impl Simulation {
         let (every, seconds) = self.model.output.checkpoint;
         let (increments, at) = self.saved;
         let passed = self.summary.increments - increments;
-        if !self.pending.is_empty() {
+        let failed = (self.steps.running.as_ref()).is_some_and(|running| running.failed.is_some());
+        if !self.pending.is_empty() || self.recovered.is_some() || failed {
             return Ok(());
         }
         let due = every > 0 && passed >= every

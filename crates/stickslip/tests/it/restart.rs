@@ -48,16 +48,6 @@ impl Observer for Diary {
     }
 }
 
-/// Increments that were accepted, reported or not.
-struct Told(usize);
-
-impl Observer for Told {
-    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
-        self.0 += usize::from(matches!(event, Event::Accepted(_)));
-        Ok(())
-    }
-}
-
 /// The summary without what clocks say.
 fn summary(simulation: &Simulation) -> String {
     let mut value = serde_json::to_value(&simulation.summary).unwrap_or_default();
@@ -92,20 +82,19 @@ fn begin(problem: &Problem, folder: &Path) -> Simulation {
     Simulation::new(setup).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Runs a problem once, and takes a checkpoint wherever there can be one; goes on from `count` of them.
+/// Runs a problem once, and takes a checkpoint wherever there can be one, in the middle of increments that wait for their report as well; goes on from
+/// `count` of them.
 fn check(name: &str, problem: &Problem, folder: &Path, count: usize) {
     let mut whole = Diary::default();
     let mut run = begin(problem, folder);
-    let (mut taken, mut told) = (Vec::new(), Told(0));
+    let mut taken = Vec::new();
     loop {
-        match run.advance(&mut [&mut whole, &mut told]) {
+        match run.advance(&mut [&mut whole]) {
             Ok(true) => {}
             Ok(false) => break,
             Err(e) => panic!("{name}: {e}"),
         }
-        // Where increments wait for their interiors they would be reported twice.
-        let waits = whole.rows.len() < told.0;
-        if let Some(checkpoint) = run.checkpoint().filter(|_| !waits) {
+        if let Some(checkpoint) = run.checkpoint() {
             // Iterations of an attempt that failed belong to the next row.
             taken.push((whole.rows.len(), whole.seen, checkpoint.to_bytes()));
         }

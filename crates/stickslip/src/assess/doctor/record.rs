@@ -15,6 +15,12 @@ pub(crate) struct Counters {
     pub(super) augmentations: usize,
 }
 
+crate::keep!(Counters {
+    iterations,
+    continuations,
+    augmentations
+});
+
 impl Counters {
     /// Counts at the start of an attempt.
     pub fn of(statistics: &Statistics) -> Self {
