@@ -1,10 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
-use stickslip::error::IoError;
 use stickslip::newton::condensed::Library;
-use stickslip::problem::{Document, changed_keys};
-use stickslip::results::{ResultFiles, Saved, Source};
+use stickslip::problem::Document;
+use stickslip::results::{FolderClaim, Lent, ResultFiles, Saved, Source};
 use stickslip::run::{Checkpoint, Simulation};
 
 use super::run::{Manner, Session, claim, go, stem};
@@ -39,22 +38,20 @@ pub fn run(arguments: &Arguments) -> Outcome {
     voice.does("reading and assembling");
     let heartbeat = manner.loud().then(|| Heartbeat::start(&voice));
     let directory = &arguments.directory;
+    // Nobody else writes there from here on, as long as it may take to assemble.
+    let held = FolderClaim::take(directory)?;
     let (saved, notes) = Saved::find(directory, arguments.from)?;
     for note in &notes {
         crate::progress::say(note);
     }
+    saved.check_lent(directory, &Lent::default())?;
     saved.check_inputs()?;
     let input = open(&saved.source, directory, &arguments.set)?;
-    check_changes(&saved, &input)?;
+    (input.document).check_changes(&input.problem, &saved)?;
     let setup = input.build()?;
     let cache = saved.source.cache.as_deref().map(Path::new);
     let library = library(Library::small_limit(), cache)?;
-    let checkpoint = Checkpoint::from_bytes(&saved.snapshot.state).ok_or_else(|| {
-        Error::Io(IoError {
-            file: directory.clone(),
-            message: "the state in the checkpoint is one of another build of stickslip: resume with the build that wrote it".into(),
-        })
-    })?;
+    let checkpoint = Checkpoint::of(&saved, directory)?;
     let simulation = Simulation::resume(setup, library, checkpoint)?;
     let stem = stem(Path::new(&saved.source.file));
     let source = Source {
@@ -62,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         ..saved.source.clone()
     };
     let claim = claim(&input, &stem, source);
-    let files = ResultFiles::resume(directory, &claim, &saved)?;
+    let files = ResultFiles::resume(held, &claim, &saved)?;
     if manner.loud() {
         crate::progress::say(&format!(
             "goes on after {} increments, at time {:.6e}",
@@ -92,25 +89,7 @@ fn open(source: &Source, directory: &Path, set: &[String]) -> Result<Input, Fail
         let overrides: Vec<String> = source.overrides.iter().chain(set).cloned().collect();
         return Input::open(file, &overrides);
     }
-    let own = directory.join("problem.toml");
-    let document = match own.is_file() {
-        true => Document::read(&own)?,
-        false => Document::new(source.problem.clone(), None),
-    };
-    let document = document.with_overrides(set.to_vec());
+    let document = Document::of_results(directory, source)?.with_overrides(set.to_vec());
     let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
     Input::of(document, folder)
-}
-
-/// Refuses what cannot change in the middle of a run.
-fn check_changes(saved: &Saved, input: &Input) -> Result<(), Failure> {
-    let before = Document::new(saved.source.problem.clone(), None);
-    let before = before.problem().map_err(Error::Problem)?;
-    let snapshot = &saved.snapshot;
-    let at = (snapshot.step, snapshot.ended);
-    let findings = changed_keys(&before, &input.problem, at, snapshot.time);
-    match findings.is_empty() {
-        true => Ok(()),
-        false => Err(Error::Problem(input.document.error(findings)).into()),
-    }
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::friction::text;
 use stickslip::newton::condensed::Library;
-use stickslip::results::{Claim, Observer, ResultFiles, Source, digest_of};
+use stickslip::results::{Claim, Lent, Observer, ResultFiles, Source, digest_of};
 use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
@@ -141,6 +141,7 @@ fn source(input: &Input, arguments: &Arguments) -> Result<Source, Failure> {
         overrides: arguments.set.clone(),
         inputs,
         cache: arguments.cache.as_deref().map(name),
+        lent: Lent::default(),
     })
 }
 
@@ -205,6 +206,9 @@ pub fn go(session: Session, manner: &Manner) -> Outcome {
     let outcome = simulation.run(&mut observers);
     if let (Err(Error::Run(_)), Some(folder)) = (&outcome, &dump_failures) {
         dump(folder, &stem, &simulation)?;
+    }
+    if let Some(why) = files.unsaved().filter(|_| manner.quiet) {
+        crate::progress::say(&format!("warning: {why}"));
     }
     outcome?;
     drop(heartbeat);

@@ -55,8 +55,11 @@ fn lines(text: &str, begin: &[&str]) -> String {
 }
 
 fn summary(folder: &Path) -> Value {
-    let path = folder.join("case.out/summary.json");
-    let text = std::fs::read_to_string(path).expect("a summary");
+    summary_of(&folder.join("case.out"))
+}
+
+fn summary_of(out: &Path) -> Value {
+    let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
     serde_json::from_str(&text).expect("a summary is JSON at any time")
 }
 
@@ -424,8 +427,7 @@ fn results(folder: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Vec<Value>) {
     let all = all.filter_map(|(path, bytes)| Some((name(&path).ok()?, bytes)));
     let of_process = |name: &str| name.starts_with("checkpoint_") || name == "summary.json";
     let files = all.filter(|(path, _)| !of_process(&path.to_string_lossy()));
-    let text = std::fs::read_to_string(folder.join("summary.json")).expect("a summary");
-    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    let summary = summary_of(folder);
     let wanted = ["status", "increments", "iterations", "energies", "quality"];
     let said = wanted.iter().map(|key| summary[*key].clone());
     (files.collect(), said.collect())
@@ -486,6 +488,185 @@ fn a_run_that_was_killed_goes_on_with_the_results_of_one_that_never_stopped() {
     assert_eq!(code, Some(0), "{text}");
     assert!(text.contains("the checkpoint is damaged"), "{text}");
     assert!(results(&folder.join("killed")) == wanted);
+}
+
+/// What is done to the bytes of a checkpoint, and what has to be said of it.
+type Damage = (String, fn(&mut Vec<u8>, usize), usize, &'static str);
+
+/// Whatever can be wrong with the bytes of a checkpoint of so many bytes.
+fn damages(length: usize) -> Vec<Damage> {
+    const DAMAGED: &str = "damaged";
+    let mut all: Vec<Damage> = Vec::new();
+    for end in [0, 7, 16, 20, 40, length / 3, length / 2, length - 1] {
+        all.push((format!("cut at {end}"), Vec::truncate, end, DAMAGED));
+    }
+    // Behind the version, whose text stands in front of the digest.
+    for k in 0..24 {
+        let at = 16 + 8 + 5 + k * (length - 30) / 23;
+        let flip = |bytes: &mut Vec<u8>, at: usize| bytes[at] ^= 1 << (at % 8);
+        all.push((format!("another bit at {at}"), flip, at, DAMAGED));
+    }
+    let begin = |bytes: &mut Vec<u8>, _: usize| bytes[0] = b'S';
+    all.push(("another mark".into(), begin, 0, DAMAGED));
+    let more = |bytes: &mut Vec<u8>, count: usize| bytes.extend(vec![0; count]);
+    all.push(("longer".into(), more, 100, DAMAGED));
+    for digit in [b'1', b'9'] {
+        let layout = |bytes: &mut Vec<u8>, digit: usize| bytes[15] = digit as u8;
+        let said = "has another layout than this version of stickslip reads";
+        all.push(("another layout".into(), layout, digit.into(), said));
+    }
+    for (major, said) in [(b'0', "stickslip 0.0"), (b'9', "stickslip 9.0")] {
+        let version = |bytes: &mut Vec<u8>, major: usize| {
+            bytes[24] = major as u8;
+            bytes[26] = b'0';
+        };
+        all.push(("another version".into(), version, major.into(), said));
+    }
+    all
+}
+
+#[test]
+fn checkpoints_that_are_not_what_was_written_are_refused_and_nothing_is_touched() {
+    let folder = place("checkpoint-faults");
+    let all = killed(&folder);
+    let out = folder.join("killed");
+    let whole: Vec<(PathBuf, Vec<u8>)> = all
+        .iter()
+        .map(|n| out.join(format!("checkpoint_{n}.bin")))
+        .map(|path| (path.clone(), std::fs::read(path).expect("a checkpoint")))
+        .collect();
+    let before = results(&out);
+    let shortest = whole.iter().map(|(_, bytes)| bytes.len()).min();
+    for (what, damage, value, said) in damages(shortest.expect("some")) {
+        for (path, bytes) in &whole {
+            let mut bytes = bytes.clone();
+            damage(&mut bytes, value);
+            std::fs::write(path, bytes).expect("a file");
+        }
+        let (code, text) = run(&folder, &["resume", "killed", "-q"]);
+        assert_eq!(code, Some(1), "{what}: {text}");
+        assert!(text.contains(said), "{what}: {text}");
+        assert!(results(&out) == before, "{what}");
+    }
+    // That of another problem, with the right length and the right digest.
+    let other = CASE.replace("mu = 0.3", "mu = 0.25");
+    std::fs::write(folder.join("case.toml"), other).expect("a file");
+    let mut long = LONG.to_vec();
+    long.push("other");
+    assert_eq!(run(&folder, &long).0, Some(0));
+    let last = checkpoints(&folder.join("other"));
+    let last = folder.join(format!("other/checkpoint_{}.bin", last[last.len() - 1]));
+    for (path, _) in &whole {
+        std::fs::copy(&last, path).expect("a copy");
+    }
+    let (code, text) = run(&folder, &["resume", "killed", "-q"]);
+    assert_eq!(code, Some(1), "{text}");
+    // Its files have come further than those of this folder, or its keys are others.
+    assert!(
+        text.contains("is shorter than at the checkpoint") || text.contains("has changed since"),
+        "{text}"
+    );
+    assert!(results(&out) == before);
+}
+
+#[test]
+fn checkpoints_that_cannot_be_written_are_told_once_and_the_run_goes_on() {
+    let folder = place("unsaved");
+    let mut whole = LONG.to_vec();
+    whole.push("whole");
+    assert_eq!(run(&folder, &whole).0, Some(0));
+    let wanted = results(&folder.join("whole"));
+    let out = folder.join("out");
+    let mut command = support::command(&folder);
+    command.args(LONG).arg("out").stdout(Stdio::null());
+    let child = command.stderr(Stdio::piped()).spawn();
+    let mut guard = Guard(child.expect("the binary runs"));
+    // From some moment on a folder is in the way of the file that a checkpoint is written to.
+    let aside = out.join(".checkpoint.tmp");
+    while checkpoints(&out).len() < 2 || std::fs::create_dir(&aside).is_err() {
+        let ended = guard.0.try_wait().expect("it can be asked");
+        assert!(ended.is_none(), "it ended before");
+    }
+    let mut told = String::new();
+    let mut stderr = guard.0.stderr.take().expect("a pipe");
+    std::io::Read::read_to_string(&mut stderr, &mut told).expect("text");
+    assert_eq!(guard.0.wait().expect("it ends").code(), Some(0), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.contains("warning: out/checkpoint_"), "{told}");
+    assert!(told.contains("cannot be written: Is a directory"), "{told}");
+    assert_eq!(results(&out).0, wanted.0);
+    let note = summary_of(&out)["notes"].to_string();
+    assert!(note.contains("the checkpoint cannot be written"), "{note}");
+    // The last ones that could be written are whole.
+    let left = checkpoints(&out);
+    assert!(
+        !left.is_empty() && left.iter().all(|n| *n < 300),
+        "{left:?}"
+    );
+    std::fs::remove_dir(&aside).expect("it is empty");
+    assert_eq!(run(&folder, &["resume", "out", "-q"]).0, Some(0));
+    assert!(results(&out) == wanted);
+}
+
+#[test]
+fn who_goes_on_from_an_earlier_checkpoint_gives_up_the_later_ones() {
+    let folder = place("earlier");
+    let all = killed(&folder);
+    let out = folder.join("killed");
+    // None is written any more.
+    std::fs::create_dir(out.join(".checkpoint.tmp")).expect("a folder");
+    let first = all[0].to_string();
+    let (code, text) = run(&folder, &["resume", "killed", "--from", &first, "-q"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert_eq!(checkpoints(&out), [all[0]]);
+}
+
+#[test]
+fn a_folder_is_read_while_it_grows_and_nobody_else_goes_on_in_it() {
+    let folder = place("growing");
+    let child = support::command(&folder)
+        .args(["run", "case.toml", "-q", "--set"])
+        .arg("step.0.increments.fixed=100000000")
+        .args(["--set", "solver.method=sparse", "--set"])
+        .arg("output={ every = 1, checkpoint = { increments = 1 } }")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    let guard = Guard(child.expect("the binary runs"));
+    let out = folder.join("case.out");
+    let mut seen = 0;
+    while seen < 60 {
+        // A row that is just being written may be there in part; all before it are whole.
+        let history = std::fs::read_to_string(out.join("history.csv")).unwrap_or_default();
+        let whole = history.rfind('\n').map_or(0, |end| end + 1);
+        let mut rows = history[..whole].lines();
+        let columns = rows.next().map_or(0, |heads| heads.split(',').count());
+        assert!(rows.all(|row| row.split(',').count() == columns));
+        seen = history.lines().count();
+        if out.join("fields.pvd").exists() {
+            let listed = stickslip::io::pvd::read(&out.join("fields.pvd"));
+            for (_, name) in listed.expect("a collection").iter().rev().take(2) {
+                let fields = std::fs::read(out.join(name)).expect("a file of fields");
+                assert!(fields.ends_with(b"</VTKFile>\n"), "{name}");
+            }
+            let table = stickslip::io::csv::read(&out.join("interfaces/base.csv"));
+            assert_eq!(table.expect("a table").rows(), 5);
+        }
+        if out.exists() && out.join("summary.json").exists() {
+            assert_eq!(summary(&folder)["status"], "running");
+        }
+    }
+    if !checkpoints(&out).is_empty() {
+        let (code, text) = run(&folder, &["resume", "case.out", "-q"]);
+        assert_eq!(code, Some(1), "{text}");
+        assert_eq!(
+            text,
+            "error: case.out: another run writes into this folder (process N on HOST): wait for it, or choose another folder; if that run is over, remove run.lock\n"
+        );
+    }
+    let (code, text) = run(&folder, &["explain", "case.out"]);
+    assert!(code.is_some_and(|code| code < 3), "{text}");
+    drop(guard);
 }
 
 #[test]

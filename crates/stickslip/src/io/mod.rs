@@ -13,4 +13,5 @@ pub mod pvd;
 mod sets;
 pub mod vtu;
 
-pub use atomic::write_atomically;
+pub(crate) use atomic::meant_by;
+pub use atomic::{drop_leftovers, write_atomically};

@@ -23,14 +23,17 @@ impl Collection {
         }
     }
 
-    /// Goes on with a collection of these files; it is written anew.
+    /// Goes on with a collection of these files; it is written anew, and removed where there are none yet.
     ///
     /// # Errors
     /// [`Error::Io`] if it cannot be written.
     pub fn resume(path: &Path, entries: &[(f64, String)]) -> Result<Self, Error> {
         let mut collection = Collection::new(path);
         let Some(((t, last), before)) = entries.split_last() else {
-            return Ok(collection);
+            return match std::fs::remove_file(path) {
+                Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io(path, e)),
+                _ => Ok(collection),
+            };
         };
         collection.entries = before.to_vec();
         collection.push(*t, last)?;

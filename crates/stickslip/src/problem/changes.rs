@@ -1,9 +1,42 @@
 //! What may be changed in a problem while a run of it rests: what is still to come.
 
+use std::path::Path;
+
 use toml::{Table, Value};
 
 use super::data::Problem;
-use crate::error::Diagnostic;
+use super::document::Document;
+use crate::error::{Diagnostic, Error};
+use crate::results::{Saved, Source};
+
+impl Document {
+    /// The problem file with which a run in a folder of results goes on: `problem.toml` there, which may have been changed, or else what was run.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be read.
+    pub fn of_results(directory: &Path, source: &Source) -> Result<Document, Error> {
+        let own = directory.join("problem.toml");
+        match own.is_file() {
+            true => Document::read(&own),
+            false => Ok(Document::new(source.problem.clone(), None)),
+        }
+    }
+
+    /// Refuses what cannot change in the middle of a run.
+    ///
+    /// # Errors
+    /// [`Error::Problem`] with each key that has.
+    pub fn check_changes(&self, problem: &Problem, saved: &Saved) -> Result<(), Error> {
+        let before = Document::new(saved.source.problem.clone(), None).problem()?;
+        let snapshot = &saved.snapshot;
+        let at = (snapshot.step, snapshot.ended);
+        let findings = changed_keys(&before, problem, at, snapshot.time);
+        match findings.is_empty() {
+            true => Ok(()),
+            false => Err(self.error(findings).into()),
+        }
+    }
+}
 
 /// What has changed from one problem to another and must not, where a run has come to time `t` in the step of index `at.0`, which `at.1` has
 /// ended.

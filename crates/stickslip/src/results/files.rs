@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use super::analysis::Analysis;
-use super::folder::{Claim, Folder, INTERFACES};
+use super::folder::{Claim, Folder, FolderClaim, INTERFACES};
 use super::observer::{Event, Observer, Snapshot};
-use super::saved::{Positions, Saved, Source};
+use super::saved::{self, Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
@@ -23,6 +23,8 @@ pub struct ResultFiles {
     source: Option<Source>,
     /// Other files that grow.
     also: Vec<String>,
+    /// Why a checkpoint could not be written, and whether it was asked for.
+    unsaved: Option<(String, bool)>,
 }
 
 impl ResultFiles {
@@ -39,15 +41,19 @@ impl ResultFiles {
             count: 0,
             source: claim.source.clone(),
             also: claim.also.clone(),
+            unsaved: None,
         })
     }
 
-    /// Goes on in a folder where a run was stopped: its files are cut back to where they were at a checkpoint.
+    /// Goes on in a folder where a run was stopped: its files are cut back to where they were at a checkpoint, and checkpoints after that one removed.
     ///
     /// # Errors
-    /// [`Error::Io`] if another run writes there, or a file cannot be cut.
-    pub fn resume(directory: &Path, claim: &Claim, saved: &Saved) -> Result<Self, Error> {
-        let folder = Folder::take_again(directory)?;
+    /// [`Error::Io`] if a file cannot be cut or removed.
+    pub fn resume(held: FolderClaim, claim: &Claim, saved: &Saved) -> Result<Self, Error> {
+        let folder = Folder::take_again(held, claim)?;
+        let directory = &folder.directory.clone();
+        // First what is no longer true when files are cut: killed from here on, the run goes on from the same checkpoint.
+        saved::drop_later(directory, saved.snapshot.increments)?;
         let positions = &saved.positions;
         positions.restore(directory)?;
         let known = |name: &str| positions.fields.iter().any(|(_, known)| known == name);
@@ -56,6 +62,7 @@ impl ResultFiles {
         Ok(ResultFiles {
             folder,
             pvd: pvd::Collection::resume(&directory.join("fields.pvd"), &positions.fields)?,
+            unsaved: None,
             history: match positions.columns {
                 0 => None,
                 columns => Some(csv::History::resume(&history, columns)?),
@@ -97,6 +104,11 @@ impl ResultFiles {
     /// What a user should know of what was in the directory.
     pub fn notes(&self) -> &[String] {
         &self.folder.notes
+    }
+
+    /// Why the first checkpoint that could not be written was not.
+    pub fn unsaved(&self) -> Option<&str> {
+        self.unsaved.as_ref().map(|(why, _)| why.as_str())
     }
 
     fn output(&mut self, view: &View) -> Result<(), Error> {
@@ -219,7 +231,12 @@ impl Observer for ResultFiles {
                 }
             }
             Event::Output => self.output(analysis)?,
-            Event::Checkpoint(snapshot) => self.save(snapshot)?,
+            // Hours of work are not given up because they cannot be kept twice.
+            Event::Checkpoint(snapshot) => {
+                if let Err(e) = self.save(snapshot) {
+                    self.unsaved.get_or_insert((e.to_string(), false));
+                }
+            }
             Event::End => {
                 let ended = self.end(analysis.summary);
                 self.folder.release();
@@ -232,5 +249,15 @@ impl Observer for ResultFiles {
             | Event::Finding(_) => {}
         }
         Ok(())
+    }
+
+    fn remarks(&mut self) -> Vec<String> {
+        match &mut self.unsaved {
+            Some((why, told)) if !*told => {
+                *told = true;
+                vec![why.clone()]
+            }
+            _ => Vec::new(),
+        }
     }
 }

@@ -8,7 +8,7 @@ use super::lock::{self, Lock, Refused};
 use super::saved::{self, Source};
 use super::summary::Status;
 use crate::error::{Error, IoError};
-use crate::io::write_atomically;
+use crate::io::{meant_by, write_atomically};
 
 /// What a run takes a folder with.
 #[derive(Debug, Clone, Default)]
@@ -56,28 +56,30 @@ impl Folder {
             lock: Some(lock),
         };
         let old = folder.old(claim)?;
+        // First what the earlier run could go on from: this one is another.
+        let (kept, old): (Vec<_>, Vec<_>) = old.into_iter().partition(|path| is_checkpoint(path));
+        remove(&kept)?;
         // Killed from here on, the run is known for that.
         folder.say_running()?;
-        for path in &old {
-            fs::remove_file(path).map_err(|e| Error::io(path, e))?;
-        }
+        remove(&old)?;
+        folder.drop_leftovers(claim)?;
         // Only if it is empty.
         let _ = fs::remove_dir(directory.join(INTERFACES));
         Ok(folder)
     }
 
-    /// Takes a folder in which a run is to go on: what it holds stays.
+    /// Takes a folder in which a run is to go on: what it holds stays, but what was being written when the run was killed.
     ///
     /// # Errors
-    /// As [`Folder::take`].
-    pub fn take_again(directory: &Path) -> Result<Folder, Error> {
-        let lock = hold(directory)?;
+    /// [`Error::Io`]: what the system says.
+    pub fn take_again(mut held: FolderClaim, claim: &Claim) -> Result<Folder, Error> {
         let folder = Folder {
-            directory: directory.to_path_buf(),
+            directory: held.directory.clone(),
             notes: Vec::new(),
-            lock: Some(lock),
+            lock: held.lock.take(),
         };
         folder.say_running()?;
+        folder.drop_leftovers(claim)?;
         Ok(folder)
     }
 
@@ -123,6 +125,20 @@ impl Folder {
         Ok(())
     }
 
+    /// Removes results that a run which was killed had written in part, aside.
+    fn drop_leftovers(&self, claim: &Claim) -> Result<(), Error> {
+        let own = |name: &str| {
+            name == saved::ASIDE || meant_by(name).is_some_and(|name| is_result(name, claim))
+        };
+        remove(&files(&self.directory, own)?)?;
+        let tables = self.directory.join(INTERFACES);
+        let table = |name: &str| meant_by(name).is_some_and(|name| name.ends_with(".csv"));
+        match tables.is_dir() {
+            true => remove(&files(&tables, table)?),
+            false => Ok(()),
+        }
+    }
+
     /// What is found in `summary.json` later, if the run is killed.
     fn say_running(&self) -> Result<(), Error> {
         let holder = lock::Holder::this();
@@ -152,6 +168,35 @@ impl Folder {
         }
         old.retain(|path| *path != summary);
         Ok(old)
+    }
+}
+
+/// A folder of results that nobody else writes into until this is dropped. Where nothing came of it the folder is then as it was.
+#[derive(Debug)]
+pub struct FolderClaim {
+    directory: PathBuf,
+    lock: Option<Lock>,
+}
+
+impl Drop for FolderClaim {
+    fn drop(&mut self) {
+        if let Some(lock) = self.lock.take() {
+            lock.leave_as_it_was();
+        }
+    }
+}
+
+impl FolderClaim {
+    /// Takes a folder in which a run is to go on; nothing in it is touched yet.
+    ///
+    /// # Errors
+    /// [`Error::Io`]: there is no such folder; another run writes there; what the system says.
+    pub fn take(directory: &Path) -> Result<FolderClaim, Error> {
+        saved::check_folder(directory)?;
+        Ok(FolderClaim {
+            directory: directory.to_path_buf(),
+            lock: Some(hold(directory)?),
+        })
     }
 }
 
@@ -189,6 +234,17 @@ const FILES: &[&str] = &[
 fn is_result(name: &str, claim: &Claim) -> bool {
     let kept = saved::number(name).is_some();
     is_field(name) || kept || FILES.contains(&name) || claim.also.iter().any(|also| also == name)
+}
+
+fn is_checkpoint(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str());
+    name.is_some_and(|name| saved::number(name).is_some())
+}
+
+fn remove(paths: &[PathBuf]) -> Result<(), Error> {
+    paths
+        .iter()
+        .try_for_each(|path| fs::remove_file(path).map_err(|e| Error::io(path, e)))
 }
 
 fn is_field(name: &str) -> bool {

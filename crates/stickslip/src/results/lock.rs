@@ -60,6 +60,8 @@ pub(crate) struct Lock {
     file: Option<File>,
     /// Who had the folder before and did not give it back.
     pub stale: Option<Holder>,
+    /// The file stays when this is dropped.
+    remains: bool,
 }
 
 /// Why a folder cannot be had.
@@ -118,6 +120,7 @@ impl Lock {
                 path,
                 file: Some(file),
                 stale: before,
+                remains: false,
             });
         }
     }
@@ -126,6 +129,20 @@ impl Lock {
     pub fn stands(&self) -> bool {
         let file = self.file.as_ref();
         file.is_some_and(|file| is_at(file, &self.path))
+    }
+
+    /// Gives the folder back as it was found: with the name of whoever was killed in it.
+    pub fn leave_as_it_was(mut self) {
+        let (Some(stale), Some(file)) = (self.stale.take(), &mut self.file) else {
+            return;
+        };
+        let text = format!("{} {}\n", stale.process, stale.host);
+        let written = file
+            .set_len(0)
+            .and_then(|()| file.rewind())
+            .and_then(|()| file.write_all(text.as_bytes()));
+        // Nobody is left to tell if it cannot be written: then the name goes, too.
+        self.remains = written.is_ok();
     }
 
     /// Who is in a folder, if anybody is.
@@ -145,7 +162,9 @@ impl Lock {
 impl Drop for Lock {
     fn drop(&mut self) {
         // First the name, then the lock: whoever opens the file in between finds it gone and tries again. Nobody is left to tell if it fails.
-        let _ = std::fs::remove_file(&self.path);
+        if !self.remains {
+            let _ = std::fs::remove_file(&self.path);
+        }
         self.file = None;
     }
 }
@@ -212,7 +231,13 @@ mod tests {
         let lock = Lock::take(&folder).unwrap();
         let stale = lock.stale.as_ref().unwrap();
         assert_eq!(stale.to_string(), "process 4194305 on far-away");
-        drop(lock);
+        lock.leave_as_it_was();
+        assert_eq!(
+            std::fs::read_to_string(folder.join(NAME)).unwrap(),
+            "4194305 far-away\n"
+        );
+        assert_eq!(Lock::holder(&folder), None);
+        drop(Lock::take(&folder).unwrap());
         std::fs::write(folder.join(NAME), b"\xff\xfe").unwrap();
         assert!(Lock::take(&folder).unwrap().stale.is_none());
         std::fs::remove_dir_all(folder).unwrap();

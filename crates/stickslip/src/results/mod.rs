@@ -8,12 +8,14 @@ pub(crate) mod history;
 pub(crate) mod lock;
 pub(crate) mod observer;
 pub(crate) mod saved;
+pub(crate) mod sealed;
 pub(crate) mod summary;
 
 pub use analysis::Analysis;
 pub use files::{ResultFiles, fields};
-pub use folder::{Claim, FileClaim, running};
+pub use folder::{Claim, FileClaim, FolderClaim, running};
 pub use history::Row;
 pub use observer::{Advance, Event, Observer, Snapshot};
-pub use saved::{Saved, Source, checkpoints, digest_of};
+pub use saved::{Lent, Saved, Source, checkpoints, digest_of};
+pub use sealed::{digest_of_state, seal, unseal};
 pub use summary::{Phases, Status, Summary};

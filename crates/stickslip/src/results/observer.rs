@@ -74,4 +74,9 @@ pub struct Advance {
 pub trait Observer {
     /// Something happened. An error ends the run.
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error>;
+
+    /// What a user should know of what it did and what is no reason to end the run: asked for after every checkpoint, and told as notes.
+    fn remarks(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 }

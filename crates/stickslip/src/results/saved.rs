@@ -1,17 +1,16 @@
 //! Checkpoints as files: `checkpoint_N.bin` in the folder of results, N the increments accepted until then.
 //!
 //! A file holds all that `resume` needs: the problem and the files it was read from with their digests, how far the files of results had come, and the
-//! state. It is written aside, synced and renamed, so that under its name there is a whole one or none; the last two are kept. In front stand a
-//! mark, the version of the program, and a digest of the rest: what was cut or changed is found before anything is made of it.
+//! state, all of it [sealed](super::sealed). It is written aside, synced and renamed, so that under its name there is a whole one or none; the last two
+//! are kept.
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::observer::Snapshot;
+use super::sealed;
 use crate::error::{Error, IoError};
-use crate::keep::{Keep, Kept};
-use crate::linear::Digest;
 
 /// What a run was called with.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,6 +25,17 @@ pub struct Source {
     pub inputs: Vec<(String, [u64; 2])>,
     /// Folder of factors.
     pub cache: Option<String>,
+    /// What it had from the program that called the library, and no file has.
+    pub lent: Lent,
+}
+
+/// What a run has from a program, and no file has.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Lent {
+    /// Meshes, by the names that the problem has for them, with their digests.
+    pub meshes: Vec<(String, [u64; 2])>,
+    /// Laws that are functions: `press.friction`.
+    pub laws: Vec<String>,
 }
 
 /// How far the files of results had come.
@@ -54,8 +64,10 @@ crate::keep!(Source {
     file,
     overrides,
     inputs,
-    cache
+    cache,
+    lent
 });
+crate::keep!(Lent { meshes, laws });
 crate::keep!(Positions {
     fields,
     lengths,
@@ -67,8 +79,8 @@ crate::keep!(Saved {
     positions
 });
 
-/// What a checkpoint begins with, in the version of its layout.
-const MARK: &[u8; 16] = b"stickslip state1";
+/// What a checkpoint is called until it is whole.
+pub(super) const ASIDE: &str = ".checkpoint.tmp";
 
 /// How many are kept.
 const KEPT: usize = 2;
@@ -90,15 +102,34 @@ pub fn checkpoints(directory: &Path) -> Vec<(usize, PathBuf)> {
     all
 }
 
+/// Removes the checkpoints after more than so many increments: the run goes on from an earlier one.
+pub(super) fn drop_later(directory: &Path, increments: usize) -> Result<(), Error> {
+    for (n, path) in checkpoints(directory) {
+        if n > increments {
+            fs::remove_file(&path).map_err(|e| Error::io(&path, e))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether this is a folder, in which there may be results.
+pub(super) fn check_folder(directory: &Path) -> Result<(), Error> {
+    match directory.is_dir() {
+        true => Ok(()),
+        false => Err(fault(
+            directory,
+            "this is no folder of results: name the folder that `run` wrote, `<file>.out` if not chosen by --output",
+        )),
+    }
+}
+
 /// A digest of what is in a file.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be read.
 pub fn digest_of(path: &Path) -> Result<[u64; 2], Error> {
     let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
-    let mut digest = Digest::default();
-    digest.bytes(&bytes);
-    Ok(digest.finish())
+    Ok(sealed::digest(&bytes))
 }
 
 fn fault(path: &Path, message: impl Into<String>) -> Error {
@@ -112,34 +143,22 @@ impl Saved {
     /// Writes it into a folder, and removes all but the last two.
     pub(crate) fn write(&self, directory: &Path) -> Result<(), Error> {
         let path = directory.join(format!("checkpoint_{}.bin", self.snapshot.increments));
-        let aside = directory.join(".checkpoint.tmp");
-        let written = put(&aside, &self.to_bytes()).and_then(|()| fs::rename(&aside, &path));
+        let aside = directory.join(ASIDE);
+        let written = put(&aside, &sealed::seal(self)).and_then(|()| fs::rename(&aside, &path));
         if let Err(e) = written.and_then(|()| sync(directory)) {
             // The first error is the one to report.
             let _ = fs::remove_file(&aside);
             return Err(fault(
                 &path,
-                format!("the checkpoint cannot be written: {e}; the one before stays"),
+                format!(
+                    "the checkpoint cannot be written: {e}; earlier ones stay, and later ones will be tried"
+                ),
             ));
         }
-        // Those of an attempt that is over: the run went on from an earlier one.
-        let (later, earlier): (Vec<_>, Vec<_>) = checkpoints(directory)
-            .into_iter()
-            .partition(|(n, _)| *n > self.snapshot.increments);
-        for (_, old) in later.iter().chain(earlier.iter().skip(KEPT)) {
+        for (_, old) in checkpoints(directory).iter().skip(KEPT) {
             fs::remove_file(old).map_err(|e| Error::io(old, e))?;
         }
         Ok(())
-    }
-
-    fn to_bytes(&self) -> Vec<u8> {
-        let mut content = Vec::new();
-        self.keep(&mut content);
-        let mut out = MARK.to_vec();
-        env!("CARGO_PKG_VERSION").to_string().keep(&mut out);
-        digest(&content).keep(&mut out);
-        out.append(&mut content);
-        out
     }
 
     /// The checkpoint in a file.
@@ -148,39 +167,7 @@ impl Saved {
     /// [`Error::Io`] if it cannot be read, is none, of another version, or damaged.
     pub fn read(path: &Path) -> Result<Saved, Error> {
         let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
-        let Some(rest) = bytes.strip_prefix(MARK) else {
-            let known = bytes.starts_with(&MARK[..15]);
-            return Err(fault(
-                path,
-                match known {
-                    true => {
-                        "the checkpoint has another layout than this version of stickslip reads: resume with the version that wrote it"
-                    }
-                    false => "this is no checkpoint, or it is damaged at its beginning",
-                },
-            ));
-        };
-        let damaged = || fault(path, "the checkpoint is damaged: it is cut, or was changed");
-        let mut kept = Kept::new(rest);
-        let version = String::back(&mut kept).map_err(|_| damaged())?;
-        if version != env!("CARGO_PKG_VERSION") {
-            return Err(fault(
-                path,
-                format!(
-                    "the checkpoint was written by stickslip {version}, and this is {}: resume with that version",
-                    env!("CARGO_PKG_VERSION")
-                ),
-            ));
-        }
-        let wanted = <[u64; 2]>::back(&mut kept).map_err(|_| damaged())?;
-        if digest(kept.rest()) != wanted {
-            return Err(damaged());
-        }
-        let saved = Saved::back(&mut kept).map_err(|_| damaged())?;
-        match kept.is_empty() {
-            true => Ok(saved),
-            false => Err(damaged()),
-        }
+        sealed::unseal(&bytes, "the checkpoint").map_err(|message| fault(path, message))
     }
 
     /// The newest checkpoint of a folder from which a run can go on, or that after `from` increments; with notes about those that are passed over.
@@ -193,12 +180,7 @@ impl Saved {
             let all: Vec<String> = all.iter().map(|(n, _)| n.to_string()).collect();
             all.join(", ")
         };
-        if !directory.is_dir() {
-            return Err(fault(
-                directory,
-                "this is no folder of results: name the folder that `run` wrote, `<file>.out` if not chosen by --output",
-            ));
-        }
+        check_folder(directory)?;
         if all.is_empty() {
             return Err(fault(
                 directory,
@@ -228,6 +210,36 @@ impl Saved {
             );
             fault(directory, message)
         }))
+    }
+
+    /// Whether files of a deck grow with the run beside its history.
+    pub fn has_prints(&self) -> bool {
+        let mut names = self.positions.lengths.iter().map(|(name, _)| name);
+        names.any(|name| name != "history.csv")
+    }
+
+    /// Whether what the run had from a program is there again.
+    ///
+    /// # Errors
+    /// [`Error::Io`] with what is missing or another.
+    pub fn check_lent(&self, directory: &Path, now: &Lent) -> Result<(), Error> {
+        let before = &self.source.lent;
+        let missing = (before.laws.iter()).find(|law| !now.laws.contains(law));
+        let more = (now.laws.iter()).find(|law| !before.laws.contains(law));
+        let mesh = (before.meshes.iter()).find(|mesh| !now.meshes.contains(mesh));
+        let message = match (missing, more, mesh) {
+            (Some(law), ..) => format!(
+                "the law {law} of this run is a function of the program that ran it: go on from there, with the same function"
+            ),
+            (_, Some(law), _) => {
+                format!("the run did not have a function as the law {law}: go on without it")
+            }
+            (.., Some((name, _))) => format!(
+                "the mesh {name} of this run came from the program that ran it: go on from there, with the same mesh"
+            ),
+            _ => return Ok(()),
+        };
+        Err(fault(directory, message))
     }
 
     /// Whether the files that the problem was read from are what they were.
@@ -276,12 +288,6 @@ impl Positions {
         }
         Ok(())
     }
-}
-
-fn digest(content: &[u8]) -> [u64; 2] {
-    let mut digest = Digest::default();
-    digest.bytes(content);
-    digest.finish()
 }
 
 fn put(path: &Path, bytes: &[u8]) -> std::io::Result<()> {

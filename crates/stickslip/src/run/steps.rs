@@ -159,7 +159,14 @@ impl Simulation {
             state: checkpoint.to_bytes(),
         };
         self.saved = (snapshot.increments, Instant::now());
-        self.tell(observers, || Event::Checkpoint(&snapshot))
+        self.tell(observers, || Event::Checkpoint(&snapshot))?;
+        let remarks = observers.iter_mut().flat_map(|observer| observer.remarks());
+        let notes = &mut self.solver.log.notes;
+        notes.extend(remarks);
+        match notes.is_empty() {
+            true => Ok(()),
+            false => self.tell_notes(observers),
+        }
     }
 
     /// Begins a step.

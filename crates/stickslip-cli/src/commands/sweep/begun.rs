@@ -4,11 +4,22 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::error::IoError;
-use stickslip::io::write_atomically;
+use stickslip::io::{drop_leftovers, write_atomically};
 use stickslip::problem::Document;
 use stickslip::results::digest_of;
 
 use super::plan::Plan;
+
+/// Where a sweep stands that is to go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stand {
+    /// There is nothing of it.
+    New,
+    /// Its table has some of its rows.
+    Begun,
+    /// There is a table, and nothing that says that it goes on: it ought to be complete.
+    Over,
+}
 
 /// What a sweep was begun with.
 pub struct Begun {
@@ -40,30 +51,41 @@ impl Begun {
         })
     }
 
-    /// Whether there is a table to go on with, which then is one of this sweep.
-    pub fn same(&self) -> Result<bool, Error> {
+    /// Where the sweep stands.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the table is one of another sweep.
+    pub fn stand(&self) -> Result<Stand, Error> {
         if !self.table.is_file() {
-            return Ok(false);
+            return Ok(Stand::New);
         }
-        let fault = |message: &str| {
-            Err(Error::Io(IoError {
-                file: self.table.clone(),
-                message: message.into(),
-            }))
-        };
         match std::fs::read_to_string(&self.path) {
-            Ok(text) if text == self.text => Ok(true),
-            Ok(_) => fault(
+            Ok(text) if text == self.text => Ok(Stand::Begun),
+            Ok(_) => Err(self.fault(
                 "the problem, a mesh or a fixed value has changed since this sweep began: rows of both do not belong in one table; run it anew into another file",
-            ),
-            Err(_) => fault(
-                "nothing beside this table says that its sweep goes on: it is complete, or its file `.begun` was removed; without `--resume` it is run anew",
-            ),
+            )),
+            Err(_) => Ok(Stand::Over),
         }
     }
 
-    /// Leaves it beside the table.
+    /// What is wrong with a table that ought to be complete and is not.
+    pub fn unknown(&self) -> Error {
+        self.fault(
+            "rows are missing, and nothing beside this table says that they are of the same sweep: its file `.begun` was removed; without `--resume` it is run anew",
+        )
+    }
+
+    fn fault(&self, message: &str) -> Error {
+        Error::Io(IoError {
+            file: self.table.clone(),
+            message: message.into(),
+        })
+    }
+
+    /// Leaves it beside the table, and removes what was being written when a sweep was killed.
     pub fn write(&self) -> Result<(), Error> {
+        drop_leftovers(&self.table)?;
+        drop_leftovers(&self.path)?;
         write_atomically(&self.path, self.text.as_bytes())
     }
 

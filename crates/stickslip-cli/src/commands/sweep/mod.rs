@@ -24,7 +24,7 @@ use super::{library, spare, use_threads};
 use crate::failure::{Failure, Outcome, located};
 use crate::progress::found;
 use crate::voice::{Heartbeat, Voice};
-use begun::Begun;
+use begun::{Begun, Stand};
 use columns::Columns;
 use plan::Plan;
 use table::{Row, Table};
@@ -102,12 +102,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     tell(&heading(&plan));
     let begun = Begun::of(&arguments.file, &case, &plan, &table.path)?;
     let mut done = 0;
-    if arguments.resume && begun.same()? {
+    let stand = match arguments.resume {
+        true => begun.stand()?,
+        false => Stand::New,
+    };
+    if stand != Stand::New {
         done = table.take_over(|run| {
             let values = plan.values(run).into_iter();
             values.map(str::to_string).collect()
         })?;
         tell(&format!("{} in the table already", runs(done)));
+    }
+    if stand == Stand::Over && done < plan.count() {
+        return Err(begun.unknown().into());
     }
     begun.write()?;
 
