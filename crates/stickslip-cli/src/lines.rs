@@ -1,14 +1,41 @@
 //! What happens in a run as lines of JSON, for programs.
 
+use std::time::Instant;
+
 use serde_json::json;
 use stickslip::Error;
 use stickslip::results::{Analysis, Event, Observer};
 
 use crate::print;
+use crate::remaining::{Remaining, part};
+use crate::voice::Voice;
 
-/// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `finding`, `note`, `end`.
-#[derive(Debug, Default)]
-pub struct Lines {}
+/// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `finding`, `note`, `end`; a [`Heartbeat`](crate::voice::Heartbeat) adds
+/// `heartbeat` where nothing else is printed for half a minute.
+pub struct Lines {
+    voice: Voice,
+    started: Instant,
+    remaining: Remaining,
+}
+
+impl Lines {
+    /// Lines of a run that begins now.
+    pub fn new(voice: Voice) -> Self {
+        Lines {
+            voice,
+            started: Instant::now(),
+            remaining: Remaining::default(),
+        }
+    }
+
+    /// Seconds that are left after time `t`, if that is known.
+    fn left(&mut self, analysis: &Analysis, t: f64) -> Option<f64> {
+        let done = part(&analysis.model.steps, analysis.frame.step, t)?;
+        self.remaining
+            .note(done, self.started.elapsed().as_secs_f64());
+        self.remaining.seconds()
+    }
+}
 
 impl Observer for Lines {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
@@ -18,7 +45,8 @@ impl Observer for Lines {
                 // JSON has no NaN; what is not known is null.
                 let values: serde_json::Map<_, _> =
                     names.zip(row.values.iter().map(|v| json!(v))).collect();
-                json!({ "event": "increment", "step": analysis.step_name(), "row": values })
+                let left = self.left(analysis, row.get("TIME").unwrap_or_default());
+                json!({ "event": "increment", "step": analysis.step_name(), "row": values, "seconds-left": left })
             }
             Event::Cutback(trial, failure) => json!({
                 "event": "cutback", "from": trial.from, "to": trial.to,
@@ -29,6 +57,7 @@ impl Observer for Lines {
             Event::End => json!({ "event": "end", "summary": analysis.summary }),
             _ => return Ok(()),
         };
+        self.voice.is_heard();
         print::out(&format!("{line}\n"))
             .map_err(|e| Error::io(std::path::Path::new("standard output"), e))
     }

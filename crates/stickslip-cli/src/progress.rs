@@ -69,7 +69,7 @@ impl Progress {
     fn increment(&mut self, analysis: &Analysis, row: &Row) {
         let changes = self.changes(analysis);
         let left = self.left(analysis, row.get("TIME").unwrap_or(0.0));
-        if !self.terminal && !self.voice.is_silent(false) {
+        if !self.terminal && !self.voice.is_silent() {
             return;
         }
         if !self.headed {

@@ -5,8 +5,11 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use serde_json::{Value, json};
 use stickslip::newton::Strategy;
 use stickslip::run::{Watch, Work};
+
+use crate::print;
 
 /// How long nothing may be said on a terminal, and in a file or a pipe.
 const ON_TERMINAL: Duration = Duration::from_secs(3);
@@ -14,6 +17,24 @@ const IN_PIPE: Duration = Duration::from_secs(30);
 
 /// How often is looked whether it is time to say something.
 const LOOK: Duration = Duration::from_millis(500);
+
+/// Who listens, and how long nothing may be said to them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Listener {
+    Terminal,
+    Pipe,
+    /// Reads lines of JSON on standard output.
+    Program,
+}
+
+impl Listener {
+    fn patience(self) -> Duration {
+        match self {
+            Listener::Terminal => ON_TERMINAL,
+            Listener::Pipe | Listener::Program => IN_PIPE,
+        }
+    }
+}
 
 /// Prints a line. A closed standard error is no reason to stop.
 pub fn say(text: &str) {
@@ -64,9 +85,14 @@ impl Voice {
         self.state().passing(text);
     }
 
-    /// Whether nothing has been said for so long that somebody may worry.
-    pub fn is_silent(&self, terminal: bool) -> bool {
-        self.state().said.elapsed() >= patience(terminal)
+    /// Whether nothing has been said to a file or a pipe for so long that somebody may worry.
+    pub fn is_silent(&self) -> bool {
+        self.state().said.elapsed() >= IN_PIPE
+    }
+
+    /// Something was said elsewhere.
+    pub fn is_heard(&self) {
+        self.state().said = Instant::now();
     }
 
     /// What a simulation is to tell what it works on.
@@ -107,12 +133,23 @@ impl State {
         self.transient = text.chars().count();
         self.said = Instant::now();
     }
-}
 
-fn patience(terminal: bool) -> Duration {
-    match terminal {
-        true => ON_TERMINAL,
-        false => IN_PIPE,
+    /// Says what is being worked on, if nothing has been said for so long.
+    fn beat(&mut self, listener: Listener, patience: Duration) {
+        if self.said.elapsed() < patience {
+            return;
+        }
+        let now = Instant::now();
+        match listener {
+            Listener::Terminal => self.passing(&self.doing.sentence(self.begun, now)),
+            Listener::Pipe => self.line(&self.doing.sentence(self.begun, now)),
+            Listener::Program => {
+                let event = self.doing.event(self.begun, now);
+                // Whoever does not listen any more is told so by the next event of the run.
+                let _ = print::out(&format!("{event}\n"));
+                self.said = now;
+            }
+        }
     }
 }
 
@@ -123,9 +160,23 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Begins to listen to a voice.
+    /// Begins to listen to a voice that people hear.
     pub fn start(voice: &Voice) -> Self {
-        let terminal = std::io::stderr().is_terminal();
+        Heartbeat::to(
+            match std::io::stderr().is_terminal() {
+                true => Listener::Terminal,
+                false => Listener::Pipe,
+            },
+            voice,
+        )
+    }
+
+    /// Begins to listen to a voice that a program hears.
+    pub fn to_program(voice: &Voice) -> Self {
+        Heartbeat::to(Listener::Program, voice)
+    }
+
+    fn to(listener: Listener, voice: &Voice) -> Self {
         let over = Arc::new((Mutex::new(false), Condvar::new()));
         let (voice, ended) = (voice.clone(), Arc::clone(&over));
         let listen = move || {
@@ -134,14 +185,8 @@ impl Heartbeat {
             while !*over {
                 let waited = condition.wait_timeout(over, LOOK);
                 over = waited.unwrap_or_else(PoisonError::into_inner).0;
-                let mut state = voice.state();
-                if *over || state.said.elapsed() < patience(terminal) {
-                    continue;
-                }
-                let sentence = state.doing.sentence(state.begun, Instant::now());
-                match terminal {
-                    true => state.passing(&sentence),
-                    false => state.line(&sentence),
+                if !*over {
+                    voice.state().beat(listener, listener.patience());
                 }
             }
         };
@@ -208,6 +253,26 @@ impl Doing {
         }
     }
 
+    /// The same for programs; what is not known is null.
+    fn event(&self, begun: Instant, now: Instant) -> Value {
+        let seconds = |since: Instant| now.duration_since(since).as_secs_f64();
+        let what = match (self.beside.as_str(), self.increment) {
+            ("", None) => Some(&self.what),
+            ("", Some(_)) => None,
+            _ => Some(&self.beside),
+        };
+        let iteration = self.iteration.map(|(round, iteration, residual, strategy)| {
+            json!({ "augmentation": round, "iteration": iteration, "residual": residual, "strategy": strategy.key() })
+        });
+        let increment = self.increment.map(|(from, to, attempt)| {
+            json!({
+                "step": self.step, "from": from, "to": to, "attempt": attempt,
+                "seconds": self.since.map(seconds), "last": iteration,
+            })
+        });
+        json!({ "event": "heartbeat", "seconds": seconds(begun), "what": what, "increment": increment })
+    }
+
     /// What is going on, and for how long.
     fn sentence(&self, begun: Instant, now: Instant) -> String {
         let mut parts = Vec::new();
@@ -242,6 +307,45 @@ impl Doing {
 mod tests {
     use super::*;
     use stickslip::newton::Progress;
+
+    #[test]
+    fn programs_hear_what_is_being_done() {
+        let begun = Instant::now();
+        let at = |seconds| begun + Duration::from_secs(seconds);
+        let mut doing = Doing {
+            what: "reading and assembling".into(),
+            ..Doing::default()
+        };
+        let event = doing.event(begun, at(40));
+        assert_eq!(event["event"], "heartbeat");
+        assert_eq!(event["seconds"], 40.0);
+        assert_eq!(event["what"], "reading and assembling");
+        assert!(event["increment"].is_null());
+        let increment = Work::Increment {
+            step: "push",
+            from: 0.25,
+            to: 0.5,
+            attempt: 2,
+        };
+        doing.note(&increment, at(50));
+        doing.note(&Work::Recovering(16), at(60));
+        let event = doing.event(begun, at(90));
+        assert_eq!(event["increment"]["step"], "push");
+        assert_eq!(event["increment"]["seconds"], 40.0);
+        assert_eq!(event["what"], "finding the interiors of 16 increments");
+        assert!(event["increment"]["last"].is_null());
+    }
+
+    #[test]
+    fn nothing_is_said_where_something_has_just_been_said() {
+        let voice = Voice::new();
+        let said = |voice: &Voice| voice.state().said;
+        let before = said(&voice);
+        voice.state().beat(Listener::Program, Duration::MAX);
+        assert_eq!(said(&voice), before);
+        voice.state().beat(Listener::Program, Duration::ZERO);
+        assert!(said(&voice) > before);
+    }
 
     #[test]
     fn whatever_is_being_done_has_a_sentence() {

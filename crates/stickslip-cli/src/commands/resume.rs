@@ -10,7 +10,7 @@ use super::run::{Manner, Session, claim, go, stem};
 use super::{library, use_threads};
 use crate::failure::{Failure, Outcome};
 use crate::input::Input;
-use crate::voice::{Heartbeat, Voice};
+use crate::voice::Voice;
 
 /// Go on with an analysis that was stopped or killed, from its last checkpoint.
 ///
@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     use_threads(manner.threads, manner.quiet);
     let voice = Voice::new();
     voice.does("reading and assembling");
-    let heartbeat = manner.loud().then(|| Heartbeat::start(&voice));
+    let heartbeat = manner.heartbeat(&voice);
     let directory = &arguments.directory;
     // Nobody else writes there from here on, as long as it may take to assemble.
     let held = FolderClaim::take(directory)?;

@@ -58,6 +58,15 @@ pub struct Manner {
 }
 
 impl Manner {
+    /// A sign of life for who listens.
+    pub fn heartbeat(&self, voice: &Voice) -> Option<Heartbeat> {
+        match (self.json, self.quiet) {
+            (true, _) => Some(Heartbeat::to_program(voice)),
+            (false, true) => None,
+            (false, false) => Some(Heartbeat::start(voice)),
+        }
+    }
+
     /// Whether progress is shown.
     pub fn loud(&self) -> bool {
         !self.quiet && !self.json
@@ -88,7 +97,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let started = Instant::now();
     let voice = Voice::new();
     voice.does("reading and assembling");
-    let heartbeat = manner.loud().then(|| Heartbeat::start(&voice));
+    let heartbeat = manner.heartbeat(&voice);
     let input = Input::open(&arguments.file, &arguments.set)?;
     let setup = input.build()?;
     let directory = arguments
@@ -180,8 +189,8 @@ pub fn go(session: Session, manner: &Manner) -> Outcome {
     simulation.set_interrupt(crate::interrupt::watch());
     simulation.set_watch(voice.watch());
     super::report::keep_problem(&directory, &input.problem)?;
+    let mut lines = Lines::new(voice.clone());
     let mut progress = Progress::new(manner.verbose, voice);
-    let mut lines = Lines::default();
     let beside = |extension: &str| directory.join(format!("{stem}.{extension}"));
     let mut printer = input
         .deck
