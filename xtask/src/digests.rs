@@ -173,12 +173,18 @@ fn one(binary: &Path, case: &Case, out: &Path) -> Result<String, String> {
 
 /// All result files of a folder and those in it, by name.
 fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = all_files(folder);
+    found.retain(|path| !NO_RESULTS.contains(&examples::name(path).as_str()));
+    found
+}
+
+/// All files of a folder and those in it, by name.
+pub fn all_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for path in examples::list(folder).unwrap_or_default() {
-        if path.is_dir() {
-            found.extend(files(&path));
-        } else if !NO_RESULTS.contains(&examples::name(&path).as_str()) {
-            found.push(path);
+        match path.is_dir() {
+            true => found.extend(all_files(&path)),
+            false => found.push(path),
         }
     }
     found

@@ -8,6 +8,7 @@ mod digests;
 mod dist;
 mod examples;
 mod fuzz;
+mod kill;
 mod peers;
 mod published;
 mod robustness;
@@ -35,6 +36,9 @@ tasks:
                             digests of their histories, fields and other files to FILE; where FILE is there already, compare with it and list
                             what differs, with the largest difference of a history. For changes that shall not change results
   fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu, checkpoint or inp (needs cargo-fuzz)
+  kill [--kills N] [--seed S] [CASE ...]
+                            kill runs of six cases (statics, implicit, explicit, sweep, deck, condensed) at N random times (default 200)
+                            and take them up again; fails if one comes to other files than a run that never stopped
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
@@ -65,6 +69,7 @@ fn main() -> ExitCode {
         Some((task, what)) if task == "decks" => decks::run(what),
         Some((task, what)) if task == "digests" => digests::run(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
+        Some((task, what)) if task == "kill" => kill::run(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),
