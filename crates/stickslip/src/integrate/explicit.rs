@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::onset::{AFTER, initial_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
+use crate::contact::interface::Interface;
 use crate::error::{Error, RunError};
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
@@ -126,17 +127,20 @@ impl Explicit {
         }
     }
 
-    /// The longest stable increment with interfaces of this squared frequency.
-    pub(crate) fn stable(&self, contact: f64) -> f64 {
+    /// The longest stable increment with interfaces of this squared frequency that take velocity away at this rate.
+    pub(crate) fn stable(&self, (contact, rate): (f64, f64)) -> f64 {
         let omega = (self.frequency + contact).sqrt();
         if omega == 0.0 {
             // rigid bodies in free flight
-            return f64::INFINITY;
+            return match rate > 0.0 {
+                true => 2.0 / rate,
+                false => f64::INFINITY,
+            };
         }
         let stiffness = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[1]));
         let mass = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[0]));
         // damping lags by half an increment
-        let ratio = 0.5 * (stiffness * omega + mass / omega);
+        let ratio = 0.5 * (stiffness * omega + (mass + rate) / omega);
         2.0 / omega / ((1.0 + ratio * ratio).sqrt() + ratio)
     }
 
@@ -286,14 +290,19 @@ impl Explicit {
         frame.forces = forces;
     }
 
-    /// Sum of the highest squared frequencies of interfaces and couplings now.
-    pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
+    /// Sums of the highest squared frequencies of interfaces and couplings now, and of the rates at which interfaces take velocity away.
+    pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> (f64, f64) {
         let step = &model.steps[frame.step];
         let all = contact.interfaces.iter();
         let links = &model.links;
-        let interfaces: f64 = all.map(|i| i.highest_frequency(&self.inverse, links)).sum();
+        let of = |i: &Interface| {
+            let squared = i.highest_frequency(&self.inverse, links);
+            (squared, i.highest_rate(&self.inverse, links))
+        };
+        let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));
         let t = frame.state.t + AFTER * (step.end - step.start);
-        interfaces + (contact.couplings).highest_frequency(t, &self.inverse, links)
+        let couplings = (contact.couplings).highest_frequency(t, &self.inverse, links);
+        (squared + couplings, rate)
     }
 
     /// The longest increment that is stable now, with its safety.

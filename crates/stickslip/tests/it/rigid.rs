@@ -467,6 +467,112 @@ dynamic = {{ {dynamic} }}
     }
 }
 
+/// Pressed on a floor by a constant way and pushed along it, with regularised friction: `m v' = -T` down to ε, and from there
+/// `r' = -T/(m ε) (2 - r) r` of `r = v/ε`, whose solution is `r = 2 / (1 + exp(2 T t/(m ε)))`. However small ε is, it does not make increments small.
+#[test]
+fn regularised_friction_brakes_explicitly_in_any_regularisation() {
+    let (mass, limit, start, duration) = (6.0, 0.2 * 5000.0 * 0.01 * 2.0, 1.5, 0.5);
+    let after = |epsilon: f64| {
+        let sliding = (start - epsilon) * mass / limit;
+        let left = 2.0 * limit * (duration - sliding) / (mass * epsilon);
+        epsilon * 2.0 / (1.0 + left.exp())
+    };
+    let mut counts = Vec::new();
+    for epsilon in [1.0, 0.3, 1e-2, 1e-5, 1e-9] {
+        let text = format!(
+            r#"{BLOCK}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.seat = {{ secondary = "block.bottom", primary = "floor", normal.linear = {{ c = 5000 }}, friction.coulomb = {{ mu = 0.2 }}, slip.regularised.epsilon = {epsilon:e} }}
+initial.push = {{ set = "block", velocity = [{start}, 0], displacement = [0, -0.01] }}
+support.rail = {{ set = "block", y = -0.01, amplitude = "kept" }}
+amplitude.kept.table = [[0, 1], [{duration}, 1]]
+[[step]]
+duration = {duration}
+dynamic.scheme.central-difference = {{}}
+"#
+        );
+        let mut simulation = support::build(&problem(&text)).expect("sound");
+        simulation
+            .run(&mut [])
+            .unwrap_or_else(|e| panic!("{epsilon:e}: {e}"));
+        counts.push(simulation.summary.increments);
+        let row = &simulation.summary.last;
+        // What the spring of the interface swings with after it has stopped a body that it lets creep no more.
+        let spring = limit / (2.0 * 1e4 / 0.5 * mass).sqrt();
+        near(row["top.V1"], after(epsilon), 2e-3 + spring);
+        let all = 0.5 * mass * start * start;
+        near(row["ERESIDUAL"], 0.0, 1e-2 * all);
+        assert!(row["ALLFD"] > 0.9 * all, "{epsilon:e}: {}", row["ALLFD"]);
+    }
+    let most = counts.iter().max().copied().unwrap_or(0);
+    assert!(most < 2 * counts[0], "{counts:?}");
+}
+
+/// Pressed on the floor and pulled along it with half of what friction carries, a block creeps at `ε (1 - √½)`: what swings beside that is the block on the
+/// spring of the interface, from which half of the limit was let go. The smallest ε takes no more increments than that spring.
+#[test]
+fn regularised_friction_creeps_explicitly_in_any_regularisation() {
+    let (mass, limit, duration) = (6.0_f64, 0.2 * 5000.0 * 0.01 * 2.0, 0.5);
+    let modulus = 1e4 * 0.7 / (1.3 * 0.4);
+    let spring = 2.0 * modulus / 0.5;
+    let pull = 0.5 * limit;
+    for epsilon in [0.3, 1e-2, 1e-5, 1e-9, 1e-14] {
+        let text = format!(
+            r#"{BLOCK}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.seat = {{ secondary = "block.bottom", primary = "floor", normal.linear = {{ c = 5000 }}, friction.coulomb = {{ mu = 0.2 }}, slip.regularised.epsilon = {epsilon:e} }}
+initial.push = {{ set = "block", displacement = [0, -0.01] }}
+load.pull = {{ set = "block", gravity = {{ acceleration = [{}, 0] }} }}
+support.rail = {{ set = "block", y = -0.01, amplitude = "kept" }}
+amplitude.kept.table = [[0, 1], [{duration}, 1]]
+[[step]]
+duration = {duration}
+dynamic.scheme.central-difference = {{}}
+"#,
+            pull / mass
+        );
+        let mut simulation = support::build(&problem(&text)).expect("sound");
+        simulation
+            .run(&mut [])
+            .unwrap_or_else(|e| panic!("{epsilon:e}: {e}"));
+        let count = simulation.summary.increments;
+        assert!(count < 100, "{epsilon:e}: {count} increments");
+        let row = &simulation.summary.last;
+        let creep = epsilon * (1.0 - 0.5_f64.sqrt());
+        near(row["top.V1"], creep, 1.01 * pull / (spring * mass).sqrt());
+        // It takes some time to come to that velocity: `m ε / (2 T √½)` of it.
+        let late = creep * mass * epsilon / (2.0_f64.sqrt() * limit);
+        near(row["top.U1"], creep * duration, 2.02 * pull / spring + late);
+        near(row["ERESIDUAL"], 0.0, 1e-12);
+    }
+}
+
+/// A floor that takes velocity away faster than its spring gives it back bounds increments by `2 m/c`, and takes what was there.
+#[test]
+fn a_stiff_dashpot_bounds_explicit_increments() {
+    let text = format!(
+        r#"{BLOCK}
+obstacle.floor.plane = {{ point = [0, -0.05], normal = [0, 1] }}
+interface.seat = {{ secondary = "block.bottom", primary = "floor", normal.linear = {{ c = 4000 }}, damping.viscous = {{ coefficient = 1e5 }} }}
+initial.drop = {{ set = "block", velocity = [0, -1] }}
+[[step]]
+duration = 0.1
+dynamic.scheme.central-difference = {{}}
+"#
+    );
+    let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    for (_, row) in &record.increments {
+        assert!(value(row, "top.V2").abs() < 1.001 && value(row, "ALLKE") < 3.0001);
+        near(value(row, "ERESIDUAL"), 0.0, 3e-2);
+    }
+    let row = last(&record);
+    near(value(row, "top.V2"), 0.0, 2e-2);
+    near(value(row, "ALLKE"), 0.0, 1e-3);
+    // The scheme takes some of it, as the dashpot lags by half an increment.
+    near(value(row, "ALLCD"), 3.0, 0.3);
+    near(value(row, "ALLCD") + value(row, "ALLND"), 3.0, 3e-2);
+}
+
 /// Dropped on a compliant floor, it comes back with the energy it had.
 #[test]
 fn a_bounce_keeps_the_energy() {

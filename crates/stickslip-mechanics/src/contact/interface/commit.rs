@@ -113,6 +113,8 @@ impl Interface {
             damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
         }
         let creep = match increment.creeps && r.status == Status::Stick {
+            // Not what the spring gives.
+            true if self.history.springs => e.path(true) / increment.dt,
             true => norm(e.moved) / increment.dt,
             false => 0.0,
         };
@@ -192,7 +194,10 @@ impl Interface {
             self.laws.enforcement.as_dyn().multipliers(),
             Multipliers::Augmented { .. }
         );
-        let springs = self.laws.needs_tangential_stiffness() && (!updated || self.history.springs);
+        let springs = match self.history.springs {
+            true => self.laws.tied || self.laws.friction_law().frictional(),
+            false => self.laws.needs_tangential_stiffness() && !updated,
+        };
         let stiffness = e.tangential_stiffness;
         match springs && stiffness.is_finite() && stiffness > 0.0 {
             true => 0.5 * dot(shear, shear) / stiffness,

@@ -23,6 +23,7 @@ impl Evaluations {
         points
             .map(|(i, e)| Trace {
                 slope: e.slope(),
+                viscosity: e.viscosity,
                 over: e.over,
                 sides: match e.over {
                     true => self.batch(i).sides(e).to_vec(),
@@ -43,6 +44,7 @@ impl Evaluations {
                 ..Evaluation::default()
             };
             e.response.d_gap[0][0] = trace.slope;
+            e.viscosity = trace.viscosity;
             let batch: &mut Batch = &mut batches[i / CHUNK];
             e.slots.sides = batch.sides.len();
             e.slots.nodes = trace.sides.len();
@@ -64,14 +66,20 @@ impl Evaluations {
 /// What an evaluation of a point leaves for the length of an explicit increment after it.
 #[derive(Debug, Clone)]
 pub(super) struct Trace {
-    /// The largest change of a traction with its own gap or slip `[Pa/m]`.
+    /// The largest change of a traction with its own gap or slip `[Pa/m]`, and with the velocity along it `[Pa s/m]`.
     slope: f64,
+    viscosity: f64,
     /// Whether something lies opposite, and the nodes that take part there with their weights.
     over: bool,
     sides: Vec<(usize, f64)>,
 }
 
-crate::keep!(Trace { slope, over, sides });
+crate::keep!(Trace {
+    slope,
+    viscosity,
+    over,
+    sides
+});
 
 /// What a law is asked at a point.
 #[derive(Debug, Clone, Copy)]
@@ -107,6 +115,8 @@ pub(super) struct Evaluation {
     pub area: f64,
     pub normal_stiffness: f64,
     pub tangential_stiffness: f64,
+    /// The largest change of a traction with the velocity along it `[Pa s/m]`, where that resists.
+    pub viscosity: f64,
 }
 
 /// Where the numbers of a point lie in its [`Batch`].
@@ -137,10 +147,10 @@ pub(super) struct Frames {
 }
 
 impl Evaluation {
-    /// The largest change of a traction with its own gap or slip `[Pa/m]`.
+    /// The largest change of a traction with its own gap or slip `[Pa/m]`, but for what follows their velocities.
     pub fn slope(&self) -> f64 {
-        let d = &self.response.d_gap;
-        d[0][0].abs().max(d[1][1].abs()).max(d[2][2].abs())
+        let Response { d_gap, d_rate, .. } = &self.response;
+        (0..3).fold(0.0, |m: f64, i| m.max((d_gap[i][i] - d_rate[i]).abs()))
     }
 
     /// A point that carries nothing.

@@ -36,6 +36,7 @@ impl Interface {
                 seen: slid,
                 path: None,
                 softness,
+                sprung: self.history.springs,
                 slack: match scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
                     true => FIRST_SLACK,
                     false => 0.0,
@@ -65,9 +66,14 @@ impl Interface {
             }));
             return Evaluation::default();
         }
+        let response = self.laws.respond(stencil, &at);
         Evaluation {
             slots,
-            response: self.laws.respond(stencil, &at),
+            viscosity: response
+                .d_rate
+                .iter()
+                .fold(0.0, |m: f64, d| m.max(-d * at.dt)),
+            response,
             gap: stencil.gap,
             frames: Frames {
                 normal: stencil.normal,
@@ -123,6 +129,7 @@ impl Interface {
         };
         let tangential = match self.laws.needs_tangential_stiffness() {
             true => self.spring(enforcement.tangential(), own),
+            false if self.laws.lends_spring(self.history.springs) => own,
             false => f64::INFINITY,
         };
         // Softened, stick yields like a few cells of the body instead of as stiffly as it should.

@@ -41,40 +41,90 @@ impl Interface {
     /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own. For
     /// a rigid body the springs at all its points add up, each with what the body gives way there, `1/m + |arm|²/I` as inverse mass.
     pub fn highest_frequency(&self, inverse_mass: &[f64], links: &Links) -> f64 {
+        let inverse = |node: usize| inverse_mass[self.dofs.of(node, 0)];
+        self.highest_eigenvalue(&|i| self.stiffest(i, links), &inverse, links)
+    }
+
+    /// The same of compliant laws and springs alone, as they were pressed in the last evaluation, with inverse masses by point of the mesh: what is
+    /// held by multipliers has no frequency.
+    pub fn pressed_frequency(&self, inverse_mass: &[f64], links: &Links) -> f64 {
+        if self.unknown() && self.laws.needs_normal_stiffness() {
+            return 0.0;
+        }
+        let last = &self.cache.last.points;
+        let pressed = |i: usize| {
+            last.get(i)
+                .map_or(0.0, |e| e.response.d_gap[0][0] - e.response.d_rate[0])
+        };
+        self.highest_eigenvalue(&|i| pressed(i).abs(), &|node| inverse_mass[node], links)
+    }
+
+    /// An upper bound of the rate `[1/s]` at which what laws add with the velocity takes it away, in the same way.
+    pub fn highest_rate(&self, inverse_mass: &[f64], links: &Links) -> f64 {
+        let last = &self.cache.last.points;
+        let damping = self.laws.damping.as_dyn();
+        let touched = |i: usize| {
+            let depth = TOUCHED * self.points[i].size;
+            let own = self.laws.normal_law().pressure(-depth);
+            own.map_or(self.points[i].stiffness * depth, |p| p.value)
+        };
+        let viscosity = |i: usize| {
+            let now = last.get(i).map_or(0.0, |e| e.viscosity);
+            // No frequency bounds the step on the way to a dashpot.
+            match damping.active() {
+                true => now.max(damping.extra(touched(i), 0.0).d_rate),
+                false => now,
+            }
+        };
+        let inverse = |node: usize| inverse_mass[self.dofs.of(node, 0)];
+        self.highest_eigenvalue(&viscosity, &inverse, links)
+    }
+
+    /// The spring of a point `[Pa/m]`: what there is, and what there will be when it touches.
+    fn stiffest(&self, i: usize, links: &Links) -> f64 {
+        let point = &self.points[i];
+        let own = if self.laws.needs_normal_stiffness() {
+            self.spring(self.laws.enforcement.as_dyn().normal(), point.stiffness)
+        } else {
+            0.0
+        };
+        let now = self.cache.last.points.get(i).map_or(0.0, |e| e.slope());
+        // A rigid body has no cells whose frequency would bound the step on the way to a compliant surface.
+        let rigid = |&node: &usize| links.of_point(self.nodes[node]).is_some();
+        let touched = || self.laws.normal_law().pressure(-TOUCHED * point.size);
+        let ahead = match point.nodes.iter().any(rigid) {
+            true => -touched().map_or(0.0, |p| p.slope),
+            false => 0.0,
+        };
+        own.max(now).max(ahead)
+    }
+
+    /// A bound of the largest eigenvalue of something per area at the points over the masses.
+    fn highest_eigenvalue(
+        &self,
+        of: &dyn Fn(usize) -> f64,
+        inverse_mass: &dyn Fn(usize) -> f64,
+        links: &Links,
+    ) -> f64 {
         let mut rows: Vec<f64> = vec![0.0; self.nodes.len()];
         let sides = if self.rigid() { 1.0 } else { 2.0 };
-        let enforcement = self.laws.enforcement.as_dyn();
-        let law = self.laws.normal_law();
         for (i, point) in self.points.iter().enumerate() {
-            let last = self.cache.last.points.get(i);
-            let own = if self.laws.needs_normal_stiffness() {
-                self.spring(enforcement.normal(), point.stiffness)
-            } else {
-                0.0
-            };
-            let now = last.map_or(0.0, |e| e.slope());
-            // A rigid body has no cells whose frequency would bound the step on the way to a compliant surface.
-            let rigid = |&node: &usize| links.of_point(self.nodes[node]).is_some();
-            let ahead = match point.nodes.iter().any(rigid) {
-                true => -law.pressure(-TOUCHED * point.size).map_or(0.0, |p| p.slope),
-                false => 0.0,
-            };
             // Of a mortar less than the whole of a point may have something opposite.
-            let stiffness = sides * point.area * own.max(now).max(ahead);
-            if stiffness == 0.0 {
+            let whole = sides * point.area * of(i);
+            if whole == 0.0 {
                 continue;
             }
             for (node, w) in self.weights_of(i) {
-                rows[node] += stiffness * w.abs();
+                rows[node] += whole * w.abs();
             }
         }
         let mut highest = 0.0_f64;
         let mut rigid = vec![0.0; links.all().len()];
         for (k, &node) in rows.iter().zip(&self.nodes) {
-            let squared = k * inverse_mass[self.dofs.of(node, 0)];
+            let own = k * inverse_mass(node);
             match links.of_point(node) {
-                None => highest = highest.max(squared),
-                Some(body) => rigid[body] += squared,
+                None => highest = highest.max(own),
+                Some(body) => rigid[body] += own,
             }
         }
         rigid.into_iter().fold(highest, f64::max)

@@ -66,6 +66,8 @@ pub struct Sliding {
     pub path: Option<[f64; 2]>,
     /// Slip per limit `[m/Pa]` over which a regularised rule is smoothed at least; zero but in a continuation.
     pub softness: f64,
+    /// Whether the rule acts through a spring, as in explicit increments; see [`SlipRule::sprung`](crate::contact::law::slip::SlipRule::sprung).
+    pub sprung: bool,
     /// Slack of the slip rule, see [`Tangential::slack`](crate::contact::law::slip::Tangential::slack).
     pub slack: f64,
 }

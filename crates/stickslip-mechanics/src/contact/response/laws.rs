@@ -84,6 +84,11 @@ impl Laws {
         self.tied || self.set_valued()
     }
 
+    /// Whether friction acts through a spring that the enforcement says nothing of, as `springs` take the place of all else.
+    pub fn lends_spring(&self, springs: bool) -> bool {
+        springs && self.friction_law().frictional() && !self.needs_tangential_stiffness()
+    }
+
     /// Whether shear traction needs a stiffness of sticking.
     pub fn needs_tangential_stiffness(&self) -> bool {
         self.tied || (self.friction_law().frictional() && self.slip.as_dyn().sticks())

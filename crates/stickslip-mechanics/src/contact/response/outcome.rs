@@ -19,6 +19,8 @@ pub struct Response {
     pub traction: [f64; 3],
     /// Derivatives with respect to gap and slips (as friction sees them) `[Pa/m]`.
     pub d_gap: [[f64; 3]; 3],
+    /// The part of the diagonal of `d_gap` that is there because laws see velocities, as gap and slip over the increment `[Pa/m]`.
+    pub d_rate: [f64; 3],
     /// Derivatives with respect to the skew `[Pa]`.
     pub d_skew: [f64; 3],
     /// Derivatives with respect to the multipliers, for a perturbed Lagrangian `[-]`.

@@ -121,8 +121,8 @@ impl Laws {
         response.damping = extra.value;
         response.traction[0] += extra.value;
         // the closing velocity falls with the gap
-        response.d_gap[0][0] =
-            response.d_gap[0][0] * (1.0 + extra.d_pressure) - extra.d_rate / at.dt;
+        response.d_rate[0] = -extra.d_rate / at.dt;
+        response.d_gap[0][0] = response.d_gap[0][0] * (1.0 + extra.d_pressure) + response.d_rate[0];
     }
 
     /// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.

@@ -81,7 +81,10 @@ impl Laws {
         };
         let rule: &dyn SlipRule = self.slip.as_dyn();
         let shear = match at.frozen {
-            None | Some(Frozen::Open) => rule.traction(limit.value, &motion),
+            None | Some(Frozen::Open) => match at.slip.sprung {
+                true => rule.sprung(limit.value, &motion),
+                false => rule.traction(limit.value, &motion),
+            },
             Some(Frozen::Stick) => rule.stuck(limit.value, &motion),
             Some(Frozen::Slip(direction)) => SlipState {
                 traction: direction.map(|d| limit.value * d),
@@ -116,6 +119,12 @@ impl Laws {
             response.d_skew[i + 1] = shear.d_skew[i];
             response.d_multiplier[i + 1][0] =
                 d_limit * limit.d_pressure * response.d_multiplier[0][0];
+            // slip over the increment is the speed that the limit depends on, and that of a rule without a spring
+            let own = match rule.sticks() || at.slip.sprung {
+                true => 0.0,
+                false => shear.d_slip[i][i],
+            };
+            response.d_rate[i + 1] = own + d_limit * limit.d_speed * toward[i] / at.dt;
             for (j, toward) in toward.iter().enumerate() {
                 response.d_gap[i + 1][j + 1] =
                     shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;

@@ -55,54 +55,60 @@ mod tests {
             ] {
                 let at = motion(scale, skew, smoothing);
                 let limit = 0.9;
-                let s = rule.traction(limit, &at);
-                let h = 1e-6;
-                let close = |a: f64, b: f64| (a - b).abs() < 1e-8 * (1.0 + b.abs());
-                for j in 0..2 {
-                    let shifted = |h: f64| {
-                        let mut m = at;
-                        m.slip[j] += h;
-                        rule.traction(limit, &m).traction
+                for sprung in [false, true] {
+                    let traction = |limit: f64, at: &Tangential| match sprung {
+                        true => rule.sprung(limit, at),
+                        false => rule.traction(limit, at),
                     };
-                    let (a, b) = (shifted(-h), shifted(h));
-                    for i in 0..2 {
-                        assert!(
-                            close(s.d_slip[i][j], (b[i] - a[i]) / (2.0 * h)),
-                            "{model:?} {scale} {skew}"
-                        );
+                    let s = traction(limit, &at);
+                    let h = 1e-6;
+                    let close = |a: f64, b: f64| (a - b).abs() < 1e-8 * (1.0 + b.abs());
+                    for j in 0..2 {
+                        let shifted = |h: f64| {
+                            let mut m = at;
+                            m.slip[j] += h;
+                            traction(limit, &m).traction
+                        };
+                        let (a, b) = (shifted(-h), shifted(h));
+                        for i in 0..2 {
+                            assert!(
+                                close(s.d_slip[i][j], (b[i] - a[i]) / (2.0 * h)),
+                                "{model:?} {scale} {skew}"
+                            );
+                        }
                     }
+                    let (a, b) = (traction(limit - h, &at), traction(limit + h, &at));
+                    let turned = |h: f64| {
+                        traction(
+                            limit,
+                            &Tangential {
+                                skew: skew + h,
+                                ..at
+                            },
+                        )
+                    };
+                    let (c, d) = (turned(-h), turned(h));
+                    let smoothed = |h: f64| {
+                        let smoothing = smoothing + h;
+                        traction(limit, &Tangential { smoothing, ..at })
+                    };
+                    let (e, f) = (smoothed(-h), smoothed(h));
+                    for i in 0..2 {
+                        assert!(close(
+                            s.d_limit[i],
+                            (b.traction[i] - a.traction[i]) / (2.0 * h)
+                        ));
+                        assert!(close(
+                            s.d_skew[i],
+                            (d.traction[i] - c.traction[i]) / (2.0 * h)
+                        ));
+                        assert!(close(
+                            s.d_smoothing[i],
+                            (f.traction[i] - e.traction[i]) / (2.0 * h)
+                        ));
+                    }
+                    assert!(at.length(s.traction) <= limit * (1.0 + 1e-14));
                 }
-                let (a, b) = (rule.traction(limit - h, &at), rule.traction(limit + h, &at));
-                let turned = |h: f64| {
-                    rule.traction(
-                        limit,
-                        &Tangential {
-                            skew: skew + h,
-                            ..at
-                        },
-                    )
-                };
-                let (c, d) = (turned(-h), turned(h));
-                let smoothed = |h: f64| {
-                    let smoothing = smoothing + h;
-                    rule.traction(limit, &Tangential { smoothing, ..at })
-                };
-                let (e, f) = (smoothed(-h), smoothed(h));
-                for i in 0..2 {
-                    assert!(close(
-                        s.d_limit[i],
-                        (b.traction[i] - a.traction[i]) / (2.0 * h)
-                    ));
-                    assert!(close(
-                        s.d_skew[i],
-                        (d.traction[i] - c.traction[i]) / (2.0 * h)
-                    ));
-                    assert!(close(
-                        s.d_smoothing[i],
-                        (f.traction[i] - e.traction[i]) / (2.0 * h)
-                    ));
-                }
-                assert!(at.length(s.traction) <= limit * (1.0 + 1e-14));
             }
         }
     }

@@ -89,6 +89,63 @@ impl SlipRule for Regularised {
         state
     }
 
+    /// The rule in series with a spring `k`, by the method of Euler: `t = t* - k dt w(t)` with the trial `t* = base - k slip` and the velocity `w` at which
+    /// the interface [creeps](creep) under the shear `t`, which has the direction of `t*`. With `y = √(1 - |t|/T)` and `b = k dt ε` that is
+    ///
+    /// ```text
+    /// T (1 - y²) + b (1 - y) = |t*|      as long as |t*| <= T + b, where |t| = T
+    /// ```
+    ///
+    /// A mass on it that central differences move is stable up to `k dt² = 4 m`, as on the spring alone: one increment is
+    /// `t₁ = θ (t₀ + k dt v)`, `v₁ = v - dt t₁/m` with some `0 < θ <= 1`, whose eigenvalues have the product θ and the sum
+    /// `1 + θ - θ k dt²/m`, so that both lie in the unit circle where `k dt²/m < 2 + 2/θ`.
+    fn sprung(&self, limit: f64, motion: &Tangential) -> SlipState {
+        let k = motion.stiffness;
+        let trial = [0, 1].map(|i| motion.base[i] - k * motion.slip[i]);
+        let size = motion.length(trial);
+        let give = k * motion.dt * self.epsilon;
+        let left = limit + give - size;
+        // Traction over trial, and how the size of the traction changes with that of the trial and with the limit.
+        let (ratio, slope, d_limit) = match left >= 0.0 {
+            true => {
+                let y = 2.0 * left / (give + (give * give + 4.0 * limit * left).sqrt());
+                let carried = limit * (1.0 + y);
+                let both = 2.0 * limit * y + give;
+                let mobilised = size * (1.0 + y) / (carried + give);
+                (
+                    carried / (carried + give),
+                    2.0 * limit * y / both,
+                    mobilised * give / both,
+                )
+            }
+            false => (limit / size, 0.0, 1.0),
+        };
+        let (along, toward) = match size > 0.0 {
+            true => (trial.map(|t| t / size), motion.length_slope(trial, size)),
+            false => ([0.0; 2], [0.0; 2]),
+        };
+        let traction = trial.map(|t| ratio * t);
+        let turn = slope - ratio;
+        let mut d_slip = [[0.0; 2]; 2];
+        for (i, row) in d_slip.iter_mut().enumerate() {
+            for (j, d) in row.iter_mut().enumerate() {
+                let unit = if i == j { ratio } else { 0.0 };
+                *d = -k * (unit + turn * along[i] * toward[j]);
+            }
+        }
+        // d|t*|/dskew = t*₁ t*₂ / |t*|
+        let d_size = along[0] * trial[1];
+        SlipState {
+            traction,
+            d_slip,
+            d_limit: along.map(|m| m * d_limit),
+            d_skew: along.map(|m| turn * m * d_size),
+            d_smoothing: [0.0; 2],
+            sliding: left < 0.0,
+            sliding_path: [0, 1].map(|i| motion.slip[i] + (traction[i] - motion.base[i]) / k),
+        }
+    }
+
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
         // the tangent at rest, φ ≈ 2 w/ε
         let slope = 2.0 / (self.epsilon.max(motion.smoothing) * motion.dt);
@@ -139,6 +196,51 @@ mod tests {
             let slope = (psi(1.0, xi + h) - psi(1.0, xi - h)) / (2.0 * h);
             assert!((slope - f).abs() < 1e-6);
             assert!(xi - psi(1.0, xi) <= 1.0 / 3.0 + 1e-15);
+        }
+    }
+
+    /// What is left in the spring creeps away at the velocity that goes with it, in any increment, and nothing is stiffer than the spring.
+    #[test]
+    fn a_spring_in_series_gives_way_at_the_velocity_of_its_traction() {
+        let limit = 3.0;
+        for epsilon in [1e-9, 1e-2, 4.0, 1e6] {
+            let rule = Regularised { epsilon };
+            for dt in [1e-8, 1e-3, 1.0, 1e4] {
+                for way in [1e-12, -0.3, 2.0, 50.0] {
+                    let motion = Tangential {
+                        slip: [0.6 * way, -0.8 * way],
+                        dt,
+                        stiffness: 7.0,
+                        base: [0.3, 0.1],
+                        ..Tangential::default()
+                    };
+                    let state = rule.sprung(limit, &motion);
+                    let [a, b] = state.traction;
+                    let size = a.hypot(b);
+                    let what = format!("{epsilon:e} {dt:e} {way:e}");
+                    assert!(size <= limit * (1.0 + 1e-14), "{what}");
+                    let path = state.sliding_path;
+                    let crept = path[0].hypot(path[1]) / dt;
+                    let rounding = 1e-13 * (1.0 + way.abs()) / dt;
+                    if state.sliding {
+                        assert!(crept >= epsilon - rounding, "{what}: {crept:e}");
+                    } else {
+                        let due = creep(epsilon, size / limit);
+                        // Near the limit the velocity depends on the root of what is left of it.
+                        let near = 1e-7 * epsilon;
+                        let apart = (crept - due).abs();
+                        assert!(apart <= rounding + near, "{what}: {crept:e}, {due:e}");
+                    }
+                    let along = (a * path[0] + b * path[1]) / (size * path[0].hypot(path[1]));
+                    assert!(crept <= rounding || along < -1.0 + 1e-6, "{what}: {along}");
+                    let d = state.d_slip;
+                    let stiffest = [d[0][0], d[1][1]].map(|d| -d);
+                    assert!(
+                        stiffest.iter().all(|k| *k >= 0.0 && *k <= 7.0 + 1e-12),
+                        "{what}"
+                    );
+                }
+            }
         }
     }
 

@@ -64,6 +64,12 @@ pub trait SlipRule: Send + Sync {
     /// Traction for a limit `[Pa]` and a motion.
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState;
 
+    /// The same where the rule acts through the spring of the motion's stiffness, as in explicit increments: what springs carry follows from
+    /// displacements, and nothing in it is stiffer than they are, whatever the length of the increment. Rules that stick have the spring anyhow.
+    fn sprung(&self, limit: f64, motion: &Tangential) -> SlipState {
+        self.traction(limit, motion)
+    }
+
     /// The traction of a point that sticks whatever the limit is, with which stick and slip of a point that cannot decide are told apart.
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState;
 
