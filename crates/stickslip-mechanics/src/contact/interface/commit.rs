@@ -70,6 +70,7 @@ impl Interface {
             dissipated += passed.dissipated * area;
             work += passed.work * area;
         }
+        self.history.start.overlap.clear();
         self.history.energy.dissipated += dissipated;
         self.leave_traces(&traces);
         let stored = self.stored_energy();
@@ -103,6 +104,7 @@ impl Interface {
         // Overlap that is resolved drives the surfaces apart.
         let [before, now] = increment.times.map(|t| self.offset(i, t));
         belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
+        belt_work += self.pressed_out(i, e) * area;
         let mut damped = 0.0;
         if r.damping != 0.0 || h.damping != 0.0 {
             let closed = if h.normal == [0.0; 3] {
@@ -127,6 +129,18 @@ impl Interface {
         history.creep = history.creep.max(creep);
         history.points[i] = passed.history;
         passed
+    }
+
+    /// Work per area that multipliers did on the bodies as they pressed out what overlapped when the motion began. A point without mass is taken from
+    /// one equilibrium to the other, in however short an increment; what a mass would take depends on nothing but the increment, and is no such work.
+    fn pressed_out(&self, i: usize, e: &Evaluation) -> f64 {
+        let light = self.directives.inertia.get(i) == Some(&0.0);
+        match self.history.start.overlap.get(i) {
+            Some(&gap) if light && e.gap.is_finite() => {
+                0.5 * e.response.traction[0] * (e.gap - gap)
+            }
+            _ => 0.0,
+        }
     }
 
     /// A point over an increment. `gap`: at its start.

@@ -106,6 +106,9 @@ pub(super) struct Origin {
     pub offset: Vec<f64>,
     /// Tied surfaces: distances that stay, by point, NaN where nothing near lies opposite; empty until they are found.
     pub glued: Vec<f64>,
+    /// Gaps `[m]` of a motion that begins with overlap which multipliers will have pressed out at the end of the first increment, by point; empty
+    /// after that, and where there is none.
+    pub overlap: Vec<f64>,
 }
 
 /// What is wrong with the shear of an interface after an increment, and what that is relative to.
@@ -188,7 +191,8 @@ crate::keep!(Origin {
     begun,
     span,
     offset,
-    glued
+    glued,
+    overlap
 });
 crate::keep!(Cone { worst, limit });
 

@@ -14,6 +14,9 @@ pub struct Tried(Vec<(Status, f64, Vec3)>);
 impl Interface {
     /// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
     /// history: for the acceleration at the start. What overlap stores then `[J]`.
+    ///
+    /// Multipliers against penetration have no force before something is solved, and nothing is stored in them: overlap is pressed out in the first
+    /// increment, whose energy is told apart by the gaps that are noted here.
     pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<f64, StepFailure> {
         if !self.schedule.active(stage.at.t) {
             return Ok(0.0);
@@ -25,6 +28,16 @@ impl Interface {
             ..Wants::default()
         };
         let evaluations = self.evaluate_all(stage, wants);
+        if self.unknown() && self.laws.needs_normal_stiffness() {
+            let points = evaluations.points.iter();
+            let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
+            self.history.start.overlap = match self.history.acting {
+                true => Vec::new(),
+                false => overlap.collect(),
+            };
+            self.cache.trial = evaluations;
+            return Ok(0.0);
+        }
         for (i, e) in evaluations.points.iter().enumerate() {
             let batch = evaluations.batch(i);
             let force = batch.force(e).unwrap_or_default();
