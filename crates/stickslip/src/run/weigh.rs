@@ -15,6 +15,9 @@ const SHARE: f64 = 0.5;
 /// By what twice the increment makes its error larger, that of all schemes here being of the third order.
 const ORDER: f64 = 8.0;
 
+/// Increments over the time that the fastest mass on a spring of contact takes for a radian, up to which they resolve it.
+const RESOLVED: f64 = 1.0;
+
 /// Halvings that may be of no use because of where in an increment a point opens or closes.
 const SPOILT: i32 = 2;
 
@@ -39,8 +42,11 @@ impl Simulation {
         if let Some(before) = before {
             let [opened, may] = self.opened(&accepted);
             let half = 0.5 * (trial.to - trial.from);
-            if running.too_open(opened, may) && half >= self.step().increments.smallest {
-                let (first, halvings) = running.opened.unwrap_or((opened, 0));
+            let resolved = opened <= may || self.resolves(trial);
+            if running.too_open((opened, may), resolved) && half >= self.step().increments.smallest
+            {
+                let known = running.opened.filter(|_| resolved);
+                let (first, halvings) = known.unwrap_or((opened, 0));
                 running.opened = Some((first, halvings + 1));
                 self.exchange(before);
                 let message = format!(
@@ -60,6 +66,36 @@ impl Simulation {
     /// Whether the length of increments is the program's to choose, and the balance of energies is judged.
     fn is_weighed(&self) -> bool {
         self.model.quality.gate != GateMode::Off && !self.step().fixed
+    }
+
+    /// Whether an increment resolves how masses swing on the springs of contact, as they are pressed now.
+    fn resolves(&self, trial: Trial) -> bool {
+        let links = &self.model.links;
+        let inverse = self.inverse_masses();
+        let interfaces = self.contact.interfaces.iter();
+        let squared: f64 = interfaces
+            .map(|i| i.pressed_frequency(&inverse, links))
+            .sum();
+        squared.sqrt() * (trial.to - trial.from) <= RESOLVED
+    }
+
+    /// What a push on a point of the mesh moves `[1/kg]`, zero where that has no inertia of its own.
+    fn inverse_masses(&self) -> Vec<f64> {
+        let inverse = |m: f64| if m > 0.0 { 1.0 / m } else { 0.0 };
+        match (self.integration.explicit(), &self.solver.inertia) {
+            (Some(explicit), _) => {
+                let points = 0..self.model.mesh.points.len();
+                points
+                    .map(|p| explicit.inverse[self.model.dofs.of(p, 0)])
+                    .collect()
+            }
+            (None, Some(inertia)) => inertia
+                .at_points(&self.model)
+                .into_iter()
+                .map(inverse)
+                .collect(),
+            (None, None) => vec![0.0; self.model.mesh.points.len()],
+        }
     }
 
     /// By how much the balance of energies opens over a committed increment, and by how much it may `[J]`.
@@ -86,11 +122,14 @@ impl Simulation {
 
 impl Increments {
     /// Whether the balance opens too far, and a smaller increment would help. Where the limit is passed already none does; and where halving makes the
-    /// error no smaller than by half each time, many small increments come to no less than one. What opens or closes on the way may spoil single ones.
-    fn too_open(&self, opened: f64, may: f64) -> bool {
+    /// error no smaller than by half each time, many small increments come to no less than one. What opens or closes on the way may spoil single ones,
+    /// and increments that do not resolve how masses swing on the springs of contact are all alike.
+    fn too_open(&self, (opened, may): (f64, f64), resolved: bool) -> bool {
         let helps = match self.opened {
-            Some((first, halvings)) => opened < first * f64::powi(0.5, halvings - SPOILT),
-            None => true,
+            Some((first, halvings)) if resolved => {
+                opened < first * f64::powi(0.5, halvings - SPOILT)
+            }
+            _ => true,
         };
         may > 0.0 && opened > may && helps
     }

@@ -627,6 +627,50 @@ fn a_support_that_starts_at_once_does_the_work_that_the_bodies_take_up() {
     }
 }
 
+/// A bar that is thrown at a wall. `LEFT`, `CONTACT`, `LENGTH` and `DYNAMIC` are filled in.
+const THROWN: &str = r#"
+format = 1
+model = { space = "plane-stress", thickness = 1.0 }
+body.bar = { generate.rectangle = { from = [LEFT, 0], to = [1, 0.25], cells = [12, 3] }, material = "m" }
+material.m.isotropic = { young = 1.0, poisson = 0.3, density = 1.0 }
+obstacle.wall.plane = { point = [-1e-3, 0], normal = [1, 0] }
+interface.hit = { secondary = "bar.left", primary = "wall", CONTACT }
+initial.throw = { set = "bar", velocity = [-0.01, 0.003] }
+output.every = 0
+[[step]]
+duration = DURATION
+increments = { initial = LENGTH, largest = LENGTH }
+dynamic = { DYNAMIC }
+"#;
+
+/// The stiffer the spring of a contact is, the less is gained by halving increments that do not resolve it: they are made small enough all the same.
+#[test]
+fn increments_resolve_the_springs_of_contact_however_stiff() {
+    for stiffness in [1e5, 1e7] {
+        let text = THROWN
+            .replace("LEFT", "0")
+            .replace(
+                "CONTACT",
+                &format!("normal.linear = {{ c = {stiffness:e} }}"),
+            )
+            .replace("DURATION", "1.4")
+            .replace("LENGTH", "0.02")
+            .replace("DYNAMIC", "scheme.newmark = {}");
+        let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{stiffness:e}: {e}"));
+        let start = 0.5 * 0.25 * (1e-4 + 9e-6);
+        for (_, row) in &record.increments {
+            let left = value(row, "ERESIDUAL");
+            assert!(
+                left.abs() < 0.0101 * start,
+                "{stiffness:e}: {left:e} of {start:e}"
+            );
+            let parts = ["ALLKE", "ALLSE", "ALLCE"].map(|e| value(row, e));
+            let now: f64 = parts.iter().sum();
+            assert!(now < 1.0101 * start, "{stiffness:e}: {now:e} of {start:e}");
+        }
+    }
+}
+
 /// Multipliers press overlap out in the first increment, and what that strains the bodies by is the work of the overlap: the same in increments a tenth as
 /// long, as points without mass have no velocity to be given.
 #[test]
