@@ -27,6 +27,24 @@ pub fn pressure(law: (&str, &Table), gap: f64) -> Option<f64> {
     })
 }
 
+/// How deep a law lets a point come that it presses with this, by halving; zero for a constraint, and for a law that is not known here.
+pub fn depth(law: (&str, &Table), wanted: f64) -> f64 {
+    let presses = |depth: f64| pressure(law, -depth);
+    let mut deep = f64::MIN_POSITIVE;
+    while presses(deep).is_some_and(|p| p < wanted) && deep < 1e100 {
+        deep *= 16.0;
+    }
+    let mut shallow = 0.0;
+    for _ in 0..100 {
+        let middle = 0.5 * (shallow + deep);
+        match presses(middle).is_some_and(|p| p < wanted) {
+            true => shallow = middle,
+            false => deep = middle,
+        }
+    }
+    shallow
+}
+
 /// `p0 exp(-ln 100 gap / c0)` between `-5 c0` and `c0`, and its tangents beyond.
 fn exponential(p0: f64, c0: f64, gap: f64) -> f64 {
     let rate = 100f64.ln() / c0;
@@ -164,10 +182,28 @@ pub fn laws<'a>(case: &'a Case, name: &str, step: usize) -> Option<Laws<'a>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rubbing, limit, pressure, smooth};
+    use super::{Rubbing, depth, limit, pressure, smooth};
 
     fn keys(text: &str) -> toml::Table {
         toml::from_str(text).expect("a table")
+    }
+
+    #[test]
+    fn a_law_is_as_deep_as_it_presses() {
+        for (name, text) in [
+            ("linear", "c = 3.2e4"),
+            ("power-law", "c = 1e8\nm = 2.5"),
+            ("tabular", "table = [[0, 0], [1e-3, 5.0], [2e-3, 40.0]]"),
+            ("exponential", "p0 = 2.0\nc0 = 1e-4"),
+        ] {
+            let law = keys(text);
+            for wanted in [3.0, 35.0, 900.0] {
+                let deep = depth((name, &law), wanted);
+                let found = pressure((name, &law), -deep).unwrap_or(f64::NAN);
+                assert!((found - wanted).abs() < 1e-9 * wanted, "{name}: {found}");
+            }
+        }
+        assert_eq!(depth(("unilateral", &keys("")), 3.0), 0.0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::contact::{Scale, at, points};
 use crate::figure::Report;
+use crate::law::{depth, laws};
 use crate::results::{Before, Results};
 use crate::side::{Foot, Pair, Side, foot};
 use crate::vec3::{Vec3, along, dot, norm, scale, sub, tangential};
@@ -17,18 +18,25 @@ pub fn check(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report)
         if !step.lists("interfaces", &pair.name) {
             continue;
         }
-        let mut depth = depths(results, pair, Some(i));
+        let mut deep = depths(results, pair, Some(i));
         if !pair.as_meshed {
-            depth = (depth - started).max(0.0);
+            deep = (deep - started).max(0.0);
         }
-        // A law that gives way has a depth of its own.
+        // A law that gives way has a depth of its own. A node may have the mean of the points on the faces around it, which is less than that of
+        // the deepest of them: as deep as the law says of the largest pressure.
         let own = at(state)
             .into_iter()
             .filter(|p| p.pressure > 0.0)
             .map(|p| -p.gap);
-        let allowed = own.fold(0.0, f64::max);
+        let most = results.at(&format!("{}.CPRESSMAX", pair.name), state);
+        let laws = laws(&results.case, &pair.name, results.case.step_at(state.t));
+        let deepest = match laws {
+            Some(laws) if most > 0.0 && !pair.damped && !pair.two_sided => depth(laws.normal, most),
+            _ => 0.0,
+        };
+        let allowed = own.fold(deepest, f64::max);
         let floor = 1e-9 * results.mesh.size(None);
-        let beyond = if depth > floor { depth - allowed } else { 0.0 };
+        let beyond = if deep > floor { deep - allowed } else { 0.0 };
         report.note("penetration", &pair.name, beyond / sizes.approach, state.t);
     }
     gaps(results, pair, sizes, report);
