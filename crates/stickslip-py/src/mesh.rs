@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use stickslip::mesh::{Block, CellRef, FacetRef};
+use stickslip::results::{seal, unseal};
 use stickslip::shape::ElementKind;
 
 use super::errors::raise;
@@ -116,6 +118,18 @@ impl Mesh {
         Ok(Mesh {
             mesh: Arc::new(mesh),
         })
+    }
+
+    /// All of it as bytes, from which [`Mesh::restore`] makes it again.
+    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &seal(&self.mesh))
+    }
+
+    /// From what [`Mesh::state`] returned.
+    #[staticmethod]
+    fn restore(state: &[u8]) -> PyResult<Self> {
+        let mesh = unseal(state, "the mesh").map_err(PyValueError::new_err)?;
+        Ok(Mesh { mesh })
     }
 
     /// Numbers of points and of cells.

@@ -6,11 +6,14 @@ use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use stickslip::Error;
+use stickslip::mesh::Mesh as Points;
 use stickslip::model::{Contact, Setup};
 use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Meshes};
+use stickslip::results::{FolderClaim, Lent, Saved, Source, digest_of_state, seal, unseal};
+use stickslip::run::Checkpoint;
 use stickslip_deck::{Deck, Translation};
 
 use super::errors::{raise, raise_deck};
@@ -43,7 +46,19 @@ pub struct Problem {
     meshes: Meshes,
     /// What it was translated from.
     deck: Option<Arc<Translation>>,
+    /// What was said about a deck whose translation is gone.
+    notes: Vec<String>,
 }
+
+/// A problem as bytes: its text, the file that names are relative to, notes about its deck, and meshes that no file has.
+type Parts = (
+    String,
+    Option<String>,
+    (Vec<String>, Vec<(String, Arc<Points>)>),
+);
+
+/// Functions that are laws of interfaces, by interface and kind.
+type Functions = BTreeMap<String, BTreeMap<String, Py<PyAny>>>;
 
 fn given(meshes: BTreeMap<String, PyRef<'_, Mesh>>) -> Meshes {
     let meshes = meshes.into_iter();
@@ -69,6 +84,7 @@ impl Problem {
                 problem,
                 meshes,
                 deck,
+                notes: Vec::new(),
             }),
             Err(e) => Err(of_deck(py, deck.as_deref(), e.into())),
         }
@@ -128,6 +144,7 @@ impl Problem {
             problem,
             meshes: given(meshes),
             deck: None,
+            notes: Vec::new(),
         })
     }
 
@@ -144,7 +161,59 @@ impl Problem {
     #[getter]
     fn notes(&self) -> Vec<String> {
         let notes = self.deck.iter().flat_map(|deck| &deck.notes);
-        notes.map(ToString::to_string).collect()
+        let notes = notes.map(ToString::to_string);
+        notes.chain(self.notes.iter().cloned()).collect()
+    }
+
+    /// All of it as bytes, from which [`Problem::restore`] makes it again. Of a deck the translation is kept, not the deck.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let meshes = self.meshes.iter();
+        let meshes = meshes.map(|(name, mesh)| (text(name), Arc::clone(mesh)));
+        let parts: Parts = (
+            self.to_toml(py)?,
+            Some(text(&self.place())),
+            (self.notes(), meshes.collect()),
+        );
+        Ok(PyBytes::new(py, &seal(&parts)))
+    }
+
+    /// From what [`Problem::state`] returned.
+    #[staticmethod]
+    fn restore(py: Python<'_>, state: &[u8]) -> PyResult<Self> {
+        let parts: Parts = unseal(state, "the problem").map_err(PyValueError::new_err)?;
+        let (text, file, (notes, meshes)) = parts;
+        let mut document = Document::new(text, None);
+        let problem = document.problem().map_err(|e| raise(py, e.into()))?;
+        document.file = file.map(PathBuf::from);
+        let meshes = meshes.into_iter();
+        Ok(Problem {
+            document,
+            problem,
+            meshes: meshes.map(|(name, mesh)| (name.into(), mesh)).collect(),
+            deck: None,
+            notes,
+        })
+    }
+
+    /// The problem with which the run in a folder of results goes on.
+    #[staticmethod]
+    fn of_results(py: Python<'_>, directory: PathBuf) -> PyResult<Self> {
+        let read = || -> Result<(Document, stickslip::problem::Problem), Error> {
+            let (saved, _) = Saved::find(&directory, None)?;
+            let mut document = Document::of_results(&directory, &saved.source)?;
+            let problem = document.problem()?;
+            // Names of meshes are relative to where the problem was.
+            document.file = Some(PathBuf::from(&saved.source.file));
+            Ok((document, problem))
+        };
+        let (document, problem) = read().map_err(|e| raise(py, e))?;
+        Ok(Problem {
+            document,
+            problem,
+            meshes: Meshes::default(),
+            deck: None,
+            notes: Vec::new(),
+        })
     }
 
     /// The same problem with other values, by the paths of their keys.
@@ -179,26 +248,68 @@ impl Problem {
         &self,
         py: Python<'_>,
         factors: Option<PyRef<'_, Factors>>,
-        laws: BTreeMap<String, BTreeMap<String, Py<PyAny>>>,
+        laws: Functions,
     ) -> PyResult<Simulation> {
-        let built = py.detach(|| self.setup());
-        let mut setup = built.map_err(|e| of_deck(py, self.deck.as_deref(), e))?;
-        let raised = Raised::default();
-        bring(&mut setup.contact, laws, &raised)?;
-        let library = match factors {
-            Some(factors) => Arc::clone(&factors.library),
-            None => Arc::new(Library::new(Library::small_limit())),
-        };
+        let library = library(factors);
+        let (setup, source, raised) = self.prepare(py, laws)?;
         let made = py.detach(|| stickslip::run::Simulation::with_library(setup, library));
-        let inputs = match &self.deck {
-            Some(deck) => deck.files().to_vec(),
-            None => self.document.inputs(&self.problem),
+        let made = made.map_err(|e| raise(py, e))?;
+        Ok(Simulation::new(made, (self.inputs(), source), raised))
+    }
+
+    /// Makes a simulation that goes on from what [`Simulation::state`] returned.
+    fn go_on(
+        &self,
+        py: Python<'_>,
+        factors: Option<PyRef<'_, Factors>>,
+        laws: Functions,
+        state: &[u8],
+    ) -> PyResult<Simulation> {
+        let library = library(factors);
+        let (setup, source, raised) = self.prepare(py, laws)?;
+        let (checkpoint, rows) = Simulation::parts(state)?;
+        let made = py.detach(|| stickslip::run::Simulation::resume(setup, library, checkpoint));
+        let made = made.map_err(|e| raise(py, e))?;
+        Ok(Simulation::new(made, (self.inputs(), source), raised).with_rows(rows))
+    }
+
+    /// Makes a simulation that goes on in a folder of results, from the last checkpoint or that after so many increments.
+    fn resume(
+        &self,
+        py: Python<'_>,
+        factors: Option<PyRef<'_, Factors>>,
+        laws: Functions,
+        directory: PathBuf,
+        increments: Option<usize>,
+    ) -> PyResult<Simulation> {
+        let library = library(factors);
+        let lent = self.lent(&laws);
+        let find = || -> Result<(FolderClaim, Saved, Vec<String>), Error> {
+            let held = FolderClaim::take(&directory)?;
+            let (saved, notes) = Saved::find(&directory, increments)?;
+            saved.check_lent(&directory, &lent)?;
+            saved.check_inputs()?;
+            self.document.check_changes(&self.problem, &saved)?;
+            Ok((held, saved, notes))
         };
-        Ok(Simulation::new(
-            made.map_err(|e| raise(py, e))?,
-            inputs,
-            raised,
-        ))
+        let (held, saved, notes) = py.detach(find).map_err(|e| raise(py, e))?;
+        if saved.has_prints() {
+            return Err(PyValueError::new_err(format!(
+                "{}: this run writes the .dat and .sta files of a deck: go on with `stickslip resume`",
+                directory.display()
+            )));
+        }
+        let (setup, source, raised) = self.prepare(py, laws)?;
+        let go_on = || -> Result<_, Error> {
+            let checkpoint = Checkpoint::of(&saved, &directory)?;
+            let simulation = stickslip::run::Simulation::resume(setup, library, checkpoint)?;
+            Ok((simulation, held))
+        };
+        let (made, held) = py.detach(go_on).map_err(|e| raise(py, e))?;
+        let simulation = Simulation::new(made, (self.inputs(), source), raised);
+        simulation
+            .going_on_in(&directory, held, &saved, notes)
+            .map_err(|e| raise(py, e))
     }
 
     /// The folder relative to which files are looked for.
@@ -212,6 +323,73 @@ impl Problem {
     }
 }
 
+impl Problem {
+    /// The files that the problem is read from.
+    fn inputs(&self) -> Vec<PathBuf> {
+        match &self.deck {
+            Some(deck) => deck.files().to_vec(),
+            None => self.document.inputs(&self.problem),
+        }
+    }
+
+    /// The file that names are relative to, wherever this process is; it need not be there.
+    fn place(&self) -> PathBuf {
+        let file = self.document.file.clone();
+        let file = file.unwrap_or_else(|| PathBuf::from("problem"));
+        std::path::absolute(&file).unwrap_or(file)
+    }
+
+    /// What no file has.
+    fn lent(&self, laws: &Functions) -> Lent {
+        let functions = laws.iter().flat_map(|(name, kinds)| {
+            let kinds = kinds.keys();
+            kinds.map(move |kind| format!("{name}.{kind}"))
+        });
+        let meshes = self.meshes.iter();
+        Lent {
+            laws: functions.collect(),
+            meshes: meshes
+                .map(|(name, mesh)| (text(name), digest_of_state(mesh)))
+                .collect(),
+        }
+    }
+
+    /// What a simulation is made of: the model with its functions, what checkpoints say of the run, and the place for exceptions.
+    fn prepare(&self, py: Python<'_>, laws: Functions) -> PyResult<(Setup, Source, Raised)> {
+        let built = py.detach(|| self.setup());
+        let mut setup = built.map_err(|e| of_deck(py, self.deck.as_deref(), e))?;
+        let raised = Raised::default();
+        let lent = self.lent(&laws);
+        bring(&mut setup.contact, laws, &raised)?;
+        let mut source = Source {
+            problem: self.to_toml(py)?,
+            file: text(&self.place()),
+            lent,
+            ..Source::default()
+        };
+        for file in self.inputs() {
+            // A problem from a dictionary has a place, and no file there.
+            if let Ok(digest) = stickslip::results::digest_of(&file) {
+                let file = std::path::absolute(&file).unwrap_or(file);
+                source.inputs.push((text(&file), digest));
+            }
+        }
+        Ok((setup, source, raised))
+    }
+}
+
+/// The factors that were given, or some of its own.
+fn library(factors: Option<PyRef<'_, Factors>>) -> Arc<Library> {
+    match factors {
+        Some(factors) => Arc::clone(&factors.library),
+        None => Arc::new(Library::new(Library::small_limit())),
+    }
+}
+
+fn text(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
+
 /// The exception for an error about a problem that may come from a deck, whose lines it then names.
 fn of_deck(py: Python<'_>, deck: Option<&Translation>, error: Error) -> PyErr {
     match deck.map(|deck| deck.located(error.clone())) {
@@ -221,11 +399,7 @@ fn of_deck(py: Python<'_>, deck: Option<&Translation>, error: Error) -> PyErr {
 }
 
 /// Gives interfaces the laws that are functions.
-fn bring(
-    contact: &mut Contact,
-    laws: BTreeMap<String, BTreeMap<String, Py<PyAny>>>,
-    raised: &Raised,
-) -> PyResult<()> {
+fn bring(contact: &mut Contact, laws: Functions, raised: &Raised) -> PyResult<()> {
     for (name, mut functions) in laws {
         let mut take = |key: &str| {
             functions.remove(key).map(|function| {

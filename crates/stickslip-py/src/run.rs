@@ -1,15 +1,18 @@
 //! A simulation as Python sees it.
 
 use std::collections::VecDeque;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use stickslip::Error;
-use stickslip::results::{Claim, Event, Observer, ResultFiles, fields};
+use stickslip::results::{
+    Claim, Event, FolderClaim, Observer, ResultFiles, Saved, Source, fields, seal, unseal,
+};
+use stickslip::run::Checkpoint;
 use stickslip::system::Location;
 
 use super::array::{Array, Kept, Owner};
@@ -29,13 +32,20 @@ enum Quantity {
 }
 
 /// Rows of the history: those that Python has not taken yet, and all.
-#[derive(Default)]
-struct Rows {
+#[derive(Default, Clone)]
+pub struct Rows {
     fresh: VecDeque<(String, Vec<f64>)>,
     names: Vec<String>,
     all: Vec<f64>,
     notes: Vec<String>,
 }
+
+stickslip::keep!(Rows {
+    fresh,
+    names,
+    all,
+    notes
+});
 
 impl Observer for Rows {
     fn see(&mut self, analysis: &stickslip::results::Analysis, event: Event) -> Result<(), Error> {
@@ -66,16 +76,18 @@ pub struct Simulation {
     files: Option<ResultFiles>,
     /// The files that the problem was read from.
     inputs: Vec<PathBuf>,
+    /// What checkpoints say of the run.
+    source: Source,
     raised: Raised,
     /// Arrays that look at the state of the simulation.
     looked: Vec<(Quantity, Weak<Kept>)>,
 }
 
 impl Simulation {
-    /// From a simulation, the files it was read from, and the place for exceptions of its laws.
+    /// From a simulation, the files it was read from and what checkpoints say of it, and the place for exceptions of its laws.
     pub fn new(
         mut simulation: stickslip::run::Simulation,
-        inputs: Vec<PathBuf>,
+        (inputs, source): (Vec<PathBuf>, Source),
         raised: Raised,
     ) -> Self {
         let slot = Arc::clone(&raised);
@@ -104,8 +116,56 @@ impl Simulation {
             rows: Rows::default(),
             files: None,
             inputs,
+            source,
             raised,
             looked: Vec::new(),
+        }
+    }
+
+    /// With these rows of its history.
+    pub fn with_rows(self, rows: Rows) -> Self {
+        Simulation { rows, ..self }
+    }
+
+    /// Checkpoint and rows of what [`Simulation::state`] returned.
+    pub fn parts(state: &[u8]) -> PyResult<(Checkpoint, Rows)> {
+        let parts: Result<(Vec<u8>, Rows), String> = unseal(state, "the simulation");
+        let (bytes, rows) = parts.map_err(PyValueError::new_err)?;
+        let checkpoint = Checkpoint::from_bytes(&bytes).ok_or_else(|| {
+            PyValueError::new_err("the simulation is one of another build of stickslip")
+        })?;
+        Ok((checkpoint, rows))
+    }
+
+    /// One that goes on in a folder of results, with the history that is there.
+    pub fn going_on_in(
+        mut self,
+        directory: &Path,
+        held: FolderClaim,
+        saved: &Saved,
+        notes: Vec<String>,
+    ) -> Result<Self, Error> {
+        let claim = self.claim();
+        self.files = Some(ResultFiles::resume(held, &claim, saved)?);
+        let history = directory.join("history.csv");
+        if history.is_file() {
+            let table = stickslip::io::csv::read(&history)?;
+            let rows = 0..table.rows();
+            let columns = &table.columns;
+            self.rows.all = rows
+                .flat_map(|i| columns.iter().map(move |c| c[i]))
+                .collect();
+            self.rows.names = table.names;
+        }
+        self.rows.notes = notes;
+        Ok(self)
+    }
+
+    fn claim(&self) -> Claim {
+        Claim {
+            inputs: self.inputs.clone(),
+            source: Some(self.source.clone()),
+            ..Claim::default()
         }
     }
 
@@ -203,14 +263,18 @@ impl Simulation {
 
     /// Has results written into a directory from now on.
     fn write_to(&mut self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
-        let claim = Claim {
-            inputs: self.inputs.clone(),
-            ..Claim::default()
-        };
+        let claim = self.claim();
         // What this simulation has itself is given back first.
         self.files = None;
         self.files = Some(ResultFiles::new(&directory, &claim).map_err(|e| raise(py, e))?);
         Ok(())
+    }
+
+    /// All of it as bytes, from which `Problem.go_on` makes it again; `None` before the first increment.
+    fn state<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyBytes>> {
+        let checkpoint = self.simulation.checkpoint()?;
+        let parts = (checkpoint.to_bytes(), self.rows.clone());
+        Some(PyBytes::new(py, &seal(&parts)))
     }
 
     #[getter]

@@ -100,6 +100,9 @@ class Mesh:
             by_facet,
         )
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._core.state(),)
+
     @classmethod
     def from_meshio(cls, mesh: Any) -> Mesh:
         """From a mesh of `meshio`: the cells of the highest dimension, its point and cell sets, and physical groups of Gmsh.
@@ -203,6 +206,12 @@ class Mesh:
     def __repr__(self) -> str:
         sets = ", ".join(f"{kind} sets {names}" for kind, names in self.sets.items() if names)
         return f"<stickslip.Mesh: {self.point_count} points, {self.cell_count} cells{'; ' + sets if sets else ''}>"
+
+
+def _restored(state: bytes) -> Mesh:
+    mesh = Mesh.__new__(Mesh)
+    mesh._core = _core.Mesh.restore(state)
+    return mesh
 
 
 def _indices(nodes: ArrayLike, columns: int, what: str) -> np.ndarray:

@@ -20,10 +20,15 @@ class Problem:
 
     It is made by `from_toml`, `from_dict` or `from_inp`. All of them go through the same checks: keys, types and defaults are those of
     the problem file (`stickslip.schema()`).
+
+    It can be pickled, with the meshes it was given; files that it names have to be there when it is built.
     """
 
     def __init__(self, core: _core.Problem) -> None:
         self._core = core
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._core.state(),)
 
     @classmethod
     def from_toml(cls, source: Union[str, os.PathLike[str]], meshes: Optional[Mapping[str, Mesh]] = None) -> Problem:
@@ -105,8 +110,8 @@ class Problem:
         factors
             Factors of bodies shared with other simulations, see `sweep`.
         """
-        functions = {name: dict(of) for name, of in (laws or {}).items()}
-        return Simulation(self._core.build(factors, functions))
+        functions = _functions(laws)
+        return Simulation(self._core.build(factors, functions), self, functions)
 
     def __repr__(self) -> str:
         return "<stickslip.Problem>"
@@ -121,6 +126,14 @@ class Report(dict):  # type: ignore[type-arg]
 
     def __str__(self) -> str:
         return self.text
+
+
+def _restored(state: bytes) -> Problem:
+    return Problem(_core.Problem.restore(state))
+
+
+def _functions(laws: Optional[Laws]) -> dict[str, dict[str, Callable[..., Any]]]:
+    return {name: dict(of) for name, of in (laws or {}).items()}
 
 
 def _given(meshes: Optional[Mapping[str, Mesh]]) -> dict[str, _core.Mesh]:

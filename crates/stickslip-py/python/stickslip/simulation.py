@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,8 @@ from .mesh import _KINDS
 
 if TYPE_CHECKING:
     import pyvista
+
+    from .problem import Laws, Problem
 
 
 @dataclass(frozen=True)
@@ -118,11 +121,67 @@ class Simulation:
 
     While it is solved other threads of Python run, but they must not use the same simulation: that raises ``RuntimeError``. Ctrl-C
     stops between two iterations with ``KeyboardInterrupt``: results so far stay, and the simulation can go on.
+
+    It can be pickled at any time: what is made of it goes on with the same numbers, to the last bit. Results are written by the
+    original only. Laws that are functions are pickled by name, as all functions are.
     """
 
-    def __init__(self, core: _core.Simulation) -> None:
+    def __init__(
+        self, core: _core.Simulation, problem: Problem, laws: dict[str, dict[str, Callable[..., Any]]]
+    ) -> None:
         self._core = core
+        self._problem = problem
+        self._laws = laws
         self._over = False
+
+    @classmethod
+    def resume(
+        cls,
+        directory: Union[str, os.PathLike[str]],
+        problem: Optional[Problem] = None,
+        laws: Optional[Laws] = None,
+        increments: Optional[int] = None,
+    ) -> Simulation:
+        """Goes on with a run that was stopped or killed, from the last checkpoint in the directory of its results, and writes there.
+
+        Its results are those, to the last bit, of a run that was never stopped: by the command ``stickslip run``, or by `run` with a `directory`.
+        `history` begins with the increments before.
+
+        Parameters
+        ----------
+        problem
+            The problem, where it was given meshes, or where something has changed that may: ``output``, the duration of the step at hand, later
+            steps. If not given, the one that was run.
+        laws
+            The functions that it was built with, see `Problem.build`.
+        increments
+            The checkpoint after so many increments; the last one if not given.
+
+        Raises
+        ------
+        FileError
+            If there is no checkpoint, or another run writes there.
+        ProblemError
+            If something has changed that must not.
+        """
+        from .problem import Problem, _functions
+
+        if problem is None:
+            problem = Problem(_core.Problem.of_results(Path(directory)))
+        functions = _functions(laws)
+        return cls(problem._core.resume(None, functions, Path(directory), increments), problem, functions)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        for name, of in self._laws.items():
+            for kind, function in of.items():
+                try:
+                    pickle.dumps(function)
+                except Exception as error:
+                    raise TypeError(
+                        f"the {kind} law of interface `{name}` cannot be pickled: make it a function that a module has by name, "
+                        "without what stands around it (no lambda, no function within a function)"
+                    ) from error
+        return _restored, (self._problem, self._laws, self._core.state(), self._over)
 
     def __iter__(self) -> Iterator[Step]:
         return self
@@ -274,3 +333,12 @@ class Simulation:
     def __repr__(self) -> str:
         state = "over" if self._over else f"at time {self.time:g}"
         return f"<stickslip.Simulation: {len(self.points)} points, {state}>"
+
+
+def _restored(
+    problem: Problem, laws: dict[str, dict[str, Callable[..., Any]]], state: Optional[bytes], over: bool
+) -> Simulation:
+    core = problem._core.build(None, laws) if state is None else problem._core.go_on(None, laws, state)
+    simulation = Simulation(core, problem, laws)
+    simulation._over = over
+    return simulation
