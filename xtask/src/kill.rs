@@ -37,7 +37,7 @@ struct Case {
     sweep: bool,
 }
 
-const CASES: [Case; 6] = [
+const CASES: [Case; 7] = [
     Case {
         name: "statics",
         begin: &[
@@ -105,6 +105,22 @@ const CASES: [Case; 6] = [
             "step.1.increments={ fixed = 60 }",
             "--set",
             "output={ every = 1, checkpoint = { increments = 1 } }",
+            "--output",
+            "OUT",
+        ],
+        sweep: false,
+    },
+    Case {
+        name: "multigrid",
+        begin: &[
+            "run",
+            "examples/shrink-fit/case.toml",
+            "--set",
+            "solver.method=multigrid",
+            "--set",
+            "step.0.increments.fixed=12",
+            "--set",
+            "output={ every = 4, checkpoint = { increments = 1 } }",
             "--output",
             "OUT",
         ],

@@ -37,7 +37,7 @@ tasks:
                             what differs, with the largest difference of a history. For changes that shall not change results
   fuzz TARGET SECONDS       fuzz what reads files: toml, msh, vtu, checkpoint or inp (needs cargo-fuzz)
   kill [--kills N] [--seed S] [CASE ...]
-                            kill runs of six cases (statics, implicit, explicit, sweep, deck, condensed) at N random times (default 200)
+                            kill runs of seven cases (statics, implicit, explicit, sweep, deck, multigrid, condensed) at N random times (default 200)
                             and take them up again; fails if one comes to other files than a run that never stopped
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.

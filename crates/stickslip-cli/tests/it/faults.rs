@@ -609,6 +609,52 @@ fn checkpoints_that_cannot_be_written_are_told_once_and_the_run_goes_on() {
 }
 
 #[test]
+fn a_run_that_was_asked_to_stop_leaves_a_checkpoint_and_goes_on_with_the_same_bits() {
+    let folder = place("asked");
+    // No checkpoint but the one that a signal asks for.
+    let long = |method: &str, out: &str| -> Vec<String> {
+        let method = format!("solver.method={method}");
+        let output = "output={ every = 50, checkpoint = { minutes = 0 } }";
+        let words = [
+            "run",
+            "case.toml",
+            "-q",
+            "--set",
+            "step.0.increments.fixed=600",
+        ];
+        let more = ["--set", output, "--set", &method, "-o", out];
+        words.iter().chain(&more).map(|w| w.to_string()).collect()
+    };
+    for (signal, method) in [
+        (libc::SIGINT, "multigrid"),
+        (libc::SIGTERM, "sparse"),
+        (libc::SIGHUP, "condensed"),
+    ] {
+        let whole = format!("whole-{method}");
+        let words = long(method, &whole);
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        assert_eq!(run(&folder, &words).0, Some(0));
+        let mut command = support::command(&folder);
+        command.args(long(method, method)).stdout(Stdio::null());
+        let child = command.stderr(Stdio::null()).spawn();
+        let mut guard = Guard(child.expect("the binary runs"));
+        let out = folder.join(method);
+        let rows = || std::fs::read_to_string(out.join("history.csv")).unwrap_or_default();
+        while rows().lines().count() < 30 {
+            assert!(guard.0.try_wait().expect("it can be asked").is_none());
+        }
+        // SAFETY: the process has not been waited for, so that its number is its own.
+        unsafe { libc::kill(guard.0.id() as libc::pid_t, signal) };
+        assert_eq!(guard.0.wait().expect("it ends").code(), Some(130));
+        assert_eq!(summary_of(&out)["status"], "interrupted");
+        assert_eq!(checkpoints(&out).len(), 1, "{method}");
+        let (code, text) = run(&folder, &["resume", method, "-q"]);
+        assert_eq!(code, Some(0), "{text}");
+        assert!(results(&out) == results(&folder.join(whole)), "{method}");
+    }
+}
+
+#[test]
 fn who_goes_on_from_an_earlier_checkpoint_gives_up_the_later_ones() {
     let folder = place("earlier");
     let all = killed(&folder);
@@ -736,6 +782,23 @@ fn a_full_disk_is_told_wherever_it_happens() {
             path.display()
         );
     }
+    // The history: its rows are whole, and it is the error that is told, whatever cannot be written after it.
+    let mut limited = support::command(&folder);
+    limited.args(["run", "case.toml", "-q", "--set", "output.every=100000"]);
+    limited.args(["--set", "step.0.increments.fixed=1000", "-o", "long"]);
+    let (code, text) = with_limit(&mut limited, libc::RLIMIT_FSIZE, 12_000);
+    assert_eq!(code, Some(1), "{text}");
+    let first = text.lines().next().unwrap_or_default();
+    assert_eq!(
+        first,
+        "error: long/history.csv: File too large (os error 27)"
+    );
+    let rows = std::fs::read_to_string(folder.join("long/history.csv")).expect("a history");
+    assert!(
+        rows.len() > 11_000 && rows.ends_with('\n'),
+        "{}",
+        rows.len()
+    );
     // The cache: the run goes on and says so.
     let folder = place("full-cache");
     let more = CASE.replace("cells = [4, 2]", "cells = [40, 20]");

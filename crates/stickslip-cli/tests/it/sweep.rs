@@ -449,3 +449,26 @@ fn help_tells_how_values_are_written() {
         assert!(text.contains(part), "{part} in\n{text}");
     }
 }
+
+#[test]
+fn a_sweep_that_is_complete_runs_nothing_and_one_that_lacks_rows_is_refused() {
+    let place = Place::new("goes-on");
+    let sweep = ["--resume", "-q", "--set", "support.top.y=-1e-5,-2e-5,-3e-5"];
+    let path = place.folder.join("case.sweep.csv");
+    let whole = place.table(&sweep, 0);
+    assert_eq!(whole.rows.len(), 3);
+    let before = std::fs::read_to_string(&path).expect("a table");
+    // Complete: nothing is run, the times in it are what they were.
+    place.table(&sweep, 0);
+    assert_eq!(std::fs::read_to_string(&path).expect("a table"), before);
+    // A row is missing, and nobody knows of which problem the others are.
+    let lines: Vec<&str> = before.lines().collect();
+    std::fs::write(&path, lines[..3].join("\n") + "\n").expect("a file");
+    let refused = place.sweep(&sweep);
+    assert_eq!(refused.status.code(), Some(1));
+    let said = err(&refused);
+    assert!(
+        said.contains("rows are missing, and nothing beside this table says"),
+        "{said}"
+    );
+}

@@ -17,6 +17,8 @@ pub struct History {
     path: PathBuf,
     file: File,
     columns: usize,
+    /// Of whole rows `[bytes]`.
+    length: u64,
 }
 
 impl History {
@@ -26,15 +28,7 @@ impl History {
     /// [`Error::Io`] if it cannot be written.
     pub fn create(path: &Path, names: &[String]) -> Result<Self, Error> {
         write_atomically(path, header(names).as_bytes())?;
-        let file = File::options()
-            .append(true)
-            .open(path)
-            .map_err(|e| Error::io(path, e))?;
-        Ok(History {
-            path: path.to_path_buf(),
-            file,
-            columns: names.len(),
-        })
+        History::resume(path, names.len())
     }
 
     /// Goes on with a file that has so many columns.
@@ -42,14 +36,17 @@ impl History {
     /// # Errors
     /// [`Error::Io`] if it cannot be opened.
     pub fn resume(path: &Path, columns: usize) -> Result<Self, Error> {
-        let file = File::options()
-            .append(true)
-            .open(path)
-            .map_err(|e| Error::io(path, e))?;
+        let open = || {
+            let file = File::options().append(true).open(path)?;
+            let length = file.metadata()?.len();
+            Ok((file, length))
+        };
+        let (file, length) = open().map_err(|e| Error::io(path, e))?;
         Ok(History {
             path: path.to_path_buf(),
             file,
             columns,
+            length,
         })
     }
 
@@ -65,9 +62,14 @@ impl History {
     pub fn row(&mut self, values: &[f64]) -> Result<(), Error> {
         check_length(&self.path, values.len(), self.columns)?;
         // In one call and unbuffered, so that a row is there entirely or not at all.
-        self.file
-            .write_all(line(values).as_bytes())
-            .map_err(|e| Error::io(&self.path, e))
+        let row = line(values);
+        self.file.write_all(row.as_bytes()).map_err(|e| {
+            // What a full disk has taken of it goes; the first error is the one to report.
+            let _ = self.file.set_len(self.length);
+            Error::io(&self.path, e)
+        })?;
+        self.length += row.len() as u64;
+        Ok(())
     }
 }
 

@@ -205,9 +205,10 @@ impl Simulation {
             view.judge_energy(limits, energy, &mut summary.quality, &mut notes);
         }
         self.solver.log.notes.extend(notes);
-        self.tell_notes(observers)?;
-        self.tell(observers, || Event::End)?;
-        outcome
+        let told = self.tell_notes(observers);
+        let told = told.and(self.tell(observers, || Event::End));
+        // Why it ended is what to report, not that this could not be written either.
+        outcome.and_then(|more| told.map(|()| more))
     }
 
     /// The last increment as a friction problem, if none of the ways of Newton's method led anywhere and its bodies are condensed.
