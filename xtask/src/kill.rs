@@ -118,7 +118,7 @@ const CASES: [Case; 7] = [
             "--set",
             "solver.method=multigrid",
             "--set",
-            "step.0.increments.fixed=12",
+            "step.0.increments.fixed=80",
             "--set",
             "output={ every = 4, checkpoint = { increments = 1 } }",
             "--output",

@@ -13,6 +13,7 @@ mod print;
 mod progress;
 mod remaining;
 mod render;
+mod space;
 mod voice;
 
 use std::ffi::OsString;

@@ -1,7 +1,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stickslip::machine::bytes;
 use stickslip::problem::Problem;
+use stickslip::run::Sizes;
 
 use crate::failure::Outcome;
 use crate::input::Input;
@@ -34,16 +36,39 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let setup = input.build()?;
     let mut simulation = stickslip::run::Simulation::new(setup)?;
+    let sizes = simulation.sizes();
     let report = simulation.check();
     let text = match arguments.json {
-        false => report.to_string(),
+        false => report.to_string() + &files(&sizes),
         true => {
-            let text = serde_json::to_string_pretty(&report).map_err(std::io::Error::other)?;
-            text + "\n"
+            let mut value = serde_json::to_value(&report).map_err(std::io::Error::other)?;
+            if let Some(all) = value.as_object_mut() {
+                all.insert("files".into(), serde_json::json!(sizes));
+            }
+            format!("{value:#}\n")
         }
     };
     print::out(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// What a run will write.
+fn files(sizes: &Sizes) -> String {
+    let Sizes {
+        increments,
+        checkpoint,
+        fields,
+        outputs,
+        row,
+        rows,
+        ..
+    } = *sizes;
+    format!(
+        "files of a run of about {increments} increments\n  history.csv: {rows} rows, up to {}\n  fields: {outputs} times, up to {} each before compression\n  checkpoints: up to {}, two are kept\n",
+        bytes(rows.saturating_mul(row)),
+        bytes(fields),
+        bytes(checkpoint)
+    )
 }
 
 /// What was understood, a line a table.

@@ -111,6 +111,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
     let mut simulation = Simulation::with_library(setup, library)?;
     simulation.summary.phases.read = read;
+    if let Some(warning) = crate::space::warning(&simulation.sizes(), &directory) {
+        crate::progress::say(&warning);
+    }
     let stem = stem(&arguments.file);
     let source = source(&input, arguments)?;
     let claim = claim(&input, &stem, source);

@@ -24,7 +24,7 @@ pub struct FactorsRecipe {
 crate::keep!(FactorsRecipe { kept });
 
 /// Most matrices whose factors are kept.
-const MOST_FACTORS: usize = 4;
+pub const MOST_FACTORS: usize = 4;
 
 /// Most matrices whose hierarchies are kept.
 const MOST_HIERARCHIES: usize = 2;

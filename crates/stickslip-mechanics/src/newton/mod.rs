@@ -52,7 +52,7 @@ mod system;
 mod ways;
 
 pub use bulk::Bulk;
-pub use factors::{Factors, FactorsRecipe};
+pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};
 pub use grids::BodyPoints;
 pub use linearised::Linearised;
 pub use operator::Operator;

@@ -305,6 +305,11 @@ impl Explicit {
         (squared + couplings, rate)
     }
 
+    /// The longest increment that is stable where nothing touches, with its safety.
+    pub fn stable_alone(&self) -> f64 {
+        self.safety * self.stable((0.0, 0.0))
+    }
+
     /// The longest increment that is stable now, with its safety.
     pub fn stable_increment(&self, model: &Model, frame: &Frame, contact: &Contact) -> f64 {
         self.safety * self.stable(self.contact_frequency(model, frame, contact))

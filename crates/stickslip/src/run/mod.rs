@@ -9,10 +9,12 @@ mod position;
 mod queue;
 mod restart;
 mod simulation;
+mod sizes;
 mod steps;
 mod weigh;
 
 pub use crate::solve::work::{Watch, Work};
 pub use checkpoint::Checkpoint;
 pub use simulation::Simulation;
+pub use sizes::Sizes;
 pub use steps::Interrupt;

@@ -287,6 +287,66 @@ fn a_run_that_is_stopped_in_the_middle_of_an_increment_goes_on_with_the_same_bit
     }
 }
 
+/// Sizes of what is written: the largest checkpoint, and counts of rows and outputs.
+#[derive(Default)]
+struct Written {
+    checkpoint: usize,
+    rows: u64,
+    row: usize,
+    outputs: u64,
+}
+
+impl Observer for Written {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
+        match event {
+            Event::Checkpoint(snapshot) => {
+                self.checkpoint = self.checkpoint.max(snapshot.state.len());
+            }
+            Event::Increment(row) => {
+                self.rows += 1;
+                let length = row.values.iter().map(|x| format!("{x:e},").len()).sum();
+                self.row = self.row.max(length);
+            }
+            Event::Output => self.outputs += 1,
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn what_a_run_writes_is_told_before_it() {
+    for method in ["condensed", "sparse", "multigrid"] {
+        // Large enough for what is beside the vectors not to count.
+        let text = KINDS
+            .replace("METHOD", method)
+            .replace(
+                "quality.gate",
+                "output.checkpoint.increments = 1\nquality.gate",
+            )
+            .replace("cells = [9, 3]", "cells = [60, 20]")
+            .replace("cells = [4, 4]", "cells = [20, 20]")
+            .replace("increments.initial = 0.2", "increments.fixed = 5")
+            .replace("duration = 2e-3", "duration = 5e-4");
+        let mut run = begin(&support::problem(&text), Path::new("."));
+        let told = run.sizes();
+        let mut written = Written::default();
+        run.run(&mut [&mut written])
+            .unwrap_or_else(|e| panic!("{e}"));
+        let checkpoint = written.checkpoint as u64;
+        assert!(
+            checkpoint <= told.checkpoint && told.checkpoint < 3 * checkpoint,
+            "{method}: {checkpoint} {told:?}"
+        );
+        let row = written.row as u64;
+        assert!(row <= told.row && told.row < 3 * row, "{row} {told:?}");
+        // The explicit increments are shorter where bodies touch.
+        for (is, said) in [(written.rows, told.rows), (written.outputs, told.outputs)] {
+            assert!(is <= 2 * said && said <= 2 * is, "{method}: {is} {told:?}");
+        }
+    }
+}
+
 #[test]
 fn a_checkpoint_of_another_model_is_refused() {
     let mut run = begin(&kinds("sparse"), Path::new("."));

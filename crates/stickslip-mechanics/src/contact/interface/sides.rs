@@ -58,6 +58,23 @@ impl Interface {
         History::bytes(self.points.len(), opposite, self.nodes.len())
     }
 
+    /// Memory that what goes into a factor takes, point by point `[bytes]`, about: its dofs twice, and a matrix over them.
+    pub fn stand_in_bytes(&self, dim: usize) -> usize {
+        let facet = self.facets().iter().map(|f| f.nodes.len()).max();
+        let facet = facet.unwrap_or(0);
+        let bytes = |nodes: usize| {
+            let dofs = dim * nodes;
+            size_of::<f64>() * (dofs * dofs + 3 * dofs)
+        };
+        match &self.mortar {
+            // A node meets a facet more than it has faces around it, and shares each of these with another node.
+            Some(mortar) => (mortar.around.iter())
+                .map(|faces| bytes((faces.len() + 1) * (facet + 1)))
+                .sum(),
+            None => self.points.len() * bytes(facet + 2),
+        }
+    }
+
     /// Takes note of them in the history.
     pub(super) fn note_opposite(&mut self) {
         let mut opposite = std::mem::take(&mut self.history.opposite);
