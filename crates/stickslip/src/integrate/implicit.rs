@@ -1,5 +1,6 @@
 //! Implicit increments in motion: balance of inertia, damping, elasticity, loads and interfaces at the stage of the scheme.
 
+use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
 use crate::math::vector::dot;
@@ -14,10 +15,18 @@ use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
-use crate::system::{Cause, Constraints, Rate, State, StepFailure};
+use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
+
+/// The backward Euler method: no force of the start has a part in it.
+pub(super) const BACKWARD: Alphas = Alphas {
+    alpha_m: 0.0,
+    alpha_f: 0.0,
+    beta: 1.0,
+    gamma: 1.0,
+};
 
 /// Makes increments of a step in motion, each an equilibrium at the stage of a scheme.
 pub(crate) struct Implicit {
@@ -65,17 +74,34 @@ impl Integrator for Implicit {
         let inertia =
             (solver.inertia.as_mut()).expect("a step in motion has begun with its masses");
         let length = trial.to - trial.from;
-        let dt = inertia.ready(&solver.stiffness, self.alphas, length, self.weight());
+        let times = [trial.from, trial.to];
+        // A trial increment of Euler's method finds forces, and hands nothing on.
+        let impulse =
+            self.alphas != BACKWARD && is_impulse((model, &self.dynamic), contact, inertia, times);
+        let weights = self.weights(impulse);
+        let interfaces = contact.interfaces.iter_mut();
+        interfaces.for_each(|i| i.directives.impulses = impulse);
+        let dt = inertia.ready(&solver.stiffness, self.alphas, length, weights[1]);
         let plain = inertia.plain(&fixed, &model.links);
-        let from = frame.state.clone();
+        let mut from = frame.state.clone();
+        if impulse && !frame.contact.is_empty() {
+            let kick = kicked(model, inertia, &fixed, &frame.contact)?;
+            from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
+        }
         let increment = Increment {
             alphas: self.alphas,
             dt,
             from: &from,
             plain: &plain,
         };
-        let guess = self.guess(model, frame, solver, &increment, (&constraints, &external));
-        let (gain, shift) = increment.rate();
+        let task = (&constraints, external.as_slice());
+        let guess = self.guess(model, frame, solver, (&increment, weights), task);
+        // What friction sees of the velocity is that of a motion in which contact has its part.
+        let seen = Increment {
+            from: &frame.state,
+            ..increment
+        };
+        let (gain, shift) = seen.rate();
         let rate = Rate {
             gain: &gain,
             shift: &shift,
@@ -95,9 +121,8 @@ impl Integrator for Implicit {
         }
         model.links.impose(&mut at.v);
         model.links.impose(&mut at.a);
-        let weight = self.weight();
         let solved = Solved {
-            reactions: converged.forces.iter().map(|f| weight * f).collect(),
+            reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
             contact: converged.contact.clone(),
             external,
             internal,
@@ -106,8 +131,32 @@ impl Integrator for Implicit {
         check_candidates(contact)?;
         let (easy, travel) = self.judge(model, frame, inertia, dt, &solved)?;
         self.locate(model, frame, contact, trial)?;
+        let mut solved = solved;
+        let Alphas { beta, gamma, .. } = self.alphas;
+        let mut kick = Vec::new();
+        if impulse {
+            kick = kicked(model, inertia, &fixed, &solved.contact)?;
+            let part = (1.0 - 0.5 * gamma / beta) * dt;
+            let velocities = solved.state.v.iter_mut().zip(&kick);
+            velocities.for_each(|(v, k)| *v -= part * k);
+        }
+        let weight = (weights[1], impulse);
+        let mut flow = self.flow(frame, inertia, (&fixed, &from.a, weight), &solved);
+        if impulse {
+            let accelerations = solved.state.a.iter_mut().zip(&kick);
+            accelerations.for_each(|(a, k)| *a += (0.5 / beta - 1.0) * k);
+            let at = solved.state.clone();
+            let stage = Stage {
+                from: &frame.state,
+                at: &at,
+                dt,
+                rate: Some(rate),
+            };
+            let bodies = (model, inertia, fixed.as_slice());
+            flow.impact = stop(bodies, contact, &stage, &mut solved.state.v)?;
+        }
         Ok(Accepted {
-            flow: self.flow(frame, inertia, &fixed, &solved),
+            flow,
             rate: Some((gain, shift)),
             kinetic: inertia.kinetic_energy(&solved.state.v),
             strain: 0.5 * dot(&solved.state.u, &solved.internal),
@@ -124,11 +173,18 @@ impl Integrator for Implicit {
 }
 
 impl Implicit {
-    /// The weight that the forces of the interfaces at the end have in the balance at the stage.
-    fn weight(&self) -> f64 {
+    /// The weights that the forces of the interfaces at the start and at the end have in the balance at the stage. Of an impulse see [`super::impulse`].
+    fn weights(&self, impulse: bool) -> [f64; 2] {
+        let Alphas {
+            alpha_m,
+            alpha_f,
+            beta,
+            ..
+        } = self.alphas;
         match self.dynamic.contact_at {
-            ContactAt::End => 1.0,
-            ContactAt::Stage => 1.0 - self.alphas.alpha_f,
+            _ if impulse => [0.0, (1.0 - alpha_m) / (2.0 * beta)],
+            ContactAt::End => [0.0, 1.0],
+            ContactAt::Stage => [1.0 - (1.0 - alpha_f), 1.0 - alpha_f],
         }
     }
 
@@ -138,7 +194,7 @@ impl Implicit {
         model: &Model,
         frame: &Frame,
         solver: &Solver,
-        increment: &Increment,
+        (increment, weights): (&Increment, [f64; 2]),
         (constraints, external): (&Constraints, &[f64]),
     ) -> Guess {
         let mut u = increment.predict();
@@ -147,8 +203,9 @@ impl Implicit {
         let internal = times(&solver.stiffness, &u);
         let stage = mix(self.alphas.alpha_f, &frame.motion.internal, &internal);
         let inertia = in_motion(&solver.inertia);
-        let (mut forces, scale) = self.balance(frame, inertia, increment, &u, &stage, external);
-        let weight = self.weight();
+        let known = (stage.as_slice(), external, weights[0]);
+        let (mut forces, scale) = self.balance(frame, inertia, increment, &u, known);
+        let weight = weights[1];
         forces.iter_mut().for_each(|f| *f /= weight);
         Guess {
             u,
@@ -261,13 +318,12 @@ impl Implicit {
         inertia: &Inertia,
         increment: &Increment,
         u: &[f64],
-        internal: &[f64],
-        external: &[f64],
+        (internal, external, old): (&[f64], &[f64], f64),
     ) -> (Vec<f64>, f64) {
         let Alphas {
             alpha_m, alpha_f, ..
         } = self.alphas;
-        let from = &frame.state;
+        let from = increment.from;
         let (v, a) = increment.motion(u);
         let mut a = mix(alpha_m, &from.a, &a);
         for (a, _) in a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
@@ -276,7 +332,6 @@ impl Implicit {
         let inertial = inertia.mass_times(&a);
         let damping = inertia.damping_force(&mix(alpha_f, &from.v, &v));
         let load = mix(alpha_f, &frame.load, external);
-        let old = 1.0 - self.weight();
         let forces = (0..u.len())
             .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * frame.contact[i])
             .collect();
@@ -298,25 +353,35 @@ impl Implicit {
     /// ```
     ///
     /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
-    fn flow(&self, frame: &Frame, inertia: &Inertia, fixed: &[bool], solved: &Solved) -> Flow {
-        let (alphas, weight) = (self.alphas, self.weight());
+    fn flow(
+        &self,
+        frame: &Frame,
+        inertia: &Inertia,
+        (fixed, a, (weight, impulse)): (&[bool], &[f64], (f64, bool)),
+        solved: &Solved,
+    ) -> Flow {
+        let alphas = self.alphas;
         let (from, to) = (&frame.state, &solved.state);
         let du = difference(&to.u, &from.u);
         let dv = difference(&to.v, &from.v);
         let mean_v: Vec<f64> = mix(0.5, &from.v, &to.v);
-        let stage_a = mix(alphas.alpha_m, &from.a, &to.a);
+        let stage_a = mix(alphas.alpha_m, a, &to.a);
         let half = 0.5 - alphas.alpha_f;
         let mean_f = mix(0.5, &frame.load, &solved.external);
         let mut work = dot(&mean_f, &du);
         for (i, _) in fixed.iter().enumerate().filter(|(_, f)| **f) {
             work += solved.reactions[i] * du[i];
         }
-        let contact = difference(&solved.contact, &frame.contact);
+        // Interfaces enter their work by the trapezoidal rule; all of that of an impulse is one mean force.
+        let contact = match impulse {
+            false => (weight - 0.5) * dot(&difference(&solved.contact, &frame.contact), &du),
+            true => (weight - 1.0) * dot(&solved.contact, &du),
+        };
         let load = difference(&solved.external, &frame.load);
         let mut numerical = dot(&du, &inertia.mass_times(&stage_a))
             - dot(&mean_v, &inertia.mass_times(&dv))
             + half * dot(&du, &difference(&solved.internal, &frame.motion.internal))
-            + (weight - 0.5) * dot(&contact, &du)
+            + contact
             - half * dot(&load, &du);
         let mut damped = 0.0;
         if let Some(damping) = &inertia.damping {
@@ -327,6 +392,7 @@ impl Implicit {
             work,
             damped,
             numerical,
+            impact: 0.0,
         }
     }
 }

@@ -36,6 +36,7 @@
 pub(crate) mod central_difference;
 pub(crate) mod explicit;
 pub(crate) mod implicit;
+pub(crate) mod impulse;
 pub(crate) mod integration;
 pub(crate) mod integrator;
 pub(crate) mod onset;

@@ -1,6 +1,6 @@
 //! The start of a dynamic step: masses, velocities, and the forces and accelerations from which the first increment goes on.
 
-use super::implicit::{Implicit, difference};
+use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
 use crate::body::couplings::Couplings;
 use crate::error::Error;
@@ -24,14 +24,6 @@ const TRIALS: [f64; 2] = [0.1, 0.5];
 /// Part of themselves by which these forces may differ between the two: those of an impact, which take the same momentum out of bodies in any
 /// time, differ by four fifths.
 const SUDDEN: f64 = 0.5;
-
-/// The backward Euler method: no force of the start has a part in it.
-const BACKWARD: Alphas = Alphas {
-    alpha_m: 0.0,
-    alpha_f: 0.0,
-    beta: 1.0,
-    gamma: 1.0,
-};
 
 impl Implicit {
     /// Begins an implicit step: masses, initial velocities, candidates, and the forces and accelerations at the start.

@@ -13,6 +13,8 @@ pub(crate) struct Flow {
     pub damped: f64,
     /// Dissipated by the scheme.
     pub numerical: f64,
+    /// Taken from masses that met what does not give way.
+    pub impact: f64,
 }
 
 /// How often what is left of the balance may be fed in by the scheme: part of that is no loss, but comes back, as the energy of a central difference is
@@ -31,7 +33,7 @@ pub struct EnergyLedger {
     pub contact: f64,
     /// Dissipated by friction.
     pub friction: f64,
-    /// Dissipated by damping of the interfaces.
+    /// Dissipated by damping of the interfaces, and by impacts of masses on what does not give way.
     pub contact_damping: f64,
     /// Dissipated by Rayleigh damping.
     pub rayleigh_damping: f64,
@@ -57,6 +59,8 @@ pub struct EnergyLedger {
     moved: f64,
     #[serde(skip)]
     exceeded: f64,
+    #[serde(skip)]
+    impacts: f64,
     /// Energy brought in by initial velocities and displacements.
     pub initial: f64,
     /// What is left of the balance: supplied less stored and dissipated.
@@ -96,7 +100,8 @@ impl EnergyLedger {
         let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
         self.contact = sum(|e| e.stored);
         self.friction = sum(|e| e.dissipated);
-        self.contact_damping = sum(|e| e.damped);
+        self.impacts += flow.impact;
+        self.contact_damping = sum(|e| e.damped) + self.impacts;
         self.uncertain = sum(|e| e.uncertain);
         let (passed, moved) = (sum(|e| e.path), sum(|e| e.work));
         let missed = match whole {
@@ -192,6 +197,7 @@ crate::keep!(EnergyLedger {
     passed,
     moved,
     exceeded,
+    impacts,
     initial,
     residual
 });
@@ -206,5 +212,6 @@ crate::keep!(EnergyQuality {
 crate::keep!(Flow {
     work,
     damped,
-    numerical
+    numerical,
+    impact
 });

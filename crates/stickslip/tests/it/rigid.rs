@@ -573,6 +573,50 @@ dynamic.scheme.central-difference = {{}}
     near(value(row, "ALLCD") + value(row, "ALLND"), 3.0, 3e-2);
 }
 
+/// Dropped on a floor that does not give way, flat or on a corner, a block comes to rest: whatever it has on the way down is lost in impacts and rubbed
+/// off, and at no time is there more than its weight has brought in.
+#[test]
+fn a_block_that_falls_on_a_hard_floor_comes_to_rest() {
+    for dynamic in [
+        "scheme.newmark = {}",
+        "scheme.generalised-alpha = {}",
+        "scheme.hht = {}",
+    ] {
+        for (spin, steps) in [(0.0, 50), (0.2, 50), (0.2, 400)] {
+            let text = format!(
+                r#"{BLOCK}
+obstacle.floor.plane = {{ point = [0, -0.05], normal = [0, 1] }}
+interface.seat = {{ secondary = "block.bottom", primary = "floor", friction.coulomb.mu = 0.3 }}
+load.weight = {{ set = "block", gravity = {{ acceleration = [0, -10] }} }}
+initial.tip = {{ set = "block", spin = [{spin}] }}
+[[step]]
+duration = 1.0
+increments = {{ initial = {0}, largest = {0} }}
+dynamic = {{ {dynamic} }}
+"#,
+                1.0 / f64::from(steps)
+            );
+            let what = format!("{dynamic}, {spin}, {steps}");
+            let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{what}: {e}"));
+            for (_, row) in &record.increments {
+                let supplied = value(row, "EINITIAL") + value(row, "ALLWK");
+                let now = value(row, "ALLKE");
+                assert!(now < supplied + 0.03, "{what}: {now} of {supplied}");
+                let left = value(row, "ERESIDUAL");
+                assert!(left.abs() < 1e-3, "{what}: {left:e}");
+            }
+            let row = last(&record);
+            near(value(row, "ALLKE"), 0.0, 1e-5);
+            near(value(row, "top.U2"), -0.05, 1e-6);
+            // Weight times way.
+            near(value(row, "ALLWK"), 60.0 * 0.05, 1e-4);
+            let lost = value(row, "ALLCD") + value(row, "ALLFD");
+            near(lost, 60.0 * 0.05 + value(row, "EINITIAL"), 0.1);
+            assert!(value(row, "ALLCD") > 2.5, "{what}");
+        }
+    }
+}
+
 /// Dropped on a compliant floor, it comes back with the energy it had.
 #[test]
 fn a_bounce_keeps_the_energy() {

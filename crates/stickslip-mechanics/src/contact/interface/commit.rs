@@ -100,7 +100,11 @@ impl Interface {
         let passed = self.pass(h, e, gap.unwrap_or(h.gap), increment.resolved);
         let (area, r) = (e.area, &e.response);
         let shear = passed.history.shear;
-        let mut belt_work = 0.5 * dot(add(h.shear, shear), increment.belt) * area;
+        let sheared = match self.directives.impulses {
+            true => shear,
+            false => scale(0.5, add(h.shear, shear)),
+        };
+        let mut belt_work = dot(sheared, increment.belt) * area;
         // Overlap that is resolved drives the surfaces apart.
         let [before, now] = increment.times.map(|t| self.offset(i, t));
         belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
@@ -132,14 +136,21 @@ impl Interface {
     }
 
     /// Work per area that multipliers did on the bodies as they pressed out what overlapped when the motion began. A point without mass is taken from
-    /// one equilibrium to the other, in however short an increment; what a mass would take depends on nothing but the increment, and is no such work.
+    /// one equilibrium to the other, in however short an increment, and one that contact acts on by impulses is stopped there. What else has mass is thrown
+    /// off the faster, the shorter the increment is: that is no work of the overlap.
     fn pressed_out(&self, i: usize, e: &Evaluation) -> f64 {
+        let Some(&gap) = self.history.start.overlap.get(i) else {
+            return 0.0;
+        };
         let light = self.directives.inertia.get(i) == Some(&0.0);
-        match self.history.start.overlap.get(i) {
-            Some(&gap) if light && e.gap.is_finite() => {
-                0.5 * e.response.traction[0] * (e.gap - gap)
-            }
-            _ => 0.0,
+        let part = match (self.directives.impulses, light) {
+            (true, _) => 1.0,
+            (false, true) => 0.5,
+            (false, false) => return 0.0,
+        };
+        match gap < 0.0 && e.gap.is_finite() {
+            true => part * e.response.traction[0] * (e.gap - gap),
+            false => 0.0,
         }
     }
 
@@ -235,7 +246,10 @@ impl Interface {
         };
         let along = |t: [f64; 2]| -(t[0] * r.sliding_path[0] + t[1] * r.sliding_path[1]);
         let now = along([r.traction[1], r.traction[2]]);
-        let mean = 0.5 * (along(e.carried) + now);
+        let mean = match self.directives.impulses {
+            true => now,
+            false => 0.5 * (along(e.carried) + now),
+        };
         if resolved && r.status == Status::Open {
             // It may have slid before the surfaces parted.
             return [released, 0.5 * part * h.limit * norm(e.moved), 0.0];

@@ -5,6 +5,8 @@
 pub struct Directives {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     pub(super) inertia: Vec<f64>,
+    /// Tractions are means over the increment, as where masses meet what does not give way, not those at its end.
+    pub impulses: bool,
     /// Points that do not take part; empty where all do.
     pub(super) excluded: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
@@ -19,6 +21,7 @@ pub struct Directives {
 
 crate::keep!(Directives {
     inertia,
+    impulses,
     excluded,
     inner,
     softening,

@@ -14,6 +14,8 @@ impl Interface {
     /// What presses already goes on pressing: a spring starts where its force is that of the multiplier it replaces. The energy `[J]` that this
     /// puts into the springs is returned.
     pub fn use_springs(&mut self, springs: bool) -> f64 {
+        // Every step says anew how it is integrated.
+        self.directives.impulses = false;
         if self.history.springs == springs {
             return 0.0;
         }

@@ -1,0 +1,57 @@
+//! Contact of masses with what does not give way: the points that are pressed, as an impact sees them.
+
+use super::definition::{Interface, Primary};
+use super::scene::Wants;
+use crate::system::Stage;
+
+/// A point that multipliers press, in motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pressed {
+    /// The dofs that take part.
+    pub dofs: Vec<usize>,
+    /// Gradient of the gap over them `[-]`.
+    pub gap: Vec<f64>,
+    /// Force against penetration `[N]`.
+    pub force: f64,
+}
+
+impl Interface {
+    /// Whether pressure is a multiplier, which has whatever size it takes to hold a mass.
+    pub fn is_hard(&self) -> bool {
+        !self.laws.tied && self.unknown() && self.laws.needs_normal_stiffness()
+    }
+
+    /// Whether the primary is a body, or an obstacle that does not move between these times.
+    pub fn stands(&self, from: f64, to: f64) -> bool {
+        match &self.primary {
+            Primary::Rigid(_, motion) => motion.way(from, to) == [[0.0; 3]; 2],
+            Primary::Facets(_) => true,
+        }
+    }
+
+    /// The points that are pressed at the end of an increment that has been solved.
+    pub fn pressed(&mut self, stage: &Stage) -> Vec<Pressed> {
+        if !self.schedule.active(stage.at.t) {
+            return Vec::new();
+        }
+        let wants = Wants {
+            tangent: true,
+            ..Wants::default()
+        };
+        let evaluations = self.evaluate_all(stage, wants);
+        let points = evaluations.points.iter().enumerate();
+        let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.multiplier[0] > 0.0);
+        let found = pressed.filter_map(|(i, e)| {
+            let batch = evaluations.batch(i);
+            let dofs = batch.dofs(e);
+            Some(Pressed {
+                gap: batch.tangent(e)?.rows[..dofs.len()].to_vec(),
+                dofs: dofs.to_vec(),
+                force: e.area * e.multiplier[0],
+            })
+        });
+        let found = found.collect();
+        self.cache.trial = evaluations;
+        found
+    }
+}
