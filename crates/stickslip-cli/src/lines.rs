@@ -28,12 +28,12 @@ impl Lines {
         }
     }
 
-    /// Seconds that are left after time `t`, if that is known.
-    fn left(&mut self, analysis: &Analysis, t: f64) -> Option<f64> {
-        let done = part(&analysis.model.steps, analysis.frame.step, t)?;
-        self.remaining
-            .note(done, self.started.elapsed().as_secs_f64());
-        self.remaining.seconds()
+    /// An increment was accepted that ends at time `t`.
+    fn look(&mut self, analysis: &Analysis, t: f64) {
+        if let Some(done) = part(&analysis.model.steps, analysis.frame.step, t) {
+            let seconds = self.started.elapsed().as_secs_f64();
+            self.remaining.note(done, seconds);
+        }
     }
 }
 
@@ -45,7 +45,7 @@ impl Observer for Lines {
                 // JSON has no NaN; what is not known is null.
                 let values: serde_json::Map<_, _> =
                     names.zip(row.values.iter().map(|v| json!(v))).collect();
-                let left = self.left(analysis, row.get("TIME").unwrap_or_default());
+                let left = self.remaining.seconds();
                 json!({ "event": "increment", "step": analysis.step_name(), "row": values, "seconds-left": left })
             }
             Event::Cutback(trial, failure) => json!({
@@ -53,6 +53,10 @@ impl Observer for Lines {
                 "cause": format!("{:?}", failure.cause), "message": failure.message, "culprits": failure.culprits.iter().map(ToString::to_string).collect::<Vec<_>>(),
             }),
             Event::Finding(finding) => json!({ "event": "finding", "finding": finding }),
+            Event::Accepted(advance) => {
+                self.look(analysis, advance.time);
+                return Ok(());
+            }
             Event::Note(text) => json!({ "event": "note", "text": text }),
             Event::End => json!({ "event": "end", "summary": analysis.summary }),
             _ => return Ok(()),

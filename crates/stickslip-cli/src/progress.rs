@@ -68,7 +68,6 @@ impl Progress {
 
     fn increment(&mut self, analysis: &Analysis, row: &Row) {
         let changes = self.changes(analysis);
-        let left = self.left(analysis, row.get("TIME").unwrap_or(0.0));
         if !self.terminal && !self.voice.is_silent() {
             return;
         }
@@ -94,20 +93,22 @@ impl Progress {
             column("STICK"),
             column("SLIP"),
             column("ERESIDUAL") / scale,
-            left,
+            self.left(),
         );
         self.line(&text);
     }
 
+    /// An increment was accepted that ends at this time.
+    fn look(&mut self, analysis: &Analysis, time: f64) {
+        if let Some(done) = part(&analysis.model.steps, analysis.frame.step, time) {
+            let seconds = self.started.elapsed().as_secs_f64();
+            self.remaining.note(done, seconds);
+        }
+    }
+
     /// The time that is left, if it is known.
-    fn left(&mut self, analysis: &Analysis, time: f64) -> String {
-        let done = part(&analysis.model.steps, analysis.frame.step, time);
-        let seconds = done.and_then(|done| {
-            self.remaining
-                .note(done, self.started.elapsed().as_secs_f64());
-            self.remaining.seconds()
-        });
-        match seconds {
+    fn left(&self) -> String {
+        match self.remaining.seconds() {
             None => "?".to_string(),
             Some(s) if s < 100.0 => format!("{s:.0} s"),
             Some(s) if s < 6000.0 => format!("{:.0} min", s / 60.0),
@@ -118,6 +119,9 @@ impl Progress {
 
 impl Observer for Progress {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
+        if let Event::Accepted(advance) = &event {
+            self.look(analysis, advance.time);
+        }
         match event {
             Event::Accepted(a) if self.terminal && !self.verbose => {
                 self.voice.passing(&format!(

@@ -2,12 +2,17 @@
 
 use stickslip::model::Step;
 
-/// Part of the work after which there is something to go by, and increments.
-const BEGINNING: f64 = 0.02;
+/// Part of the work after which there is something to go by, increments, and seconds.
+const BEGINNING: f64 = 0.05;
 const FEW: usize = 4;
+const SOON: f64 = 1.0;
 
-/// Ratio of the speeds of the two halves of what is done beyond which nothing follows for the rest.
-const STEADY: f64 = 2.0;
+/// Factor by which what would have been told earlier of what is done since may be wrong.
+const RIGHT: f64 = 1.6;
+
+/// How many earlier moments are asked; the first is when this part of what is done was done.
+const MOMENTS: usize = 12;
+const ASKED: f64 = 0.25;
 
 /// Most looks at the clock that are kept.
 const MOST: usize = 512;
@@ -15,13 +20,16 @@ const MOST: usize = 512;
 /// What is done, and what it took.
 #[derive(Debug, Default)]
 pub struct Remaining {
-    /// Part of the work, rising, and seconds.
+    /// Part of the work, rising, and seconds; the first is where counting begins.
     looks: Vec<(f64, f64)>,
 }
 
 impl Remaining {
-    /// This part of the work was done after so many seconds.
+    /// This part of the work was done after so many seconds. Where it is less than before, work of another kind has begun.
     pub fn note(&mut self, done: f64, seconds: f64) {
+        if self.looks.last().is_some_and(|(before, _)| done < *before) {
+            self.looks.clear();
+        }
         self.looks.push((done, seconds));
         if self.looks.len() > MOST {
             let mut odd = false;
@@ -32,20 +40,42 @@ impl Remaining {
         }
     }
 
-    /// Seconds that are left: the rest goes as fast as the second half of what is done, if that went about as fast as the first.
+    /// Seconds that are left, if that is known: the rest goes as fast as the second half of what is done, and whoever had said so of what is done at
+    /// several moments before would have been right.
     pub fn seconds(&self) -> Option<f64> {
-        let &(done, now) = self.looks.last()?;
-        if self.looks.len() < FEW || done < BEGINNING {
+        let (&(first, begun), &(done, now)) = (self.looks.first()?, self.looks.last()?);
+        if self.looks.len() < FEW || done - first < BEGINNING || now - begun < SOON {
             return None;
         }
-        let half = self.looks.iter().rfind(|(part, _)| *part <= 0.5 * done);
-        let &(part, then) = half?;
-        let (first, second) = (
-            then / part.max(f64::MIN_POSITIVE),
-            (now - then) / (done - part),
-        );
-        let steady = second <= STEADY * first && first <= STEADY * second;
-        steady.then_some((1.0 - done) * second)
+        // The last had half as far to see as is to be seen now, or a quarter of what is done.
+        let far = (1.0 - done).min(0.5 * (done - first));
+        let last = 1.0 - 0.5 * far / (done - first);
+        for moment in 0..MOMENTS {
+            let along = moment as f64 / (MOMENTS - 1) as f64;
+            let part = ASKED + (last - ASKED) * along;
+            let (k, (then, at)) = self.at(first + part * (done - first))?;
+            let told = self.rate(k)? * (done - then);
+            let right = told <= RIGHT * (now - at) && now - at <= RIGHT * told;
+            if !right {
+                return None;
+            }
+        }
+        Some((1.0 - done) * self.rate(self.looks.len() - 1)?)
+    }
+
+    /// The last look at which no more than this part was done.
+    fn at(&self, part: f64) -> Option<(usize, (f64, f64))> {
+        let after = self.looks.partition_point(|(done, _)| *done <= part);
+        let k = after.checked_sub(1)?;
+        Some((k, self.looks[k]))
+    }
+
+    /// Seconds for the whole work, by the second half of what was done at a look; unknown before there are two.
+    fn rate(&self, k: usize) -> Option<f64> {
+        let (first, _) = self.looks[0];
+        let (done, now) = self.looks[k];
+        let (_, (part, then)) = self.at(0.5 * (first + done))?;
+        (done > part).then(|| (now - then) / (done - part))
     }
 }
 
@@ -113,9 +143,39 @@ mod tests {
     }
 
     #[test]
+    fn bursts_are_told_to_be_unknown_or_within_a_factor_of_two() {
+        // Most increments are quick, and now and then some are slow: at events, say.
+        for (quick, slow) in [(3, 1), (8, 2), (8, 5), (2, 5)] {
+            let seconds = |k: usize| match k % (quick + slow) < quick {
+                true => 0.1,
+                false => 2.0,
+            };
+            let told = estimates(seconds).into_iter();
+            let wrong = told.filter(|(told, left)| {
+                told.is_some_and(|told| told > 2.0 * left || *left > 2.0 * told)
+            });
+            // At the very end a burst more or less counts.
+            let wrong = wrong.filter(|(_, left)| *left > 4.0 * slow as f64);
+            assert_eq!(wrong.count(), 0, "{quick} {slow}");
+        }
+    }
+
+    #[test]
     fn little_is_no_measure() {
         let mut remaining = Remaining::default();
         assert_eq!(remaining.seconds(), None);
+        for k in 0..50 {
+            remaining.note(k as f64 * 0.01, 1e-3 * k as f64);
+        }
+        // Half of it, but in no time.
+        assert_eq!(remaining.seconds(), None);
+        // Work of another kind counts from its own beginning.
+        for k in 0..50 {
+            remaining.note(k as f64 * 0.01, 100.0 + k as f64);
+        }
+        let told = remaining.seconds().expect("an estimate");
+        assert!((told - 51.0).abs() < 1e-9, "{told}");
+        let mut remaining = Remaining::default();
         remaining.note(1e-4, 1.0);
         assert_eq!(remaining.seconds(), None);
         for k in 0..10_000 {

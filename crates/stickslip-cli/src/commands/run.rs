@@ -6,7 +6,7 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::friction::text;
 use stickslip::newton::condensed::Library;
-use stickslip::results::{Claim, Lent, Observer, ResultFiles, Source, digest_of};
+use stickslip::results::{Claim, Lent, Observer, ResultFiles, Source, checkpoints, digest_of};
 use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
@@ -218,6 +218,13 @@ pub fn go(session: Session, manner: &Manner) -> Outcome {
     let outcome = simulation.run(&mut observers);
     if let (Err(Error::Run(_)), Some(folder)) = (&outcome, &dump_failures) {
         dump(folder, &stem, &simulation)?;
+    }
+    let stopped = matches!(outcome, Err(Error::Interrupted(_))) && loud;
+    if stopped && !checkpoints(&directory).is_empty() {
+        crate::progress::say(&format!(
+            "`stickslip resume {}` goes on from here",
+            directory.display()
+        ));
     }
     if let Some(why) = files.unsaved().filter(|_| manner.quiet) {
         crate::progress::say(&format!("warning: {why}"));
