@@ -57,9 +57,6 @@ references! {
     doyen_2011: "D. Doyen, A. Ern, S. Piperno, Time-integration schemes for the finite element dynamic Signorini problem, SIAM Journal on Scientific Computing 33 (2011) 223-249.",
     lanczos_1950: "C. Lanczos, An iteration method for the solution of the eigenvalue problem of linear differential and integral operators, Journal of Research of the National Bureau of Standards 45 (1950) 255-282.",
     paige_1980: "C. C. Paige, Accuracy and effectiveness of the Lanczos algorithm for the symmetric eigenproblem, Linear Algebra and its Applications 34 (1980) 235-258.",
-    grippo_1986: "L. Grippo, F. Lampariello, S. Lucidi, A nonmonotone line search technique for Newton's method, SIAM Journal on Numerical Analysis 23 (1986) 707-716.",
-    judice_pires_1994: "J. J. Júdice, F. M. Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems, Computers and Operations Research 21 (1994) 587-596.",
-    murty_1974: "K. G. Murty, Note on a Bard-type scheme for solving the complementarity problem, Opsearch 11 (1974) 123-130.",
     anderson_1965: "D. G. Anderson, Iterative procedures for nonlinear integral equations, Journal of the ACM 12 (1965) 547-560.",
     sutherland_hodgman_1974: "I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Communications of the ACM 17 (1974) 32-42.",
     guyan_1965: "R. J. Guyan, Reduction of stiffness and mass matrices, AIAA Journal 3 (1965) 380.",
@@ -77,5 +74,4 @@ references! {
     rockafellar_1976: "R. T. Rockafellar, Monotone operators and the proximal point algorithm, SIAM Journal on Control and Optimization 14 (1976) 877-898.",
     golub_van_loan_2013: "G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., Johns Hopkins University Press, 2013.",
     haslinger_1983: "J. Haslinger, Approximation of the Signorini problem with friction, obeying the Coulomb law, Mathematical Methods in the Applied Sciences 5 (1983) 422-437.",
-    armijo_1966: "L. Armijo, Minimization of functions having Lipschitz continuous first partial derivatives, Pacific Journal of Mathematics 16 (1966) 1-3.",
 }

@@ -377,12 +377,12 @@ mod tests {
             step: 1.0,
             krylov: 3,
             tally: Default::default(),
-            strategy: Strategy::Continuation("softer-stick"),
+            strategy: Strategy::FrictionProblem,
         };
         doing.note(&Work::Iteration(&progress), at(95));
         let said = doing.sentence(begun, at(100));
         assert!(
-            said.contains("50 s in it: iteration 1.7 done (softer stick), residual 3.2e-4"),
+            said.contains("50 s in it: iteration 1.7 done (friction problem), residual 3.2e-4"),
             "{said}"
         );
         doing.note(&Work::Recovering(16), at(101));

@@ -80,7 +80,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
             stiffness: 1e6 * arguments.pressure,
             base: [0.0; 2],
             skew: 0.0,
-            smoothing: 0.0,
             slack: 0.0,
         };
         let shear = -slip.traction(limit(false), &motion).traction[0];

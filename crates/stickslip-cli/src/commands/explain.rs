@@ -204,8 +204,8 @@ fn effort(summary: &Value) -> String {
             "multiplier update",
         ),
         (
-            solver["continuations"].as_u64().unwrap_or(0),
-            "continuation",
+            solver["fallbacks"].as_u64().unwrap_or(0),
+            "friction problem",
         ),
     ] {
         if count > 0 {

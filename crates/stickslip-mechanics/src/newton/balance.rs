@@ -14,8 +14,6 @@ pub(super) struct Balance {
     pub scale: f64,
     /// What rounding leaves of the forces.
     pub floor: f64,
-    /// The merit function: out-of-balance forces and residuals of multipliers.
-    pub merit: f64,
 }
 
 /// Roundings of the largest term that the force at a dof of the bulk may be off by: a row of a stiffness has terms of both signs.
@@ -64,7 +62,6 @@ impl Balance {
         Ok(Balance {
             forces,
             norm: norm.sqrt(),
-            merit: (norm + out.multiplier_merit).sqrt(),
             scale: others.max(contact.sqrt()),
             floor: (out.rounding + bulk).sqrt(),
         })

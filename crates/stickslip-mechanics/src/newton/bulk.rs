@@ -28,10 +28,8 @@ pub trait Bulk {
         true
     }
 
-    /// Whether a solution costs little more than a product with a dense matrix, so that hundreds of them are worth an increment.
-    fn answers_cheaply(&self) -> bool {
-        false
-    }
+    /// How many solutions with one matrix cost no more than another attempt of Newton's method, or than so many operations.
+    fn affordable(&self, settings: &Settings, operations: f64) -> usize;
 
     /// Whether the solution needs to know which points meet which facets.
     fn wants_pairs(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Newton's iteration for one set of multipliers and one choice of frozen points.
+//! Newton's iteration for one set of multipliers.
 
 use super::attempt::Attempt;
 use super::balance::Balance;
@@ -37,7 +37,7 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
     let (b, du) = (vec![0.0; n], vec![0.0; n]);
     let mut linear = Linear { b, du };
     let mut balance = attempt.evaluate(&mut out, true)?;
-    let mut control = StepControl::new(&balance);
+    let mut control = StepControl::default();
     let mut residuals = Vec::new();
     for iteration in 0..=settings.max_iterations {
         if (attempt.interrupted)() {
@@ -54,10 +54,9 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
         let krylov = solve(attempt, &mut out, &balance, &mut linear, iteration == 0)?;
         let before = balance.norm.max(out.multiplier_residual);
         let reported = balance.compared(before);
-        let demand = control.demand(attempt.strategy, &residuals, before);
+        let demand = control.demand(&residuals, before);
         let taken = step_length::take(attempt, &mut out, &linear.du, &demand)?;
         balance = taken.balance;
-        control.note(iteration, &balance);
         (attempt.log)(&Progress {
             strategy: attempt.strategy,
             iteration,
@@ -110,7 +109,7 @@ fn chatters(attempt: &mut Attempt, residuals: &[f64]) -> bool {
 }
 
 /// Whether the last iterations have not brought the residual down by an order of magnitude.
-fn stalled(residuals: &[f64]) -> bool {
+pub(super) fn stalled(residuals: &[f64]) -> bool {
     let Some(split) = residuals.len().checked_sub(STALL) else {
         return false;
     };

@@ -119,6 +119,18 @@ impl Linearised {
         self.grids.as_ref().is_some_and(Grids::works)
     }
 
+    /// How many solutions with one matrix cost no more than another attempt, or than so many operations. An attempt takes a factor an iteration; a solution reads
+    /// all its numbers four times, forwards and backwards and once more for the residual that rounding has left. With multigrid an iteration is a solution.
+    pub(super) fn affordable(&self, settings: &Settings, operations: f64) -> usize {
+        let iterations = settings.max_iterations as f64;
+        let factored = self.symbolic.as_ref().filter(|_| !self.uses_multigrid());
+        let solutions = factored.map_or(iterations, |s| {
+            let one = 8.0 * s.factor_nonzeros() as f64;
+            operations.max(iterations * s.flops()) / one
+        });
+        solutions as usize
+    }
+
     /// Why multigrid has been given up, once.
     pub(super) fn note(&mut self) -> Option<String> {
         self.grids.as_mut()?.note()

@@ -49,7 +49,6 @@ mod statistics;
 mod step_length;
 mod strategy;
 mod system;
-mod ways;
 
 pub use bulk::Bulk;
 pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};

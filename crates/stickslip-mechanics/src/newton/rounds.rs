@@ -1,30 +1,24 @@
-//! Equilibria one after the other: until the multipliers have settled and no point is held against its laws.
+//! Equilibria one after the other, until the multipliers have settled.
 
 use super::attempt::Attempt;
-use super::equilibrium::equilibrium;
 use super::progress::Converged;
 use crate::system::{Augmentation, Cause, Stage, StepFailure};
-
-/// How often the choices of points that keep changing status are exchanged.
-const MOST_EXCHANGES: usize = 20;
 
 /// Most multiplier updates in one increment.
 const MOST_ROUNDS: usize = 25;
 
-/// Equilibrium, then multiplier updates until they settle.
-pub(super) fn rounds(attempt: &mut Attempt) -> Result<Converged, StepFailure> {
+/// Equilibrium, then multiplier updates until they settle. `find` finds an equilibrium from where the attempt is, after so many updates.
+pub(super) fn rounds(
+    attempt: &mut Attempt,
+    mut find: impl FnMut(&mut Attempt, usize) -> Result<Converged, StepFailure>,
+) -> Result<Converged, StepFailure> {
     let mut total = 0;
     let mut round = 0;
-    let mut exchanges = 0;
     let most = MOST_ROUNDS + attempt.system.patience();
     loop {
-        let mut converged = equilibrium(attempt, round)?;
+        let mut converged = find(attempt, round)?;
         total += converged.iterations;
-        if attempt.system.recheck() > 0 {
-            exchanges += 1;
-            if exchanges > MOST_EXCHANGES {
-                return Err(attempt.failure(Cause::NotConverged, "points keep changing status"));
-            }
+        if attempt.system.put_back() > 0 {
             continue;
         }
         let Some(worst) = augment(attempt) else {

@@ -1,17 +1,18 @@
 use std::sync::Arc;
 
 use super::attempt::Attempt;
+use super::equilibrium::equilibrium;
+use super::in_forces::in_forces;
 use super::progress::{Converged, Progress};
 use super::rounds::rounds;
 use super::settings::Settings;
 use super::statistics::Statistics;
 use super::strategy::{Fallback, Strategy};
 use super::system::System;
-use super::ways::{follow, strategies};
 use crate::friction::FrictionProblem;
 use crate::system::{Cause, State, StepFailure};
 
-/// Failures after which no other way is tried.
+/// Failures after which the other way is not tried.
 const HOPELESS: [Cause; 4] = [
     Cause::NotFinite,
     Cause::Reach,
@@ -26,9 +27,9 @@ pub struct Newton {
     pub settings: Settings,
     /// Counts over all solutions.
     pub statistics: Statistics,
-    /// What was tried in the last solution when plain iteration had failed, in this order.
+    /// What was tried in the last solution when plain iteration had failed.
     pub fallbacks: Vec<Fallback>,
-    /// The friction problem of the last increment for which none of the ways led anywhere.
+    /// The friction problem of the last increment for which neither way led anywhere.
     pub unsolved: Option<FrictionProblem>,
     /// Asked in every iteration whether the solution shall be given up.
     pub interrupt: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
@@ -62,7 +63,6 @@ impl Newton {
         let begun = self.statistics.iterations;
         self.fallbacks.clear();
         self.unsolved = None;
-        system.freeze(false);
         let interrupt = self.interrupt.as_deref();
         let mut attempt = Attempt {
             system,
@@ -76,32 +76,30 @@ impl Newton {
             log,
         };
         attempt.restart();
-        let failure = match rounds(&mut attempt) {
+        let failure = match rounds(&mut attempt, equilibrium) {
             Err(failure) if !HOPELESS.contains(&failure.cause) => failure,
             outcome => return outcome,
         };
-        for strategy in strategies(attempt.system) {
-            let before = attempt.statistics.iterations;
-            attempt.strategy = strategy;
-            let outcome = match follow(&mut attempt, &mut self.unsolved) {
-                None => continue,
-                Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
-                Some(outcome) => outcome,
-            };
-            attempt.statistics.fallbacks += 1;
-            self.fallbacks.push(Fallback {
-                kind: strategy,
-                iterations: attempt.statistics.iterations - before,
-                converged: outcome.is_ok(),
-            });
-            if let Ok(converged) = outcome {
-                self.unsolved = None;
-                return Ok(Converged {
-                    iterations: attempt.statistics.iterations - begun,
-                    ..converged
-                });
-            }
-        }
-        Err(failure)
+        let before = attempt.statistics.iterations;
+        attempt.strategy = Strategy::FrictionProblem;
+        let outcome = match in_forces(&mut attempt, &failure.cause, &mut self.unsolved) {
+            None => return Err(failure),
+            Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
+            Some(outcome) => outcome,
+        };
+        attempt.statistics.fallbacks += 1;
+        self.fallbacks.push(Fallback {
+            kind: Strategy::FrictionProblem,
+            iterations: attempt.statistics.iterations - before,
+            converged: outcome.is_ok(),
+        });
+        let Ok(converged) = outcome else {
+            return Err(failure);
+        };
+        self.unsolved = None;
+        Ok(Converged {
+            iterations: attempt.statistics.iterations - begun,
+            ..converged
+        })
     }
 }

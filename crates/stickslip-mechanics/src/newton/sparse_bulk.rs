@@ -100,6 +100,10 @@ impl Bulk for SparseBulk<'_> {
         self.diagonal[dof]
     }
 
+    fn affordable(&self, settings: &Settings, operations: f64) -> usize {
+        self.linearised.affordable(settings, operations)
+    }
+
     fn wants_pairs(&self) -> bool {
         self.linearised.uses_multigrid()
     }

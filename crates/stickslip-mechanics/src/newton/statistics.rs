@@ -6,9 +6,7 @@ pub struct Statistics {
     pub iterations: usize,
     /// Multiplier updates.
     pub augmentations: usize,
-    /// Increments approached through easier forces, after a plain iteration had failed.
-    pub continuations: usize,
-    /// Ways other than plain iteration that were tried.
+    /// Increments solved as friction problems, or tried to, where plain iteration had failed.
     pub fallbacks: usize,
     /// Symbolic factorisations.
     pub analyses: usize,
@@ -61,7 +59,6 @@ pub struct Statistics {
 crate::keep!(Statistics {
     iterations,
     augmentations,
-    continuations,
     fallbacks,
     analyses,
     factorisations,

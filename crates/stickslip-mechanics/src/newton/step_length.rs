@@ -2,7 +2,6 @@
 
 use super::attempt::Attempt;
 use super::balance::Balance;
-use super::strategy::Strategy;
 use crate::system::{Assembler, Cause, StepFailure};
 
 /// Iterations in which points find their status: a step may make matters much worse, and it is too early to say that nothing is gained.
@@ -30,36 +29,19 @@ const LOST: f64 = 1e4;
 /// Most halvings even so.
 const MOST_HALVINGS: usize = 40;
 
-/// Most halvings of a step that has to reduce the merit function.
-const MERIT_HALVINGS: usize = 10;
-
-/// By how much it has to, relative to what Newton's direction promises: the usual constant of
-/// [Armijo's](stickslip_base::references::armijo_1966) rule.
-const ARMIJO: f64 = 1e-4;
-
-/// Iterates over which the merit function may stay as it is ([Grippo, Lampariello and Lucidi](stickslip_base::references::grippo_1986) suggest a few).
-const WINDOW: usize = 3;
-
 /// What the next step has to achieve, judged by the steps before.
+#[derive(Default)]
 pub(super) struct StepControl {
     /// Residual at which steps began to have to gain; zero while they need not.
     gaining_since: f64,
-    /// The merit function at the last iterates.
-    merits: [f64; WINDOW],
 }
 
 /// What a step has to achieve.
 pub(super) struct Demand {
     /// The larger residual of displacements and multipliers before the step.
     before: f64,
-    rule: Rule,
-}
-
-enum Rule {
-    /// The residual grows at most by this factor.
-    Growth(f64),
-    /// The merit function falls below this one.
-    Merit(f64),
+    /// By which factor it may grow at most.
+    growth: f64,
 }
 
 /// A step that was taken.
@@ -71,25 +53,8 @@ pub(super) struct Taken {
 }
 
 impl StepControl {
-    /// Before the first step.
-    pub fn new(balance: &Balance) -> Self {
-        StepControl {
-            gaining_since: 0.0,
-            merits: [balance.merit; WINDOW],
-        }
-    }
-
     /// What a step has to achieve after iterates with these residuals relative to the forces in play; `before` is the last of them, as a force.
-    pub fn demand(&mut self, strategy: Strategy, residuals: &[f64], before: f64) -> Demand {
-        let growth = self.growth(residuals);
-        let rule = match strategy {
-            Strategy::LineSearch => Rule::Merit(self.merits.iter().copied().fold(0.0, f64::max)),
-            _ => Rule::Growth(growth),
-        };
-        Demand { before, rule }
-    }
-
-    fn growth(&mut self, residuals: &[f64]) -> f64 {
+    pub fn demand(&mut self, residuals: &[f64], before: f64) -> Demand {
         let iteration = residuals.len() - 1;
         let relative = residuals[iteration];
         if iteration >= EARLY && relative > STUCK * residuals[iteration - BACK] {
@@ -97,50 +62,27 @@ impl StepControl {
         } else if relative < RELEASED * self.gaining_since {
             self.gaining_since = 0.0;
         }
-        match (self.gaining_since > 0.0, iteration < EARLY) {
+        let growth = match (self.gaining_since > 0.0, iteration < EARLY) {
             (true, _) => GAIN,
             (false, true) => EARLY_GROWTH,
             (false, false) => GROWTH,
-        }
-    }
-
-    /// Notes the merit function after an iteration.
-    pub fn note(&mut self, iteration: usize, balance: &Balance) {
-        self.merits[iteration % WINDOW] = balance.merit;
+        };
+        Demand { before, growth }
     }
 }
 
 impl Demand {
-    /// What a state is judged by.
-    fn measure(&self, balance: &Balance, out: &Assembler) -> f64 {
-        match self.rule {
-            Rule::Merit(_) => balance.merit,
-            Rule::Growth(_) => balance.norm.max(out.multiplier_residual),
-        }
+    fn is_met(&self, measure: f64) -> bool {
+        measure <= self.growth * self.before
     }
 
-    fn is_met(&self, measure: f64, step: f64) -> bool {
-        match self.rule {
-            Rule::Merit(most) => measure <= (1.0 - ARMIJO * step) * most,
-            Rule::Growth(growth) => measure <= growth * self.before,
-        }
-    }
-
-    /// Halvings after which the best step is taken.
-    fn halvings(&self, line_search: usize) -> usize {
-        match self.rule {
-            Rule::Merit(_) => MERIT_HALVINGS,
-            Rule::Growth(_) => line_search,
-        }
-    }
-
-    /// The same where the last length led to this measure.
-    fn halvings_after(&self, measure: f64, line_search: usize) -> usize {
+    /// Halvings after which the best step is taken, where the last length led to this measure.
+    fn halvings(&self, measure: f64, line_search: usize) -> usize {
         let lost = measure.is_nan() || measure > LOST * self.before;
         if line_search > 0 && lost {
             MOST_HALVINGS
         } else {
-            self.halvings(line_search)
+            line_search
         }
     }
 }
@@ -162,12 +104,11 @@ pub(super) fn take(
         attempt.system.advance(attempt.at, &start, du, length);
         out.tentative = halvings == 0;
         let balance = attempt.evaluate(out, halvings == 0)?;
-        let measure = demand.measure(&balance, out);
+        let measure = balance.norm.max(out.multiplier_residual);
         if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
             best = Some((measure, length));
         }
-        if demand.is_met(measure, length) || halvings >= demand.halvings_after(measure, line_search)
-        {
+        if demand.is_met(measure) || halvings >= demand.halvings(measure, line_search) {
             break balance;
         }
         halvings += 1;
@@ -177,7 +118,7 @@ pub(super) fn take(
     let Some((_, chosen)) = best else {
         return Err(attempt.failure(Cause::NotFinite, "the forces are not finite"));
     };
-    if halvings >= demand.halvings(line_search) {
+    if halvings >= line_search {
         length = chosen;
     }
     if halvings == 0 {

@@ -1,7 +1,7 @@
 //! The equations: balance of the bulk and the interfaces, with prescribed displacements.
 
 use super::bulk::Bulk;
-use crate::system::{ActiveSet, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally, Way};
+use crate::system::{ActiveSet, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally};
 
 /// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
 pub struct System<'a> {
@@ -50,39 +50,24 @@ impl System<'_> {
         }
     }
 
-    /// The forces that have points which change status.
-    pub(super) fn active_sets(&mut self) -> impl Iterator<Item = &mut (dyn ActiveSet + '_)> {
-        self.contact.iter_mut().filter_map(|f| f.active_set())
-    }
-
     /// Whether points chatter: they have changed status or the direction of slip several times.
     pub(super) fn chatters(&mut self) -> bool {
-        self.active_sets().any(|f| f.chattering() > 0)
+        !self.chattering().is_empty()
     }
 
-    /// Freezes points that chatter from now on, or no more; returns how many there are.
-    pub(super) fn freeze(&mut self, on: bool) -> usize {
-        self.active_sets().map(|f| f.freeze(on)).sum()
+    /// The points that chatter: force and point.
+    pub(super) fn chattering(&mut self) -> Vec<(usize, usize)> {
+        let forces = self.contact.iter_mut().enumerate();
+        let points = forces.filter_map(|(k, f)| Some((k, f.active_set()?.chattering())));
+        points
+            .flat_map(|(k, points)| points.into_iter().map(move |i| (k, i)))
+            .collect()
     }
 
-    /// Lets frozen points go, or changes what they were frozen to; returns how many there were.
-    pub(super) fn recheck(&mut self) -> usize {
-        self.active_sets().map(|f| f.recheck()).sum()
-    }
-
-    /// The ways of the first force that has any; forces of a kind have the same.
-    pub(super) fn ways(&mut self) -> Vec<Way> {
-        let mut forces = self.contact.iter_mut();
-        let found = forces.find_map(|f| f.continuation().map(|c| c.ways()));
-        found.unwrap_or_default()
-    }
-
-    /// Makes all forces easier that can be made so.
-    pub(super) fn ease(&mut self, to: Option<(&'static str, f64)>) {
-        let forces = self.contact.iter_mut();
-        forces
-            .filter_map(|f| f.continuation())
-            .for_each(|c| c.ease(to));
+    /// Gives points that were lost on the way another chance, once; returns how many there were.
+    pub(super) fn put_back(&mut self) -> usize {
+        let sets = self.contact.iter_mut().filter_map(|f| f.active_set());
+        sets.map(ActiveSet::put_back).sum()
     }
 
     /// The most rounds that a force may need beyond those of multipliers.

@@ -95,8 +95,6 @@ pub struct Assembler {
     pub condensed: Vec<f64>,
     /// Largest multiplier-row residual, as a force, for the convergence test.
     pub multiplier_residual: f64,
-    /// Sum of the squares of all residuals of multiplier rows, as forces.
-    pub multiplier_merit: f64,
     /// Square of the force that rounding of coordinates may leave, summed over the points.
     pub rounding: f64,
     /// Dofs of every point that may come to act, acting or not: what a symbolic factorisation should provide for.
@@ -140,7 +138,6 @@ impl Assembler {
             residual: vec![0.0; dofs],
             condensed: vec![0.0; dofs],
             multiplier_residual: 0.0,
-            multiplier_merit: 0.0,
             rounding: 0.0,
             couplings: Vec::new(),
             blocks: Vec::new(),
@@ -161,7 +158,6 @@ impl Assembler {
         self.residual.fill(0.0);
         self.condensed.fill(0.0);
         self.multiplier_residual = 0.0;
-        self.multiplier_merit = 0.0;
         self.rounding = 0.0;
         self.spare_blocks.append(&mut self.blocks);
         self.spare_couplings.append(&mut self.couplings);

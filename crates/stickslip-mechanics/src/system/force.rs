@@ -126,11 +126,6 @@ pub trait Force: Send {
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
         None
     }
-
-    /// How the force can be made easier, of one that can.
-    fn continuation(&mut self) -> Option<&mut dyn Continuation> {
-        None
-    }
 }
 
 /// A point of contact as a friction problem knows it: normal, and two directions of shear.
@@ -148,39 +143,19 @@ pub struct PointAlone {
     pub stiffness: [f64; 3],
     /// The forces that it would then have at the state of evaluation `[N]`.
     pub forces: [f64; 3],
+    /// Whether there is friction at all.
+    pub rubs: bool,
     /// The limit of its shear.
     pub law: PointLaw,
 }
 
-/// Points that change status from iteration to iteration, and what can be done about those that chatter.
+/// Points that change status from iteration to iteration.
 pub trait ActiveSet {
-    /// How many points have changed status or the direction of slip several times in this attempt.
-    fn chattering(&self) -> usize;
+    /// The points that have changed status or the direction of slip several times in this attempt.
+    fn chattering(&self) -> Vec<usize>;
 
-    /// From now on, in this attempt: points that keep changing status keep a choice until the rest has settled. Returns how many there are.
-    fn freeze(&mut self, on: bool) -> usize;
-
-    /// At an equilibrium: lets the points go that keep a choice, or changes the choice where the laws refuse it. Returns how many there were; zero
-    /// says that the laws hold everywhere.
-    fn recheck(&mut self) -> usize;
-}
-
-/// A force that can be approached through easier ones.
-pub trait Continuation {
-    /// The ways there are, in the order in which they are worth a try.
-    fn ways(&self) -> Vec<Way>;
-
-    /// Makes the force easier by a value of the way of this name; `None`: the force itself.
-    fn ease(&mut self, to: Option<(&'static str, f64)>);
-}
-
-/// A way from an easier force to the force itself.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Way {
-    /// What is made easier; in the summary and in messages. Several ways may have one name: they are tried until one leads there.
-    pub name: &'static str,
-    /// What it goes through, the easiest first.
-    pub values: Vec<f64>,
+    /// At an equilibrium: points that were lost on the way get another chance, once. Returns how many there were.
+    fn put_back(&mut self) -> usize;
 }
 
 /// Counts of contact points by status.

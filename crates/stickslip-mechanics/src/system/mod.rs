@@ -16,9 +16,6 @@ pub use constraints::Constraints;
 pub use dofs::{Component, Dofs};
 pub use failure::{Cause, Culprit, Evidence, StepFailure};
 pub use fields::{Field, Fields, Location};
-pub use force::{
-    ActiveSet, Augmentation, Continuation, Energy, Force, PointAlone, Rate, Stage, State, Tally,
-    Way,
-};
+pub use force::{ActiveSet, Augmentation, Energy, Force, PointAlone, Rate, Stage, State, Tally};
 pub use links::{Freedom, Link, Links, Motion, Row};
 pub use schedule::{Course, Piece, Schedule};

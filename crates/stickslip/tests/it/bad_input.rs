@@ -365,10 +365,13 @@ step = [{ name = "press" }]
 
 #[test]
 fn a_run_that_does_not_converge() {
-    let message = wrong(
-        "y = -1e-5 }",
-        "y = -1e-5 }\nsolver = { max-iterations = 1, tolerance = 1e-15 }",
-    );
+    // A law that is no straight line is not found by one linear problem.
+    let law = "primary = \"floor\", normal.power-law = { c = 1e20, m = 2.0 } }";
+    let text = CASE
+        .replace("primary = \"floor\" }", law)
+        .replace("\"press\" }", "\"press\", increments.fixed = 1 }");
+    let solver = "solver = { max-iterations = 1, tolerance = 1e-15 }";
+    let message = message(&format!("{text}{solver}\n"), Path::new(""));
     says(
         &message,
         &[

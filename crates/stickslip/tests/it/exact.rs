@@ -171,7 +171,7 @@ fn a_block_that_rocks_from_edge_to_edge() {
 /// The block of `examples/greco-compliance` with the whole load in one increment from nothing: slip of 30 µm, friction that is nearly a jump at 1 nm.
 /// Plain iteration sends points from slip in one direction to slip in the other.
 #[test]
-fn slip_that_goes_to_and_fro_is_held_until_the_rest_has_settled() {
+fn slip_that_goes_to_and_fro_is_found_by_its_forces() {
     let text = r#"
 format = 1
 model.space = "plane-strain"
@@ -199,18 +199,18 @@ slip.regularised = { epsilon = 1e-9 }
     assert!((u / 2.840_424_1e-5 - 1.0).abs() < 1e-6, "{u}");
     let tried = &simulation.summary.fallbacks;
     let kinds: Vec<Strategy> = tried.iter().map(|f| f.tried.kind).collect();
-    assert_eq!(kinds, [Strategy::StatusMemory]);
+    assert_eq!(kinds, [Strategy::FrictionProblem]);
     assert!(tried[0].tried.converged);
     assert_eq!((tried[0].from, tried[0].to), (0.0, 1.0));
     let noted = &simulation.summary.notes;
     assert!(
-        noted.iter().any(|n| n.contains("status memory")),
+        noted.iter().any(|n| n.contains("friction problem")),
         "{noted:?}"
     );
     assert!(
         iterations
             .last()
-            .is_some_and(|p| p.strategy == Strategy::StatusMemory)
+            .is_some_and(|p| p.strategy == Strategy::FrictionProblem)
     );
 }
 
@@ -742,7 +742,8 @@ fn forces_do_not_depend_on_how_far_away_an_assembly_lies() {
                 let home = posed(dim, (more, ""), &turn, [0.0; 3]);
                 let there = posed(dim, (more, ""), &turn, far(dim));
                 let off = apart(&home, &there);
-                assert!(off < 1e-9, "{dim}D{more}, {angle} rad: {off:e}");
+                // No better than the balance is solved.
+                assert!(off < 1e-8, "{dim}D{more}, {angle} rad: {off:e}");
             }
         }
     }

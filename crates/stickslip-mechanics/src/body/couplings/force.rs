@@ -46,7 +46,6 @@ impl Force for Couplings {
                             .for_each(|(dof, a)| out.condensed[dof] += a * pull);
                         let pull = norm * pull.abs();
                         out.multiplier_residual = out.multiplier_residual.max(pull);
-                        out.multiplier_merit += pull * pull;
                         (self.iterate.now[i], hold.stiffness)
                     }
                 }

@@ -3,7 +3,6 @@
 use super::definition::Interface;
 use super::evaluation::{Batch, Evaluation};
 use super::scene::Wants;
-use crate::contact::law::friction::FrictionPoint;
 use crate::friction::PointLaw;
 use crate::math::vector::dot;
 use crate::math::{add_scaled, scale};
@@ -59,25 +58,21 @@ impl Interface {
             body: e.area * self.points[i].stiffness,
             stiffness,
             forces: traction.map(|t| e.area * t),
-            law: self.limit_alone(traction[0].max(0.0), e),
+            rubs: self.laws.friction_law().frictional(),
+            law: self.limit_alone(e),
         })
     }
 
-    /// The tangent of the limit of friction at a pressure, in forces.
-    fn limit_alone(&self, pressure: f64, e: &Evaluation) -> PointLaw {
-        let law = self.laws.friction_law();
-        if !law.frictional() {
+    /// The tangent of the limit of friction at the pressure and the speed of the evaluation, in forces.
+    fn limit_alone(&self, e: &Evaluation) -> PointLaw {
+        let r = &e.response;
+        if !self.laws.friction_law().frictional() {
             return PointLaw::default();
         }
-        let limit = law.limit(&FrictionPoint {
-            pressure,
-            penetration: (-e.gap).max(0.0),
-            speed: 0.0,
-            sticking: true,
-        });
+        let mu = r.d_limit.max(0.0);
         PointLaw {
-            mu: limit.d_pressure.max(0.0),
-            adhesion: e.area * (limit.value - limit.d_pressure * pressure).max(0.0),
+            mu,
+            adhesion: e.area * (r.limit - mu * r.traction[0].max(0.0)).max(0.0),
         }
     }
 

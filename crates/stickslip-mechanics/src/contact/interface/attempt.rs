@@ -1,9 +1,9 @@
 //! What an interface keeps during an attempt at an increment, and forgets with it.
 
-use super::freezing::Freezing;
+use super::evaluation::Evaluation;
 use super::history::PointHistory;
 use crate::contact::response::Status;
-use crate::math::Vec3;
+use crate::math::{Vec3, dot};
 
 /// The course of an attempt. An attempt that is given up leaves no trace: the next one begins from the history.
 #[derive(Debug, Clone, Default)]
@@ -11,8 +11,6 @@ pub struct Attempt {
     pub(super) multipliers: Vec<Multiplier>,
     /// Status changes, by point.
     pub(super) flips: Vec<Flips>,
-    /// Points that chatter, and what they are frozen in.
-    pub(super) freezing: Freezing,
     /// Points whose status changed with the last iterate.
     pub(super) changed: usize,
     /// The last evaluation, a tentative one, may become the next iterate.
@@ -27,23 +25,20 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// The next one, from these histories. Points that are frozen while that goes on stay so; vectors keep their memory.
+    /// The next one, from these histories; vectors keep their memory.
     pub(super) fn next(self, histories: &[PointHistory], accepted_gap: f64) -> Self {
         let Attempt {
             mut multipliers,
             mut flips,
-            mut freezing,
             ..
         } = self;
         multipliers.clear();
         multipliers.extend(histories.iter().map(Multiplier::from));
         flips.clear();
         flips.resize(histories.len(), Flips::default());
-        freezing.begin();
         Attempt {
             multipliers,
             flips,
-            freezing,
             accepted_gap,
             never_in_contact: histories.iter().all(|h| h.status == Status::Open),
             ..Attempt::default()
@@ -82,10 +77,16 @@ impl From<&PointHistory> for Multiplier {
     }
 }
 
+/// Changes of status, or reversals of slip, of a point that chatters.
+const CHATTERS: usize = 3;
+
 /// Status changes of a point over the iterations of an attempt.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Flips {
     pub count: usize,
+    /// How often the direction of slip was reversed, and the shear traction when it slid last.
+    pub reversals: usize,
+    shear: Vec3,
     /// The last statuses that differ from the one before, latest first.
     pub last: [Option<Status>; 4],
     /// Whether it lay over the primary, and how often it has slid off its outer edge.
@@ -107,12 +108,26 @@ impl Flips {
         self.last[0] = Some(now);
         changed
     }
+
+    /// Takes note of the slip of an iteration.
+    pub fn slid(&mut self, e: &Evaluation) {
+        let shear = match e.response.status {
+            Status::Slip => e.along(&e.frames.before),
+            _ => [0.0; 3],
+        };
+        self.reversals += usize::from(dot(self.shear, shear) < 0.0);
+        self.shear = shear;
+    }
+
+    /// Whether the point keeps changing.
+    pub fn chatters(&self) -> bool {
+        self.count + self.reversals >= CHATTERS
+    }
 }
 
 crate::keep!(Attempt {
     multipliers,
     flips,
-    freezing,
     changed,
     tentative,
     never_in_contact,
@@ -133,6 +148,8 @@ crate::keep!(Multiplier {
 });
 crate::keep!(Flips {
     count,
+    reversals,
+    shear,
     last,
     over,
     left,

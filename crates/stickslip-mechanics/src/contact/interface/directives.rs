@@ -11,10 +11,6 @@ pub struct Directives {
     pub(super) excluded: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
     pub(super) inner: Vec<bool>,
-    /// Stiffness of stick relative to that of the bodies; `None`: that of the enforcement.
-    pub(super) softening: Option<f64>,
-    /// Part of the limit of friction that acts; `None`: all of it.
-    pub(super) mobilised: Option<f64>,
     /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
     pub(super) all_stick: bool,
 }
@@ -24,7 +20,5 @@ crate::keep!(Directives {
     impulses,
     excluded,
     inner,
-    softening,
-    mobilised,
     all_stick
 });

@@ -6,8 +6,8 @@ use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::{add_scaled, scale};
 use crate::system::{
-    ActiveSet, Assembler, Augmentation, ContactPair, Continuation, Culprit, Force, PointAlone,
-    Stage, StepFailure, Tally,
+    ActiveSet, Assembler, Augmentation, ContactPair, Culprit, Force, PointAlone, Stage,
+    StepFailure, Tally,
 };
 
 impl Force for Interface {
@@ -134,11 +134,6 @@ impl Force for Interface {
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
         Some(self)
     }
-
-    fn continuation(&mut self) -> Option<&mut dyn Continuation> {
-        let frictional = self.laws.friction_law().frictional();
-        frictional.then_some(self as &mut dyn Continuation)
-    }
 }
 
 /// Adds residual and tangent of all points.
@@ -157,7 +152,6 @@ fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
         if let Some((rest, _)) = &e.saddle {
             let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
             out.multiplier_residual = out.multiplier_residual.max(worst * area);
-            out.multiplier_merit += rest.iter().map(|r| (r * area).powi(2)).sum::<f64>();
         }
         if let Some(tangent) = batch.tangent(e) {
             if let Some((_, shift)) = e.saddle {
@@ -207,11 +201,11 @@ impl Interface {
         attempt.changed = 0;
         for (flips, e) in attempt.flips.iter_mut().zip(last) {
             attempt.changed += usize::from(flips.note(e.response.status));
+            flips.slid(e);
             let over = e.over;
             flips.left += usize::from(flips.over && !over);
             flips.over = over;
         }
-        attempt.freezing.note(last);
         if unknown {
             for (m, e) in attempt.multipliers.iter_mut().zip(last) {
                 m.base = e.multiplier;

@@ -8,7 +8,7 @@ use super::scene::{LawQuery, Scene};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
-use crate::contact::response::{Frozen, Kept, LawInput, Sliding, Status, Stiffnesses};
+use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
 use crate::math::{Vec3, add_scaled, dot, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
@@ -26,7 +26,7 @@ impl Interface {
         let stencil = &batch.stencil;
         let belt = stencil.frame.map(|e| dot(e, scene.belt));
         let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
-        let (stiffness, softness) = self.stiffnesses(i, stencil, scene);
+        let stiffness = self.stiffnesses(i, stencil, scene);
         let before = &self.history.points[i];
         let mut at = LawInput {
             dt: scene.dt,
@@ -35,7 +35,6 @@ impl Interface {
             slip: Sliding {
                 seen: slid,
                 path: None,
-                softness,
                 sprung: self.history.springs,
                 slack: match scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
                     true => FIRST_SLACK,
@@ -45,11 +44,7 @@ impl Interface {
             rest: self.rest(i),
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
-            frozen: match self.directives.all_stick {
-                true => Some(Frozen::Stick),
-                false => (self.attempt.freezing).frozen(i, &stencil.frame_before, self.dofs.dim),
-            },
-            mobilised: self.directives.mobilised.unwrap_or(1.0),
+            pressed: self.directives.all_stick,
             answers: scene.answers.get(i).copied().unwrap_or_default(),
         };
         self.see_rate(scene, &slots, batch, &mut at);
@@ -113,8 +108,8 @@ impl Interface {
         }
     }
 
-    /// How stiffly a point is held, and the slip per limit over which friction is smoothed.
-    fn stiffnesses(&self, i: usize, stencil: &Stencil, scene: &Scene) -> (Stiffnesses, f64) {
+    /// How stiffly a point is held.
+    fn stiffnesses(&self, i: usize, stencil: &Stencil, scene: &Scene) -> Stiffnesses {
         let point = &self.points[i];
         let enforcement = self.laws.enforcement.as_dyn();
         // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
@@ -132,17 +127,13 @@ impl Interface {
             false if self.laws.lends_spring(self.history.springs) => own,
             false => f64::INFINITY,
         };
-        // Softened, stick yields like a few cells of the body instead of as stiffly as it should.
-        let soft = self.directives.softening.map(|factor| factor * own);
-        let tangential = tangential.min(soft.unwrap_or(f64::INFINITY));
         let touches = self.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
-        let stiffnesses = Stiffnesses {
+        Stiffnesses {
             normal,
             tangential,
             weight: own.min(normal).min(tangential),
             first_contact: if touches { point.stiffness } else { 0.0 },
-        };
-        (stiffnesses, soft.map_or(0.0, |soft| 1.0 / soft))
+        }
     }
 
     /// Multipliers and tractions of before, in the frame of the stencil.

@@ -324,7 +324,6 @@ fn friction_is_isotropic_but_in_the_papers_kinematics() {
                     stiffness: 1e6,
                     base: [0.0; 2],
                     skew: s.skew,
-                    smoothing: 0.0,
                     slack: 0.0,
                 },
             );

@@ -20,10 +20,9 @@ pub struct LawInput {
     pub closing: f64,
     /// Whether the point did not slide at the last accepted state.
     pub sticking: bool,
-    /// What the point does whatever the laws say; `None` but where it chatters.
-    pub frozen: Option<Frozen>,
-    /// Part of the limit of friction that acts `[-]`; one but in a continuation.
-    pub mobilised: f64,
+    /// Asked is what the point would do if it was pressed and stuck: in contact even if that takes tension, sticking even beyond the limit, and under a load
+    /// that counts. A law that is hardly touched answers with the line that touches it where it is as stiff as the body.
+    pub pressed: bool,
     /// What laws that are asked for all points at once have said.
     pub answers: Answers,
 }
@@ -64,8 +63,6 @@ pub struct Sliding {
     pub seen: [f64; 2],
     /// The slip itself, belt included `[m]`, where it is not what friction sees.
     pub path: Option<[f64; 2]>,
-    /// Slip per limit `[m/Pa]` over which a regularised rule is smoothed at least; zero but in a continuation.
-    pub softness: f64,
     /// Whether the rule acts through a spring, as in explicit increments; see [`SlipRule::sprung`](crate::contact::law::slip::SlipRule::sprung).
     pub sprung: bool,
     /// Slack of the slip rule, see [`Tangential::slack`](crate::contact::law::slip::Tangential::slack).
@@ -79,16 +76,4 @@ pub struct Answers {
     pub pressure: Option<Slope>,
     /// Limit of the shear traction.
     pub limit: Option<Limit>,
-}
-
-/// A status that a point is frozen in until the rest has settled. The branch of the laws that belongs to it goes on where they would leave it, so
-/// that what is solved is smooth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Frozen {
-    /// Nothing acts, even if the point penetrates.
-    Open,
-    /// In contact even if that takes tension, sticking even beyond the limit.
-    Stick,
-    /// In contact even if that takes tension, and sliding: shear traction in this direction, given in the frame, with length one.
-    Slip([f64; 2]),
 }

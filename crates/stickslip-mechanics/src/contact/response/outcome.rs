@@ -27,6 +27,8 @@ pub struct Response {
     pub d_multiplier: [[f64; 3]; 3],
     /// Largest shear `[Pa]`.
     pub limit: f64,
+    /// By how much that grows with the pressure, directly and through the penetration `[-]`.
+    pub d_limit: f64,
     /// Open, stick or slip.
     pub status: Status,
     /// Irreversible slip since the last accepted state `[m]`.

@@ -1,12 +1,14 @@
 //! From gap and slip to traction, in the frame of a stencil: normal law × friction law × slip rule × enforcement.
 
-use super::input::{Frozen, LawInput};
+use super::input::LawInput;
 use super::laws::Laws;
 use super::outcome::{Response, Status};
 use crate::contact::enforcement::pressure;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::friction::FrictionPoint;
+use crate::contact::law::normal::NormalLaw;
 use crate::contact::law::slip::Tangential;
+use crate::math::Slope;
 
 /// Gap and slip tied to zero, in tension too.
 fn tie(stencil: &Stencil, at: &LawInput) -> Response {
@@ -36,6 +38,32 @@ fn tie(stencil: &Stencil, at: &LawInput) -> Response {
     response
 }
 
+/// Slope of a law, relative to the stiffness of the body, below which it is hardly touched.
+const HARDLY: f64 = 1e-3;
+
+/// Penetrations of a body `[m]` among whose pressures one is looked for.
+const PENETRATIONS: [f64; 2] = [1e-18, 1e6];
+
+/// What the line says at a gap that touches a law where it is as stiff as the body, or as stiff as it ever gets; `body` is in Pa/m.
+fn under_load(law: &dyn NormalLaw, gap: f64, body: f64) -> Slope {
+    let [mut low, mut high] = PENETRATIONS.map(|depth| depth * body);
+    while high > 2.0 * low {
+        let middle = (low * high).sqrt();
+        // the slope of the inverse law is negative, or not finite where the law ends
+        if -law.gap(middle).slope * body > 1.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let touched = law.gap(low);
+    let slope = 1.0 / touched.slope;
+    Slope {
+        value: low + slope * (gap - touched.value),
+        slope,
+    }
+}
+
 impl Laws {
     /// Evaluates the laws at a stencil.
     ///
@@ -49,13 +77,10 @@ impl Laws {
         if self.tied {
             return tie(stencil, at);
         }
-        if at.frozen == Some(Frozen::Open) {
-            return Response::default();
-        }
         let mut response = self.press(stencil.gap - at.rest, at, unknown);
         let pressure = response.traction[0];
         let friction = self.friction_law();
-        let pressed = pressure > 0.0 || at.frozen.is_some();
+        let pressed = pressure > 0.0 || at.pressed;
         if pressed {
             response.status = if friction.frictional() {
                 Status::Stick
@@ -84,20 +109,25 @@ impl Laws {
             let keep = 1.0 - at.stiffness.weight / at.stiffness.normal;
             let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
                 - at.stiffness.weight * gap;
-            if p > 0.0 || at.frozen.is_some() {
+            if p > 0.0 || at.pressed {
                 response.traction[0] = p;
                 response.d_gap[0][0] = -at.stiffness.weight;
                 response.d_multiplier[0][0] = keep;
             }
             return response;
         }
-        if at.frozen.is_some() && set_valued() {
+        if at.pressed && set_valued() {
             response.traction[0] = -at.stiffness.normal * gap;
             response.d_gap[0][0] = -at.stiffness.normal;
             return response;
         }
         let asked = || pressure(normal, gap, at.stiffness.normal);
         let p = at.answers.pressure.unwrap_or_else(asked);
+        let loose = -p.slope < HARDLY * at.stiffness.weight;
+        let p = match at.pressed && loose {
+            true => under_load(normal, gap, at.stiffness.weight),
+            false => p,
+        };
         response.traction[0] = p.value;
         response.d_gap[0][0] = p.slope;
         self.damp(at, &mut response);
@@ -127,7 +157,7 @@ impl Laws {
 
     /// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.
     pub fn question(&self, stencil: &Stencil, at: &LawInput) -> Option<FrictionPoint> {
-        if self.tied || at.frozen == Some(Frozen::Open) || !self.friction_law().frictional() {
+        if self.tied || !self.friction_law().frictional() {
             return None;
         }
         let pressure = self
@@ -138,7 +168,41 @@ impl Laws {
             ..Tangential::default()
         };
         let path = motion.length(at.slip.seen);
-        (pressure > 0.0 || at.frozen.is_some())
-            .then(|| Self::friction_point(stencil, at, pressure, path))
+        (pressure > 0.0 || at.pressed).then(|| Self::friction_point(stencil, at, pressure, path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::under_load;
+    use crate::contact::law::normal::NormalModel;
+    use crate::registry::Family;
+
+    #[test]
+    fn a_law_under_load_is_the_line_that_touches_it_where_it_is_about_as_stiff_as_the_body() {
+        for model in NormalModel::samples() {
+            let law = model.as_dyn();
+            if law.pressure(0.0).is_none() {
+                continue;
+            }
+            let body = 1e12;
+            let [near, far] = [0.0, 1e-3].map(|gap| under_load(law, gap, body));
+            let slope = near.slope;
+            assert!(slope < 0.0 && far.slope == slope, "{model:?}");
+            // The line goes through the law where it has that slope.
+            let gap = (0..2000)
+                .map(|k| -1e-2 * 0.97_f64.powi(k))
+                .chain((0..2000).map(|k| 1e-3 * 0.97_f64.powi(k)))
+                .min_by(|a, b| {
+                    let off = |gap: &f64| {
+                        let p = law.pressure(*gap).expect("a pressure");
+                        (p.value - near.value - slope * gap).abs() / (p.value + 1e-3 * body * 1e-6)
+                    };
+                    off(a).total_cmp(&off(b))
+                });
+            let touched = law.pressure(gap.expect("a gap")).expect("a pressure");
+            let stiff = -touched.slope / -slope;
+            assert!((0.3..3.0).contains(&stiff), "{model:?}: {stiff}");
+        }
     }
 }

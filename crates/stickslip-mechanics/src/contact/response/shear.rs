@@ -1,11 +1,11 @@
 //! The tangential part of a response.
 
-use super::input::{Frozen, LawInput};
+use super::input::LawInput;
 use super::laws::Laws;
 use super::outcome::{Response, Status};
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::friction::{FrictionPoint, Limit};
-use crate::contact::law::slip::{SlipRule, SlipState, Tangential};
+use crate::contact::law::slip::{SlipRule, Tangential};
 
 /// The part of the multiplier that its row keeps; zero where multipliers are no unknowns.
 fn kept(at: &LawInput) -> f64 {
@@ -31,7 +31,6 @@ fn tangential(stencil: &Stencil, at: &LawInput, keep: f64) -> Tangential {
         stiffness,
         base,
         skew: stencil.skew,
-        smoothing: 0.0,
         slack: at.slip.slack,
     }
 }
@@ -59,10 +58,6 @@ impl Laws {
             self.friction_law().limit(&point)
         };
         let mut limit = at.answers.limit.unwrap_or_else(asked);
-        limit.value *= at.mobilised;
-        limit.d_pressure *= at.mobilised;
-        limit.d_penetration *= at.mobilised;
-        limit.d_speed *= at.mobilised;
         if pressure < 0.0 {
             limit.d_pressure = 0.0;
         }
@@ -75,24 +70,11 @@ impl Laws {
         let motion = tangential(stencil, at, keep);
         let path = motion.length(motion.slip);
         let limit = self.limit(stencil, at, response.traction[0], path);
-        let motion = Tangential {
-            smoothing: at.slip.softness * limit.value / at.dt,
-            ..motion
-        };
         let rule: &dyn SlipRule = self.slip.as_dyn();
-        let shear = match at.frozen {
-            None | Some(Frozen::Open) => match at.slip.sprung {
-                true => rule.sprung(limit.value, &motion),
-                false => rule.traction(limit.value, &motion),
-            },
-            Some(Frozen::Stick) => rule.stuck(limit.value, &motion),
-            Some(Frozen::Slip(direction)) => SlipState {
-                traction: direction.map(|d| limit.value * d),
-                d_limit: direction,
-                sliding: true,
-                sliding_path: motion.slip,
-                ..SlipState::default()
-            },
+        let shear = match (at.pressed, at.slip.sprung) {
+            (true, _) => rule.stuck(limit.value, &motion),
+            (false, true) => rule.sprung(limit.value, &motion),
+            (false, false) => rule.traction(limit.value, &motion),
         };
         response.limit = limit.value;
         response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
@@ -106,14 +88,17 @@ impl Laws {
             0.0
         };
         let d_limit_gap = limit.d_pressure * response.d_gap[0][0] - d_penetration;
+        response.d_limit = match response.d_gap[0][0] {
+            0.0 => limit.d_pressure,
+            slope => d_limit_gap / slope,
+        };
         let toward = if path > 0.0 && limit.d_speed != 0.0 {
             motion.length_slope(motion.slip, path)
         } else {
             [0.0; 2]
         };
         for i in 0..2 {
-            // the smoothing follows the limit
-            let d_limit = shear.d_limit[i] + shear.d_smoothing[i] * at.slip.softness / at.dt;
+            let d_limit = shear.d_limit[i];
             response.traction[i + 1] = shear.traction[i];
             response.d_gap[i + 1][0] = d_limit * d_limit_gap;
             response.d_skew[i + 1] = shear.d_skew[i];

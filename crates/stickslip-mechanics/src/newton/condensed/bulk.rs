@@ -95,8 +95,9 @@ impl Bulk for CondensedBulk<'_> {
         false
     }
 
-    fn answers_cheaply(&self) -> bool {
-        true
+    /// A solution is a product with a dense matrix.
+    fn affordable(&self, _settings: &Settings, _operations: f64) -> usize {
+        usize::MAX
     }
 
     fn covers(&self, contact: &Assembler) -> Result<(), StepFailure> {
@@ -130,7 +131,7 @@ impl Bulk for CondensedBulk<'_> {
         // More digits than these cost more than another iteration, unless next to nothing is solved.
         let finest = match ReducedSystem::is_tiny(&contact.blocks, 0) {
             true => FINEST_TINY,
-            false => FINEST,
+            false => FINEST.min(settings.linear_tolerance),
         };
         let tolerance = tolerance.max(finest);
         let solved = self.system.solve(

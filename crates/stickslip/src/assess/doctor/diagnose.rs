@@ -148,11 +148,8 @@ fn tried(view: &View, trial: &Trial, attempt: usize, counters: Counters) -> Vec<
         0 => {}
         n => tried.push(format!("{n} updates of the multipliers")),
     }
-    match count(now.continuations, counters.continuations) {
-        0 => {}
-        n => tried.push(format!(
-            "{n} continuations from soft stick to the law itself"
-        )),
+    if now.fallbacks > counters.fallbacks {
+        tried.push("the increment as a friction problem".to_string());
     }
     tried
 }

@@ -11,13 +11,13 @@ const MOST_FINDINGS: usize = 200;
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counters {
     pub(super) iterations: usize,
-    pub(super) continuations: usize,
+    pub(super) fallbacks: usize,
     pub(super) augmentations: usize,
 }
 
 crate::keep!(Counters {
     iterations,
-    continuations,
+    fallbacks,
     augmentations
 });
 
@@ -26,7 +26,7 @@ impl Counters {
     pub fn of(statistics: &Statistics) -> Self {
         Counters {
             iterations: statistics.iterations,
-            continuations: statistics.continuations,
+            fallbacks: statistics.fallbacks,
             augmentations: statistics.augmentations,
         }
     }

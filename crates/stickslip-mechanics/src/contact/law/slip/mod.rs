@@ -29,14 +29,13 @@ mod tests {
     use super::*;
     use crate::registry::Family;
 
-    fn motion(scale: f64, skew: f64, smoothing: f64) -> Tangential {
+    fn motion(scale: f64, skew: f64) -> Tangential {
         Tangential {
             slip: [0.7 * scale, -0.4 * scale],
             dt: 0.5,
             stiffness: 2.0,
             base: [0.11, -0.2],
             skew,
-            smoothing,
             slack: 0.0,
         }
     }
@@ -45,15 +44,8 @@ mod tests {
     fn derivatives_agree_with_differences() {
         for model in SlipModel::samples() {
             let rule = model.as_dyn();
-            for (scale, skew, smoothing) in [
-                (0.1, 0.0, 0.0),
-                (0.3, 0.4, 0.0),
-                (2.0, 0.0, 0.0),
-                (3.0, -0.3, 0.0),
-                (0.7, 0.2, 1.7),
-                (2.0, 0.2, 1.7),
-            ] {
-                let at = motion(scale, skew, smoothing);
+            for (scale, skew) in [(0.1, 0.0), (0.3, 0.4), (0.7, 0.2), (2.0, 0.0), (3.0, -0.3)] {
+                let at = motion(scale, skew);
                 let limit = 0.9;
                 for sprung in [false, true] {
                     let traction = |limit: f64, at: &Tangential| match sprung {
@@ -88,11 +80,6 @@ mod tests {
                         )
                     };
                     let (c, d) = (turned(-h), turned(h));
-                    let smoothed = |h: f64| {
-                        let smoothing = smoothing + h;
-                        traction(limit, &Tangential { smoothing, ..at })
-                    };
-                    let (e, f) = (smoothed(-h), smoothed(h));
                     for i in 0..2 {
                         assert!(close(
                             s.d_limit[i],
@@ -101,10 +88,6 @@ mod tests {
                         assert!(close(
                             s.d_skew[i],
                             (d.traction[i] - c.traction[i]) / (2.0 * h)
-                        ));
-                        assert!(close(
-                            s.d_smoothing[i],
-                            (f.traction[i] - e.traction[i]) / (2.0 * h)
                         ));
                     }
                     assert!(at.length(s.traction) <= limit * (1.0 + 1e-14));

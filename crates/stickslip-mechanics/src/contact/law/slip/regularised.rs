@@ -52,7 +52,7 @@ impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
         let speed = motion.length(w);
-        let epsilon = self.epsilon.max(motion.smoothing);
+        let epsilon = self.epsilon;
         let (value, slope) = phi(epsilon, speed);
         // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
         let f = if speed <= epsilon {
@@ -79,11 +79,6 @@ impl SlipRule for Regularised {
                     state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
                 }
                 state.d_skew[i] = -limit * along * df * d_speed;
-                if motion.smoothing > self.epsilon && speed <= epsilon {
-                    // df/dε of f = (2 - |w|/ε)/ε
-                    let df = 2.0 * (speed / epsilon - 1.0) / (epsilon * epsilon);
-                    state.d_smoothing[i] = -limit * along * df;
-                }
             }
         }
         state
@@ -140,7 +135,6 @@ impl SlipRule for Regularised {
             d_slip,
             d_limit: along.map(|m| m * d_limit),
             d_skew: along.map(|m| turn * m * d_size),
-            d_smoothing: [0.0; 2],
             sliding: left < 0.0,
             sliding_path: [0, 1].map(|i| motion.slip[i] + (traction[i] - motion.base[i]) / k),
         }
@@ -148,7 +142,7 @@ impl SlipRule for Regularised {
 
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
         // the tangent at rest, φ ≈ 2 w/ε
-        let slope = 2.0 / (self.epsilon.max(motion.smoothing) * motion.dt);
+        let slope = 2.0 / (self.epsilon * motion.dt);
         let phi = motion.slip.map(|s| slope * s);
         SlipState {
             traction: phi.map(|phi| -limit * phi),

@@ -44,7 +44,6 @@ impl SlipRule for ReturnMapping {
             d_slip,
             d_limit: m,
             d_skew: [-traction[0] * d_size / size, -traction[1] * d_size / size],
-            d_smoothing: [0.0; 2],
             sliding: true,
             sliding_path: [
                 motion.slip[0] + (traction[0] - motion.base[0]) / w,

@@ -16,8 +16,6 @@ pub struct Tangential {
     pub base: [f64; 2],
     /// Cosine of the angle between the two directions.
     pub skew: f64,
-    /// Velocity `[m/s]` over which a regularised rule is smoothed at least; zero but in a continuation.
-    pub smoothing: f64,
     /// Fraction by which a trial traction may exceed the limit and still count as stick; zero but in the first iteration of an
     /// increment, where a point that slid before would otherwise slide or stick by rounding alone.
     pub slack: f64,
@@ -51,8 +49,6 @@ pub struct SlipState {
     pub d_limit: [f64; 2],
     /// Derivative with respect to the skew `[Pa]`.
     pub d_skew: [f64; 2],
-    /// Derivative with respect to the smoothing `[Pa s/m]`.
-    pub d_smoothing: [f64; 2],
     /// The limit is reached.
     pub sliding: bool,
     /// The irreversible part of the slip `[m]`.
@@ -70,7 +66,7 @@ pub trait SlipRule: Send + Sync {
         self.traction(limit, motion)
     }
 
-    /// The traction of a point that sticks whatever the limit is, with which stick and slip of a point that cannot decide are told apart.
+    /// The traction of a point that sticks whatever the limit is.
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState;
 
     /// Whether the rule sticks through a stiffness (and so can be made exact by multipliers).
