@@ -125,6 +125,9 @@ struct Linear<'a, 'b, 's> {
 impl Linear<'_, '_, '_> {
     /// The displacements under forces by dof.
     fn displacements(&mut self, b: &[f64]) -> Result<Vec<f64>, StepFailure> {
+        if (self.attempt.interrupted)() {
+            return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
+        }
         let system = &mut *self.attempt.system;
         let fixed = system.bulk.fixed();
         let free: Vec<f64> = b
@@ -213,14 +216,18 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             return Ok(None);
         }
         let d = linear.attempt.system.dofs.dim.min(3);
-        let Some((chosen, others)) = choose(&mut linear, &places, (restless, last), d)? else {
+        let mut free = linear.unbalanced();
+        let mut alone = linear.displacements(&free)?;
+        let Some((chosen, others)) = choose(&linear, &places, (restless, last), (d, &alone)) else {
             return Ok(None);
         };
-        for place in &others {
-            place.surround(&mut linear.held);
+        if !others.is_empty() {
+            for place in &others {
+                place.surround(&mut linear.held);
+            }
+            free = linear.unbalanced();
+            alone = linear.displacements(&free)?;
         }
-        let free = linear.unbalanced();
-        let alone = linear.displacements(&free)?;
         let problem = problem(&mut linear, &chosen, (d, &alone))?;
         let known = |p: &Place| last.iter().find(|(at, _)| *at == p.at);
         let guess: Vec<f64> = chosen
@@ -300,16 +307,15 @@ fn places(
 /// Some of the points.
 type Few<'p> = Vec<&'p Place>;
 
-/// Which points are unknowns, and which surround them; `None` where there are too many.
+/// Which points are unknowns, and which surround them, where `alone` are the displacements without any; `None` where there are too many.
 fn choose<'p>(
-    linear: &mut Linear,
+    linear: &Linear,
     places: &'p [Place],
     (restless, last): (&[At], &[Found]),
-    d: usize,
-) -> Result<Option<(Few<'p>, Few<'p>)>, StepFailure> {
-    let alone = linear.displacements(&linear.unbalanced())?;
+    (d, alone): (usize, &[f64]),
+) -> Option<(Few<'p>, Few<'p>)> {
     let before = |p: &Place| last.iter().any(|(at, _)| *at == p.at);
-    let touching = places.iter().filter(|p| p.approaches(&alone) || before(p));
+    let touching = places.iter().filter(|p| p.approaches(alone) || before(p));
     let touching: Vec<&Place> = touching.collect();
     let Attempt {
         system, settings, ..
@@ -317,12 +323,12 @@ fn choose<'p>(
     let solver = (MOST_UNKNOWNS as f64).powi(3);
     let most = system.bulk.affordable(settings, solver).min(MOST_UNKNOWNS);
     if touching.len() * d <= most {
-        return Ok(Some((touching, Vec::new())));
+        return Some((touching, Vec::new()));
     }
     let (chosen, others): (Vec<&Place>, Vec<&Place>) =
         (places.iter()).partition(|p| restless.contains(&p.at) || before(p));
     let fits = !chosen.is_empty() && chosen.len() * d <= most;
-    Ok(fits.then_some((chosen, others)))
+    fits.then_some((chosen, others))
 }
 
 /// The operator by columns, and the free motion.
