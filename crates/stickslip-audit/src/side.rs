@@ -137,8 +137,8 @@ impl Obstacle {
     }
 }
 
-/// The nearest foot on facets whose normals look at the point or away from it; only feet inside a facet count, and the tip of a notch above a point that is
-/// inside the body.
+/// The nearest foot on facets whose normals look at the point or away from it; only feet inside a facet count, and the edge or the tip of a notch above a
+/// point that is inside the body.
 pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot> {
     let inside = foot_inside(mesh, facets, at, x);
     let away = |node: &usize| norm(sub(x, at[*node]));
@@ -152,28 +152,87 @@ pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot>
         return inside;
     }
     // No facet is as near as this node: beyond an edge there is no foot, beneath a notch all facets around face away from the point.
+    if let Some(edge) = nearest_edge(facets, at, x) {
+        return foot_on_edge(mesh, facets, at, x, edge);
+    }
     let around: Vec<&Facet> = facets.iter().filter(|f| f.nodes.contains(tip)).collect();
-    let depths = around.iter().map(|f| {
-        let corners: Vec<Vec3> = f.nodes.iter().map(|n| at[*n]).collect();
-        let normal = stretch(f.kind, &corners, f.kind.middle());
-        -sense(mesh, f, at) * dot(sub(x, at[*tip]), unit(normal))
-    });
-    let (least, most) = depths.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
-    if least <= 0.0 || on_border(&around, *tip) {
+    if !beneath(mesh, &around, at, (x, at[*tip])) || on_border(&around, *tip) {
         return None;
     }
-    // What lies aside of the node rather than beneath it has its foot on an edge between facets, where rounding lost it.
-    let depth = if most < 0.5 * distance {
-        most
-    } else {
-        distance
-    };
     Some(Foot {
-        gap: -depth,
+        gap: -distance,
         normal: unit(sub(at[*tip], x)),
         weights: vec![(*tip, 1.0)],
         place: at[*tip],
     })
+}
+
+/// Whether all facets around a place face away from a point.
+fn beneath(mesh: &Mesh, around: &[&Facet], at: &[Vec3], (x, place): (Vec3, Vec3)) -> bool {
+    around
+        .iter()
+        .all(|f| dot(sub(x, place), outward(mesh, f, at)) < 0.0)
+}
+
+/// The normal out of the body in the middle of a facet.
+fn outward(mesh: &Mesh, facet: &Facet, at: &[Vec3]) -> Vec3 {
+    let corners: Vec<Vec3> = facet.nodes.iter().map(|n| at[*n]).collect();
+    let normal = unit(stretch(facet.kind, &corners, facet.kind.middle()));
+    scale(sense(mesh, facet, at), normal)
+}
+
+/// The nearest edge and how far along it its nearest place is, as a part of its length; `None` where that is a node.
+fn nearest_edge(facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<([usize; 2], f64)> {
+    let mut nearest: Option<(f64, [usize; 2], f64)> = None;
+    for [a, b] in facets.iter().flat_map(edges) {
+        let (along, arm) = (sub(at[b], at[a]), sub(x, at[a]));
+        let s = (dot(along, arm) / dot(along, along)).clamp(0.0, 1.0);
+        let off = norm(sub(arm, scale(s, along)));
+        if nearest.is_none_or(|(least, _, _)| off < least) {
+            nearest = Some((off, [a, b], s));
+        }
+    }
+    let (_, edge, s) = nearest?;
+    (0.0 < s && s < 1.0).then_some((edge, s))
+}
+
+/// The foot on an edge, if facets on both sides of it face away from the point.
+fn foot_on_edge(
+    mesh: &Mesh,
+    facets: &[Facet],
+    at: &[Vec3],
+    x: Vec3,
+    ([a, b], s): ([usize; 2], f64),
+) -> Option<Foot> {
+    let place = add(scale(1.0 - s, at[a]), scale(s, at[b]));
+    let beside = |f: &&Facet| f.nodes.contains(&a) && f.nodes.contains(&b);
+    let both: Vec<&Facet> = facets.iter().filter(beside).collect();
+    if both.len() < 2 || !beneath(mesh, &both, at, (x, place)) {
+        return None;
+    }
+    let normals = both.iter().map(|f| outward(mesh, f, at));
+    Some(Foot {
+        gap: -norm(sub(x, place)),
+        normal: unit(normals.fold([0.0; 3], add)),
+        weights: vec![(a, 1.0 - s), (b, s)],
+        place,
+    })
+}
+
+/// The edges of a face by their ends, those of a quadratic one in two halves; a line has none.
+fn edges(facet: &Facet) -> Vec<[usize; 2]> {
+    if facet.kind.dim() < 2 {
+        return Vec::new();
+    }
+    let (corners, middles) = facet.nodes.split_at(facet.kind.corners());
+    let whole = |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
+    let halves = |k: usize| {
+        let [a, b] = whole(k);
+        middles
+            .get(k)
+            .map_or(vec![[a, b]], |m| vec![[a, *m], [*m, b]])
+    };
+    (0..corners.len()).flat_map(halves).collect()
 }
 
 /// Whether the surface ends at a node, by the facets around it: at an edge that only one of them has, or of lines at a node that only one has.
@@ -441,6 +500,49 @@ mod tests {
         assert!((middle + 2.0 / 3.0).abs() < 1e-12, "{middle}");
         let nothing = |node: usize| (node != 4).then_some(0.0);
         assert_eq!(pair.mean(5, nothing), None);
+    }
+
+    /// Two faces that meet in a valley above a point: the edge between them is its foot, however far the nearest node is.
+    #[test]
+    fn a_point_beneath_the_edge_between_two_faces_has_its_foot_there() {
+        let face = |nodes: [usize; 4], cell: usize| Facet {
+            kind: Kind::Quad(4),
+            nodes: nodes.to_vec(),
+            cell,
+            body: 0,
+        };
+        let rise = 1e-3;
+        let line = |x: f64, z: f64| [0.0, 1.0, 2.0].map(|y| [x, y, z]);
+        let mut points: Vec<Vec3> = [line(-1.0, rise), line(0.0, 0.0), line(1.0, rise)].concat();
+        points.extend([[-0.5, 0.5, -1.0], [0.5, 0.5, -1.0]]);
+        let facets = [
+            face([0, 3, 4, 1], 0),
+            face([1, 4, 5, 2], 0),
+            face([3, 6, 7, 4], 1),
+            face([4, 7, 8, 5], 1),
+        ];
+        let mesh = Mesh {
+            points: points.clone(),
+            cells: vec![
+                (Kind::Tetrahedron(4), vec![0, 3, 4, 9]),
+                (Kind::Tetrahedron(4), vec![3, 6, 7, 10]),
+            ],
+            owner: vec![0; 2],
+            body: vec![0; 11],
+            names: vec!["block".into()],
+            facets: Vec::new(),
+        };
+        let found = foot(&mesh, &facets, &points, [0.0, 0.8, -0.01]).expect("a foot");
+        assert!((found.gap + 0.01).abs() < 1e-12, "{found:?}");
+        assert!((found.normal[2] - 1.0).abs() < 1e-6, "{found:?}");
+        assert!((found.place[1] - 0.8).abs() < 1e-12, "{found:?}");
+        assert_eq!(found.weights.len(), 2);
+        // Outside, beyond a ridge, there is none.
+        let ridge: Vec<Vec3> = points
+            .iter()
+            .map(|p| [p[0], p[1], p[2].min(-p[2])])
+            .collect();
+        assert!(foot(&mesh, &facets, &ridge, [0.0, 0.8, 0.01]).is_none());
     }
 
     /// Only within a surface is a node the tip of a notch.
