@@ -54,7 +54,7 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
     for pair in &pairs {
         let scale = scale(&results, pair, &strain);
         contact::check(&results, pair, &scale, &mut report);
-        overlap::check(&results, pair, &scale, &mut report);
+        overlap::check(&results, pair, &scale, bulk.as_ref().ok(), &mut report);
         coarse(&results, pair, &mut report);
     }
     Ok(report)

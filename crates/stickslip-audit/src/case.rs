@@ -63,6 +63,14 @@ impl Step {
         self.table.contains_key("dynamic")
     }
 
+    /// Whether it goes without a matrix, by central differences.
+    pub fn explicit(&self) -> bool {
+        let dynamic = self.table.get("dynamic").and_then(Value::as_table);
+        dynamic
+            .and_then(|d| kind(d, "scheme"))
+            .is_some_and(|s| s.0 == "central-difference")
+    }
+
     /// Whether an item acts: all do where there is no list.
     pub fn lists(&self, kind: &str, name: &str) -> bool {
         match self.table.get(kind).and_then(Value::as_array) {

@@ -25,6 +25,7 @@ pub mod motion;
 pub mod overlap;
 pub mod results;
 pub mod side;
+pub mod spring;
 pub mod vec3;
 pub mod verdict;
 pub mod vtu;

@@ -1,14 +1,22 @@
 //! Where the surfaces really are: depth of points of either side in the other, gaps, ties and slip, by own projections.
 
+use crate::bulk::Bulk;
 use crate::contact::{Scale, at, points};
 use crate::figure::Report;
 use crate::law::{depth, laws};
 use crate::results::{Before, Results};
 use crate::side::{Foot, Pair, Side, foot};
+use crate::spring;
 use crate::vec3::{Vec3, along, dot, norm, scale, sub, tangential};
 
 /// Checks the places of the surfaces of an interface.
-pub fn check(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+pub fn check(
+    results: &Results,
+    pair: &Pair,
+    sizes: &Scale,
+    bulk: Option<&Bulk>,
+    report: &mut Report,
+) {
     if pair.tied {
         return tied(results, pair, report);
     }
@@ -41,7 +49,7 @@ pub fn check(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report)
     }
     gaps(results, pair, sizes, report);
     apart(results, pair, sizes, report);
-    slips(results, pair, sizes, report);
+    slips(results, pair, sizes, bulk, report);
 }
 
 /// Where everything is at a state, or at the start.
@@ -221,18 +229,21 @@ fn tied(results: &Results, pair: &Pair, report: &mut Report) {
 }
 
 /// How far a point moves over what it is on, and which way.
-fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
+fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, report: &mut Report) {
     if pair.belt || sizes.slip == 0.0 {
         return;
     }
     let nodes = points(results, pair);
     let dim = results.case.space.dim();
     let quadratic = results.mesh.cells.iter().any(|(kind, _)| kind.quadratic());
+    let springs = bulk.map(|b| spring::of_stick(&results.case, &results.mesh, pair, b));
+    let springs = springs.unwrap_or_default();
     for (i, state) in results.states.iter().enumerate() {
         let Some(Before::Written(old)) = results.before(i) else {
             continue;
         };
         let (now, then) = (at(state), at(old));
+        let explicit = results.case.steps[results.case.step_at(state.t)].explicit();
         let (x1, x0) = (state.places(), old.places());
         let (mut mean, mut count) = ([0.0; 2], 0.0);
         let frictionless = now
@@ -303,6 +314,22 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
             if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
             {
                 let shear = now[*node].shear;
+                // Where points stick by springs friction is against what is left of the slip without what the spring has stretched by.
+                let stretch = match explicit {
+                    true => {
+                        let Some(stiffness) = springs.get(node) else {
+                            continue;
+                        };
+                        [0, 1].map(|k| (shear[k] - then[*node].shear[k]) / stiffness)
+                    }
+                    false => [0.0; 2],
+                };
+                let left = |way: [f64; 2]| [way[0] + stretch[0], way[1] + stretch[1]];
+                let (least, own) = (stretch[0].hypot(stretch[1]), left(own));
+                // How stiff it is, is known only about.
+                if own[0].hypot(own[1]) < least {
+                    continue;
+                }
                 let cosine = |way: [f64; 2]| {
                     let length = way[0].hypot(way[1]);
                     let along = shear[0] * way[0] + shear[1] * way[1];
@@ -315,7 +342,7 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
                 let end = |k: usize| pair.mean(*node, |n| Some(swept(n)?[k]));
                 let end = match pair.mortar && quadratic {
                     true => own,
-                    false => [end(0).unwrap_or(own[0]), end(1).unwrap_or(own[1])],
+                    false => end(0).zip(end(1)).map_or(own, |(a, b)| left([a, b])),
                 };
                 let cosine = cosine(own).min(cosine(end));
                 report.note("direction", &pair.name, 1.0 + cosine, state.t);
