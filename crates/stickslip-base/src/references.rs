@@ -73,5 +73,4 @@ references! {
     acary_2018: "V. Acary, M. Brémond, O. Huber, On solving contact problems with Coulomb friction: formulations and numerical comparisons, in: Advanced Topics in Nonsmooth Dynamics, Springer, 2018, 375-457.",
     rockafellar_1976: "R. T. Rockafellar, Monotone operators and the proximal point algorithm, SIAM Journal on Control and Optimization 14 (1976) 877-898.",
     golub_van_loan_2013: "G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., Johns Hopkins University Press, 2013.",
-    haslinger_1983: "J. Haslinger, Approximation of the Signorini problem with friction, obeying the Coulomb law, Mathematical Methods in the Applied Sciences 5 (1983) 422-437.",
 }

@@ -205,6 +205,16 @@ pub fn closing(analysis: &Analysis, directory: &Path) {
         s.solver.factorisations,
         s.phases.total
     ));
+    if !s.friction_solvers.is_empty() {
+        let each = s
+            .friction_solvers
+            .iter()
+            .map(|(name, n)| format!("{n} by {name}"));
+        say(&format!(
+            "  solved as friction problems: {}",
+            each.collect::<Vec<_>>().join("; ")
+        ));
+    }
     let p = &s.phases;
     say(&format!(
         "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",

@@ -19,6 +19,8 @@ pub struct Outcome {
     pub iterations: Vec<u64>,
     /// All iterations, those of rejected attempts too.
     pub total: u64,
+    /// Increments that were solved as friction problems, by the solver that they took.
+    pub solvers: Vec<(String, u64)>,
     /// Increments that were cut.
     pub cutbacks: u64,
     /// Displacement dofs.
@@ -89,10 +91,19 @@ pub fn run(binary: &Path, file: &Path, folder: &Path, limit: Duration) -> Result
         seconds,
         iterations: column(&history, "ITRS"),
         total: count("/iterations"),
+        solvers: solvers(&summary),
         cutbacks: count("/cutbacks"),
         dofs: count("/size/dofs"),
         lines,
     })
+}
+
+/// How many increments took which solver of friction problems.
+fn solvers(summary: &Value) -> Vec<(String, u64)> {
+    let counts = summary["friction-solvers"].as_object();
+    let counts = counts.into_iter().flatten();
+    let counts = counts.map(|(name, count)| (name.clone(), count.as_u64().unwrap_or(0)));
+    counts.collect()
 }
 
 /// The figures of the quality gate that were not met.
@@ -145,13 +156,24 @@ fn column(csv: &str, name: &str) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{column, sentence};
-    use serde_json::json;
+    use super::{column, sentence, solvers};
+    use serde_json::{Value, json};
 
     #[test]
     fn iterations_are_read_by_the_head_of_their_column() {
         assert_eq!(column("STEP,ITRS\n1,4\n1,7\n", "ITRS"), [4, 7]);
         assert!(column("", "ITRS").is_empty());
+    }
+
+    #[test]
+    fn solvers_are_read_with_their_counts() {
+        let summary = json!({ "friction-solvers": { "gauss-seidel": 2, "proximal point": 1 } });
+        let counts = [
+            ("gauss-seidel".to_string(), 2),
+            ("proximal point".into(), 1),
+        ];
+        assert_eq!(solvers(&summary), counts);
+        assert!(solvers(&Value::Null).is_empty());
     }
 
     #[test]

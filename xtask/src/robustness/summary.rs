@@ -1,5 +1,7 @@
 //! What became of all problems, by verdict and family, and a line on each that is not sound.
 
+use std::collections::BTreeMap;
+
 use stickslip_audit::verdict::Verdict;
 
 use super::entry::Entry;
@@ -78,6 +80,18 @@ fn effort(entries: &[Entry]) {
         at(0.95),
         at(1.0)
     );
+    let mut solvers: BTreeMap<&str, u64> = BTreeMap::new();
+    for (solver, count) in entries.iter().flat_map(|e| &e.outcome.solvers) {
+        *solvers.entry(solver).or_default() += count;
+    }
+    let by_forces: u64 = solvers.values().sum();
+    println!(
+        "| increments solved by plain iteration, or explicit | {} |",
+        (iterations.len() as u64).saturating_sub(by_forces)
+    );
+    for (solver, count) in solvers {
+        println!("| solved as friction problems, by {solver} | {count} |");
+    }
     println!("| iterations in all | {} |", sum(|e| e.outcome.total));
     println!("| cut-backs | {} |", sum(|e| e.outcome.cutbacks));
     println!("| wall time of the runs, one thread | {seconds:.1} s |");

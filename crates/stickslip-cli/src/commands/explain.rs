@@ -222,7 +222,21 @@ fn effort(summary: &Value) -> String {
         (cut, _) if cut * 4 > increments => "It was hard",
         _ => "It had to cut increments",
     };
-    format!("{hard}: {}.", parts.join(", "))
+    format!("{hard}: {}.{}", parts.join(", "), by_forces(summary))
+}
+
+/// The increments that plain iteration did not solve, by the solver of friction problems that they took.
+fn by_forces(summary: &Value) -> String {
+    let counts = summary["friction-solvers"].as_object();
+    let each: Vec<String> = counts
+        .into_iter()
+        .flatten()
+        .map(|(name, n)| format!("{n} by {name}"))
+        .collect();
+    match each.is_empty() {
+        true => String::new(),
+        false => format!(" Solved as friction problems: {}.", each.join("; ")),
+    }
 }
 
 fn plural(count: u64, what: &str) -> String {

@@ -60,7 +60,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         ))?;
         if arguments.verbose {
             for tried in &solution.tried {
-                let (solver, iterations, error) = (tried.solver, tried.iterations, tried.error);
+                let (solver, iterations, error) = (&tried.solver, tried.iterations, tried.error);
                 print::out(&format!(
                     "    {solver}: {iterations} iterations, error {error:.1e}\n"
                 ))?;
@@ -101,7 +101,7 @@ fn problem(file: &Path) -> Result<FrictionProblem, Failure> {
 fn row(file: &Path, points: usize, solution: &Solution, seconds: f64) -> String {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let (solver, iterations) = match (solution.tried.last(), solution.solved) {
-        (Some(last), true) => (last.solver, last.iterations),
+        (Some(last), true) => (last.solver.as_str(), last.iterations),
         (None, true) => ("none needed", 0),
         (_, false) => ("**none**", 0),
     };

@@ -227,6 +227,16 @@ fn a_friction_problem_finds_what_two_iterations_do_not() {
             fallbacks.iter().any(|f| found(&f)),
             "{method}: {fallbacks:?}"
         );
+        // Each increment counts once, by a solver that has a name.
+        let counts = summary["friction-solvers"].as_object().expect("counts");
+        let found = fallbacks.iter().filter(found).count() as u64;
+        let all = counts.values().map(|n| n.as_u64().expect("a number"));
+        assert_eq!(all.sum::<u64>(), found, "{method}: {counts:?}");
+        let named = |f: &serde_json::Value| counts.contains_key(f["solver"].as_str().unwrap_or(""));
+        assert!(fallbacks.iter().all(named), "{counts:?}");
+        let told = text(&stickslip(&["explain", &folder]).stdout);
+        let by = counts.iter().map(|(name, n)| format!("{n} by {name}"));
+        assert!(by.into_iter().all(|by| told.contains(&by)), "{told}");
     }
 }
 

@@ -5,13 +5,11 @@
 //!
 //! - [`GaussSeidel`] is strong where the operator is singular, points are few per body and their coupling is weak;
 //! - [`NewtonInForces`] is strong where elasticity couples many points and friction is large;
-//! - [`ProximalPoint`] makes singular problems regular, and takes away in the end what it added;
-//! - [`LaggedTresca`] solves convex problems only.
+//! - [`ProximalPoint`] makes singular problems regular, and takes away in the end what it added.
 //!
 //! What counts is the norm of the natural map, [`FrictionProblem::error`].
 
 mod gauss_seidel;
-mod lagged;
 mod linear;
 mod map;
 mod newton;
@@ -27,7 +25,6 @@ pub mod text;
 mod tests;
 
 pub use gauss_seidel::GaussSeidel;
-pub use lagged::LaggedTresca;
 pub use map::natural_map;
 pub use newton::{Length, NewtonInForces, Step};
 pub use portfolio::{Solution, Tried, solve};

@@ -100,6 +100,7 @@ fn converged(
         tally: attempt.system.tally(),
         forces: balance.forces,
         contact: out.residual,
+        solver: None,
     }
 }
 

@@ -45,4 +45,6 @@ pub struct Converged {
     pub contact: Vec<f64>,
     /// Points by status.
     pub tally: Tally,
+    /// The solver of friction problems that it took, as in [`Fallback`](super::Fallback); `None` of plain iteration.
+    pub solver: Option<String>,
 }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::attempt::Attempt;
 use super::equilibrium::equilibrium;
-use super::in_forces::in_forces;
+use super::in_forces::{Account, in_forces};
 use super::progress::{Converged, Progress};
 use super::rounds::rounds;
 use super::settings::Settings;
@@ -82,7 +82,11 @@ impl Newton {
         };
         let before = attempt.statistics.iterations;
         attempt.strategy = Strategy::FrictionProblem;
-        let outcome = match in_forces(&mut attempt, &failure.cause, &mut self.unsolved) {
+        let mut account = Account::default();
+        let outcome = in_forces(&mut attempt, &failure.cause, &mut account);
+        let solver = account.solver();
+        self.unsolved = account.last;
+        let outcome = match outcome {
             None => return Err(failure),
             Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
             Some(outcome) => outcome,
@@ -92,6 +96,7 @@ impl Newton {
             kind: Strategy::FrictionProblem,
             iterations: attempt.statistics.iterations - before,
             converged: outcome.is_ok(),
+            solver: solver.clone(),
         });
         let Ok(converged) = outcome else {
             return Err(failure);
@@ -99,6 +104,7 @@ impl Newton {
         self.unsolved = None;
         Ok(Converged {
             iterations: attempt.statistics.iterations - begun,
+            solver: Some(solver),
             ..converged
         })
     }

@@ -22,6 +22,8 @@ pub struct Fallback {
     pub iterations: usize,
     /// Whether it found the equilibrium.
     pub converged: bool,
+    /// Of the solvers that its friction problems took one after the other the one that comes last in the portfolio; `first guess` where they took none.
+    pub solver: String,
 }
 
 impl Strategy {
@@ -52,5 +54,6 @@ crate::keep!(Strategy[Plain, FrictionProblem]);
 crate::keep!(Fallback {
     kind,
     iterations,
-    converged
+    converged,
+    solver
 });

@@ -44,6 +44,7 @@ pub fn section(results: &Results) -> String {
                     shown(&f["from"]),
                     shown(&f["to"]),
                     text(f["kind"].as_str().unwrap_or("?")).replace('-', " "),
+                    text(f["solver"].as_str().unwrap_or("-")),
                     count(&f["iterations"]),
                     match f["converged"].as_bool() {
                         Some(true) => mark("good", "converged"),
@@ -58,7 +59,15 @@ pub fn section(results: &Results) -> String {
             table(
                 "plain",
                 "Fallbacks",
-                &["step", "from", "to", "way", "iterations", "outcome"],
+                &[
+                    "step",
+                    "from",
+                    "to",
+                    "way",
+                    "solver",
+                    "iterations",
+                    "outcome"
+                ],
                 &rows
             )
         );

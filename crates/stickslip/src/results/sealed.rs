@@ -6,7 +6,7 @@ use crate::keep::{Keep, Kept};
 use crate::linear::Digest;
 
 /// What sealed state begins with, in the version of its layout.
-const MARK: &[u8; 16] = b"stickslip state2";
+const MARK: &[u8; 16] = b"stickslip state3";
 
 /// Bytes of state, sealed.
 pub fn seal(state: &impl Keep) -> Vec<u8> {

@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::assess::doctor::Finding;
@@ -45,6 +47,9 @@ pub struct Summary {
     pub cutback_reasons: Vec<String>,
     /// What was tried when plain iteration had failed, in this order, attempt by attempt. When nothing helped the increment was cut back.
     pub fallbacks: Vec<FallbackSummary>,
+    /// Accepted increments that were solved as friction problems, by the solver that they took: of several the one that comes last in the portfolio. All
+    /// others are those of plain iteration, or explicit.
+    pub friction_solvers: BTreeMap<String, usize>,
     /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
     pub stable_increment: f64,
     /// Mass added by mass scaling, relative to the mass there is.
@@ -78,7 +83,7 @@ pub struct Summary {
     /// Interfaces at the end.
     pub interfaces: Vec<InterfaceSummary>,
     /// Last row of the history.
-    pub last: std::collections::BTreeMap<String, f64>,
+    pub last: BTreeMap<String, f64>,
 }
 
 /// How far a run has come.
@@ -210,6 +215,7 @@ crate::keep!(Summary {
     cutbacks,
     cutback_reasons,
     fallbacks,
+    friction_solvers,
     stable_increment,
     mass_added,
     largest_rotation,

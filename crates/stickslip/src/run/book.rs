@@ -17,6 +17,9 @@ pub(crate) fn book(
     accepted: Accepted,
 ) -> Effort {
     let effort = effort(&accepted);
+    if let Some(solver) = &accepted.solver {
+        *summary.friction_solvers.entry(solver.clone()).or_insert(0) += 1;
+    }
     let first = summary.increments == 0;
     frame.ledger = ledger_after(model, contact, frame, (&accepted, first));
     frame.coupled = contact.couplings.energy().stored;

@@ -25,8 +25,8 @@ impl Simulation {
             // Once of each kind is enough for people; the list has them all.
             if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
                 self.solver.log.notes.push(format!(
-                    "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations (`fallbacks` of the summary lists all of them)",
-                    step.name, trial.from, tried.kind.name(), tried.iterations
+                    "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
+                    step.name, trial.from, tried.kind.name(), tried.iterations, tried.solver
                 ));
             }
             if summary.fallbacks.len() < MOST_REASONS {

@@ -27,6 +27,8 @@ pub(crate) struct Accepted {
     pub rounds: usize,
     pub residual: f64,
     pub tally: Tally,
+    /// The solver of friction problems that it took; `None` of plain iteration and explicit increments.
+    pub solver: Option<String>,
     /// Bodies were followed to where contact holds them.
     pub followed: bool,
     /// The increment must not grow.
@@ -40,6 +42,7 @@ impl Accepted {
             rounds: converged.rounds,
             residual: converged.residual,
             tally: converged.tally,
+            solver: converged.solver.clone(),
             ..Accepted::default()
         }
     }
@@ -73,6 +76,7 @@ crate::keep!(Accepted {
     rounds,
     residual,
     tally,
+    solver,
     followed,
     hard
 });

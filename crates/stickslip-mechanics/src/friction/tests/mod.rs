@@ -102,7 +102,7 @@ fn no_member_is_all_of_the_portfolio() {
         };
         let solution = solve(&problem, None, 1e-10);
         if let Some(tried) = solution.tried.last() {
-            *last.entry(tried.solver).or_insert(0) += 1;
+            *last.entry(tried.solver.clone()).or_insert(0) += 1;
         }
     }
     assert!(last.len() > 1, "{last:?}");
@@ -153,11 +153,10 @@ fn adhesion_holds_what_friction_does_not() {
 fn every_solver_knows_a_heap_without_friction() {
     let mut random = Random::new(7);
     let problem = rigid::heap(&mut random, 8, 0.0);
-    let solvers: [&dyn FrictionSolver; 4] = [
+    let solvers: [&dyn FrictionSolver; 3] = [
         &NewtonInForces::new(Step::LeastSquares, Length::Falling),
         &GaussSeidel { sweeps: 3000 },
         &ProximalPoint,
-        &LaggedTresca,
     ];
     for solver in solvers {
         let found = solver.solve(&problem, &vec![0.0; problem.size()], 1e-8);

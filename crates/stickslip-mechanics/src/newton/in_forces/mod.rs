@@ -16,7 +16,7 @@ use super::equilibrium::{equilibrium, stalled};
 use super::progress::Converged;
 use super::rounds::rounds;
 use super::settings::Settings;
-use crate::friction::{FrictionProblem, solve};
+use crate::friction::{FrictionProblem, Solution, solve};
 use crate::system::{Assembler, Cause, ContactBlock, Stage, StepFailure};
 use place::{At, Place};
 
@@ -35,6 +35,9 @@ const COLUMN: f64 = 1e-9;
 /// Change of the forces from one problem to the next, relative to their size, that counts as none.
 const SETTLED: f64 = 1e-6;
 
+/// What stands for a solver where none was needed.
+const FIRST_GUESS: &str = "first guess";
+
 /// A point, and what it carries.
 type Found = (At, [f64; 3]);
 
@@ -46,26 +49,55 @@ struct Points {
     loose: bool,
 }
 
+/// What has come of the friction problems of an increment.
+#[derive(Default)]
+pub(super) struct Account {
+    /// The last of them.
+    pub last: Option<FrictionProblem>,
+    /// The solver that one of them took and that comes last in the portfolio: its place there, from 1, and its name.
+    taken: (usize, String),
+}
+
+impl Account {
+    /// The solver without which one of the problems would not have been solved, and which comes last in the portfolio.
+    pub fn solver(&self) -> String {
+        match self.taken.0 {
+            0 => FIRST_GUESS.into(),
+            _ => self.taken.1.clone(),
+        }
+    }
+
+    /// Takes note of a problem and its solution.
+    fn note(&mut self, problem: FrictionProblem, solution: &Solution) {
+        self.last = Some(problem);
+        if let Some(tried) = solution.tried.last()
+            && solution.tried.len() > self.taken.0
+        {
+            self.taken = (solution.tried.len(), tried.solver.clone());
+        }
+    }
+}
+
 /// Equilibria by friction problems, one after the other as [`rounds`] asks for them, where Newton's method has failed for some cause; `None` where it is not
-/// for them. A problem that is not solved is kept.
+/// for them.
 pub(super) fn in_forces(
     attempt: &mut Attempt,
     cause: &Cause,
-    unsolved: &mut Option<FrictionProblem>,
+    account: &mut Account,
 ) -> Option<Result<Converged, StepFailure>> {
     let points = Points {
         restless: attempt.system.chattering(),
         loose: *cause == Cause::Singular || attempt.system.patience() > 0,
     };
     attempt.restart();
-    match settle(attempt, &points, unsolved) {
+    match settle(attempt, &points, account) {
         Ok(true) => {}
         Ok(false) => return None,
         Err(failure) => return Some(Err(failure)),
     }
     Some(rounds(attempt, |attempt, round| {
         if round > 0 {
-            settle(attempt, &points, unsolved)?;
+            settle(attempt, &points, account)?;
         }
         equilibrium(attempt, round)
     }))
@@ -75,7 +107,7 @@ pub(super) fn in_forces(
 fn settle(
     attempt: &mut Attempt,
     points: &Points,
-    unsolved: &mut Option<FrictionProblem>,
+    account: &mut Account,
 ) -> Result<bool, StepFailure> {
     let mut last: Vec<Found> = Vec::new();
     let mut residuals = Vec::new();
@@ -87,7 +119,7 @@ fn settle(
         if pass.residual <= 1.0 {
             break;
         }
-        let Some(next) = pass.solve((points, &last), unsolved)? else {
+        let Some(next) = pass.solve((points, &last), account)? else {
             return Ok(false);
         };
         let done = settled(&last, &next);
@@ -203,7 +235,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
     fn solve(
         self,
         (Points { restless, loose }, last): (&Points, &[Found]),
-        unsolved: &mut Option<FrictionProblem>,
+        account: &mut Account,
     ) -> Result<Option<Vec<Found>>, StepFailure> {
         let Pass {
             mut linear,
@@ -235,7 +267,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             .flat_map(|p| known(p).map_or([0.0; 3], |(_, f)| *f).into_iter().take(d))
             .collect();
         let solution = solve(&problem, Some(&guess), ERROR);
-        *unsolved = Some(problem);
+        account.note(problem, &solution);
         if !solution.solved {
             let sentence = format!(
                 "no solver ends the friction problem of {} points; its error is still {:.1e}",
