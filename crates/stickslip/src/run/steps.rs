@@ -267,8 +267,9 @@ impl Simulation {
         let integrator = self.integration.as_dyn();
         match integrator.bound(&self.model, &self.frame, &self.contact) {
             Some(bound) if running.attempt == 1 && !running.tight => running.stepper.bound(bound),
-            Some(bound) => running.stepper.bound_again(bound),
-            None => {}
+            Some(bound) if running.attempt == 1 => running.stepper.bound_again(bound),
+            // The bound now is that of where an attempt went wrong: a law may be stiffer there than it will ever be.
+            _ => {}
         }
         let Some(trial) = running.stepper.next() else {
             return Ok(None);

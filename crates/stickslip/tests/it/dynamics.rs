@@ -671,6 +671,29 @@ fn increments_resolve_the_springs_of_contact_however_stiff() {
     }
 }
 
+/// A law that is soft where surfaces come near and a million times as stiff as the bodies soon after: an increment that went too far into it says nothing of the
+/// stiffness that the next one will meet.
+#[test]
+fn increments_go_on_after_one_that_went_far_into_a_stiff_law() {
+    let text = THROWN
+        .replace("LEFT", "0")
+        .replace("CONTACT", "normal.exponential = { p0 = 1e-3, c0 = 2e-5 }")
+        .replace("DURATION", "0.5")
+        .replace("increments = { initial = LENGTH, largest = LENGTH }\n", "")
+        .replace("DYNAMIC", "scheme.central-difference = {}");
+    let mut simulation = support::build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let mut calls = 0;
+    while simulation
+        .advance(&mut [])
+        .unwrap_or_else(|e| panic!("{e}"))
+    {
+        calls += 1;
+        assert!(calls < 4000, "at {}", simulation.frame.state.t);
+    }
+    let quality = simulation.summary.energy_quality;
+    assert!(quality.met, "{quality:?}");
+}
+
 /// Multipliers press overlap out in the first increment, and what that strains the bodies by is the work of the overlap: the same in increments a tenth as
 /// long, as points without mass have no velocity to be given.
 #[test]
