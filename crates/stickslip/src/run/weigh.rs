@@ -9,7 +9,10 @@ use crate::solve::accepted::Accepted;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
 
-/// The part of what the limit of the gate leaves open that one increment may use up: however many there are, the limit is kept.
+/// The part of the limit of the gate that may be used up at once, as impacts do; the rest is there for the time that is left.
+const AT_ONCE: f64 = 0.5;
+
+/// The part of what that leaves that one increment may use up: however many there are, it is kept.
 const SHARE: f64 = 0.5;
 
 /// By what twice the increment makes its error larger, that of all schemes here being of the third order.
@@ -40,7 +43,7 @@ impl Simulation {
         let stage = accepted.stage(&self.frame.state, trial);
         self.contact.commit(&stage);
         if let Some(before) = before {
-            let [opened, may] = self.opened(&accepted);
+            let [opened, may] = self.opened(trial, &accepted);
             let half = 0.5 * (trial.to - trial.from);
             let resolved = opened <= may || self.resolves(trial);
             if running.too_open((opened, may), resolved) && half >= self.step().increments.smallest
@@ -50,7 +53,7 @@ impl Simulation {
                 running.opened = Some((first, halvings + 1));
                 self.exchange(before);
                 let message = format!(
-                    "the balance of energies opens by {opened:.3e} over the increment, more than half of what its limit leaves"
+                    "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
                 );
                 return Err(StepFailure::new(Cause::TooFar, message));
             }
@@ -99,7 +102,7 @@ impl Simulation {
     }
 
     /// By how much the balance of energies opens over a committed increment, and by how much it may `[J]`.
-    fn opened(&self, accepted: &Accepted) -> [f64; 2] {
+    fn opened(&self, trial: Trial, accepted: &Accepted) -> [f64; 2] {
         let (model, frame) = (&self.model, &self.frame);
         let first = self.summary.increments == 0;
         let ledger = ledger_after(model, &self.contact, frame, (accepted, first));
@@ -107,7 +110,11 @@ impl Simulation {
         quality.note(&ledger);
         let limit = model.quality.energy.unwrap_or(model.energy_limit);
         let [before, after] = [frame.ledger.open(), ledger.open()];
-        let [opened, may] = [after - before, SHARE * (limit * quality.scale - before)];
+        let part = (trial.to - trial.from) / self.time_in_motion(trial.from);
+        let [opened, may] = [
+            after - before,
+            allowance(limit * quality.scale, before, part),
+        ];
         if opened <= may {
             return [opened, may];
         }
@@ -116,8 +123,21 @@ impl Simulation {
         let largest = forces.into_iter().flatten();
         let largest = largest.fold(0.0, |m: f64, f| m.max(f.abs()));
         let scale = quality.scale.max(still_energy(model, largest));
-        [opened, SHARE * (limit * scale - before)]
+        [opened, allowance(limit * scale, before, part)]
     }
+
+    /// The time for which bodies will be in motion from here on.
+    fn time_in_motion(&self, from: f64) -> f64 {
+        let ahead = self.model.steps[self.frame.step..].iter();
+        let moving = ahead.filter(|s| s.dynamic.is_some());
+        moving.map(|s| s.end - s.start.max(from)).sum()
+    }
+}
+
+/// By how much a balance that is open by so much may open over a `part` of the time that is left.
+fn allowance(limit: f64, open: f64, part: f64) -> f64 {
+    let at_once = SHARE * (AT_ONCE * limit - open);
+    at_once.max(part * (limit - open))
 }
 
 impl Increments {
@@ -132,5 +152,28 @@ impl Increments {
             _ => true,
         };
         may > 0.0 && opened > may && helps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::allowance;
+
+    /// Increments that each use up what they may come near the limit at the end of the time, not long before.
+    #[test]
+    fn what_the_limit_leaves_lasts_for_the_time_that_is_left() {
+        let (count, limit) = (1000, 1.0);
+        let mut open = 0.0;
+        let mut least = f64::INFINITY;
+        for k in 0..count {
+            let may = allowance(limit, open, 1.0 / f64::from(count - k));
+            least = least.min(may);
+            open += may;
+        }
+        assert!(open <= limit && open > 0.9 * limit, "{open}");
+        assert!(least > 0.4 * limit / f64::from(count), "{least}");
+        // An impact may take more, and where the limit is passed nothing is left.
+        assert!(allowance(limit, 0.0, 1e-6) > 0.2);
+        assert!(allowance(limit, 1.1, 0.5) < 0.0);
     }
 }
