@@ -19,7 +19,7 @@ pub(crate) struct Flow {
 
 /// How often what is left of the balance may be fed in by the scheme: part of that is no loss, but comes back, as the energy of a central difference is
 /// that of a state half an increment away.
-const FED: f64 = 5.0;
+const FED: f64 = 4.0;
 
 /// Energies `[J]` (per unit of thickness or over 2π as the model has it).
 #[derive(Debug, Clone, Copy, Default, Serialize)]
