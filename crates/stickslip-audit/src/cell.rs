@@ -353,7 +353,7 @@ fn solve(mut a: Matrix, mut b: Matrix) -> Option<Matrix> {
 /// The consistent mass of a cell, one direction.
 pub fn mass(kind: Kind, x: &[Vec3], space: Space, density: f64) -> Matrix {
     let mut m = zeros(x.len(), x.len());
-    for p in samples(kind, x, space, &kind.fine_rule()) {
+    for p in samples(kind, x, space, &kind.mass_rule()) {
         for (row, a) in m.iter_mut().zip(&p.n) {
             for (entry, b) in row.iter_mut().zip(&p.n) {
                 *entry += density * p.volume * a * b;

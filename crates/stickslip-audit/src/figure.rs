@@ -244,7 +244,7 @@ impl std::fmt::Display for Figure {
             value,
             time,
         } = self;
-        write!(f, "{name} of {place} {value:.2e} at {time:.4}")
+        write!(f, "{name} of {place} {value:.2e} at {time:.4e}")
     }
 }
 
