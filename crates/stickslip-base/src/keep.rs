@@ -1,11 +1,13 @@
 //! State as bytes and back, to the bit: what a checkpoint is written with.
 //!
 //! A struct names its fields once, in [`keep!`](crate::keep!); a field that is left out does not compile. Numbers are little-endian, floats keep
-//! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by the program
-//! that wrote them, and who stores them adds a version and a digest. A general format was considered; those that serde feeds either skip what is
+//! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by a program that keeps the same
+//! fields in the same order, and who stores them puts a digest of that in front: of the [`layout`], a text that follows from the lists of fields and their types, so
+//! that nobody has to think of it where a field comes in. A general format was considered; those that serde feeds either skip what is
 //! skipped in `summary.json`, which here must not be, or lose the bits of NaN.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::any::type_name;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 /// Bytes that are read from the front.
@@ -28,6 +30,53 @@ pub trait Keep: Sized {
     /// # Errors
     /// [`Broken`] where the bytes end too early or cannot be what is asked for.
     fn back(from: &mut Kept) -> Result<Self, Broken>;
+
+    /// Says what its bytes are: names and types of all that is kept of it.
+    fn lay_out(out: &mut Layout);
+}
+
+/// What bytes of a type are: equal for two types, or one type of two programs, only where the bytes of one can be read as the other.
+pub fn layout<T: Keep>() -> String {
+    let mut out = Layout::default();
+    T::lay_out(&mut out);
+    out.text
+}
+
+/// A layout that is being composed.
+#[derive(Debug, Default)]
+pub struct Layout {
+    text: String,
+    /// Types that have been told, by their paths: each is told once, and one that contains itself comes to an end.
+    told: BTreeSet<&'static str>,
+}
+
+impl Layout {
+    /// Adds a word.
+    pub fn word(&mut self, word: &str) {
+        self.text += word;
+        self.text.push(' ');
+    }
+
+    /// Adds a type by its name and, the first time, what it is made of.
+    pub fn of<T>(&mut self, name: &str, parts: impl FnOnce(&mut Self)) {
+        self.word(name);
+        if self.told.insert(type_name::<T>()) {
+            self.word("{");
+            parts(self);
+            self.word("}");
+        }
+    }
+
+    /// Adds a field, whose type follows from how it is read.
+    pub fn field<S, T: Keep>(&mut self, name: &str, _: impl Fn(&S) -> &T) {
+        self.word(name);
+        T::lay_out(self);
+    }
+
+    /// Adds what a variant carries.
+    pub fn carried<S, T: Keep>(&mut self, _: impl Fn(S) -> Option<T>) {
+        T::lay_out(self);
+    }
 }
 
 impl<'a> Kept<'a> {
@@ -66,6 +115,12 @@ macro_rules! keep {
             fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
                 Ok(Self { $($field: $crate::keep::Keep::back(from)?),* })
             }
+
+            fn lay_out(out: &mut $crate::keep::Layout) {
+                out.of::<Self>(stringify!($name), |_out| {
+                    $(_out.field(stringify!($field), |one: &Self| &one.$field);)*
+                });
+            }
         }
     };
     // Fields that are made again.
@@ -78,6 +133,12 @@ macro_rules! keep {
 
             fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
                 Ok(Self { $($field: $crate::keep::Keep::back(from)?,)* $($again: $value),* })
+            }
+
+            fn lay_out(out: &mut $crate::keep::Layout) {
+                out.of::<Self>(stringify!($name), |_out| {
+                    $(_out.field(stringify!($field), |one: &Self| &one.$field);)*
+                });
             }
         }
     };
@@ -105,6 +166,19 @@ macro_rules! keep {
                 })*
                 Err($crate::keep::Broken)
             }
+
+            fn lay_out(out: &mut $crate::keep::Layout) {
+                out.of::<Self>(stringify!($name), |out| { $(
+                    out.word(stringify!($variant));
+                    $(
+                        #[allow(unreachable_patterns, reason = "an enum of one variant")]
+                        out.carried(|one: Self| match one {
+                            Self::$variant($($carried),+) => Some(($($carried,)+)),
+                            _ => None,
+                        });
+                    )?
+                )* });
+            }
         }
     };
 }
@@ -120,6 +194,10 @@ macro_rules! keep_numbers {
                 let bytes = from.take(size_of::<$number>())?;
                 Ok(<$number>::from_le_bytes(bytes.try_into().map_err(|_| Broken)?))
             }
+
+            fn lay_out(out: &mut Layout) {
+                out.word(stringify!($number));
+            }
         }
     )* };
 }
@@ -133,6 +211,10 @@ impl Keep for usize {
 
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         usize::try_from(u64::back(from)?).map_err(|_| Broken)
+    }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("usize");
     }
 }
 
@@ -148,6 +230,10 @@ impl Keep for bool {
             _ => Err(Broken),
         }
     }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("bool");
+    }
 }
 
 impl Keep for String {
@@ -161,6 +247,10 @@ impl Keep for String {
         let bytes = from.take(count)?.to_vec();
         String::from_utf8(bytes).map_err(|_| Broken)
     }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("text");
+    }
 }
 
 impl Keep for &'static str {
@@ -171,6 +261,10 @@ impl Keep for &'static str {
     /// Names are those of the program, a few and short: one that is read stays for as long as the process.
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         Ok(String::leak(String::back(from)?))
+    }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("text");
     }
 }
 
@@ -187,6 +281,11 @@ impl<T: Keep> Keep for Option<T> {
             true => Ok(Some(T::back(from)?)),
             false => Ok(None),
         }
+    }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("option");
+        T::lay_out(out);
     }
 }
 
@@ -206,6 +305,11 @@ impl<T: Keep> Keep for Vec<T> {
         }
         Ok(out)
     }
+
+    fn lay_out(out: &mut Layout) {
+        out.word("list");
+        T::lay_out(out);
+    }
 }
 
 impl<T: Keep> Keep for VecDeque<T> {
@@ -217,6 +321,10 @@ impl<T: Keep> Keep for VecDeque<T> {
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         Vec::back(from).map(VecDeque::from)
     }
+
+    fn lay_out(out: &mut Layout) {
+        Vec::<T>::lay_out(out);
+    }
 }
 
 impl<T: Keep> Keep for Box<T> {
@@ -227,6 +335,10 @@ impl<T: Keep> Keep for Box<T> {
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         T::back(from).map(Box::new)
     }
+
+    fn lay_out(out: &mut Layout) {
+        T::lay_out(out);
+    }
 }
 
 impl<T: Keep> Keep for Arc<T> {
@@ -236,6 +348,10 @@ impl<T: Keep> Keep for Arc<T> {
 
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         T::back(from).map(Arc::new)
+    }
+
+    fn lay_out(out: &mut Layout) {
+        T::lay_out(out);
     }
 }
 
@@ -251,30 +367,34 @@ impl<T: Keep, const N: usize> Keep for [T; N] {
         }
         all.try_into().map_err(|_| Broken)
     }
-}
 
-impl<A: Keep, B: Keep> Keep for (A, B) {
-    fn keep(&self, out: &mut Vec<u8>) {
-        self.0.keep(out);
-        self.1.keep(out);
-    }
-
-    fn back(from: &mut Kept) -> Result<Self, Broken> {
-        Ok((A::back(from)?, B::back(from)?))
+    fn lay_out(out: &mut Layout) {
+        out.word(&format!("{N} of"));
+        T::lay_out(out);
     }
 }
 
-impl<A: Keep, B: Keep, C: Keep> Keep for (A, B, C) {
-    fn keep(&self, out: &mut Vec<u8>) {
-        self.0.keep(out);
-        self.1.keep(out);
-        self.2.keep(out);
-    }
+macro_rules! keep_tuples {
+    ($(($($part:ident $at:tt),+))*) => { $(
+        impl<$($part: Keep),+> Keep for ($($part,)+) {
+            fn keep(&self, out: &mut Vec<u8>) {
+                $(self.$at.keep(out);)+
+            }
 
-    fn back(from: &mut Kept) -> Result<Self, Broken> {
-        Ok((A::back(from)?, B::back(from)?, C::back(from)?))
-    }
+            fn back(from: &mut Kept) -> Result<Self, Broken> {
+                Ok(($($part::back(from)?,)+))
+            }
+
+            fn lay_out(out: &mut Layout) {
+                out.word("(");
+                $($part::lay_out(out);)+
+                out.word(")");
+            }
+        }
+    )* };
 }
+
+keep_tuples!((A 0)(A 0, B 1)(A 0, B 1, C 2));
 
 impl<A: Keep + Ord, B: Keep> Keep for BTreeMap<A, B> {
     fn keep(&self, out: &mut Vec<u8>) {
@@ -288,6 +408,10 @@ impl<A: Keep + Ord, B: Keep> Keep for BTreeMap<A, B> {
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         let all: Vec<(A, B)> = Vec::back(from)?;
         Ok(all.into_iter().collect())
+    }
+
+    fn lay_out(out: &mut Layout) {
+        Vec::<(A, B)>::lay_out(out);
     }
 }
 
@@ -370,5 +494,58 @@ mod tests {
         // A length of nearly all the memory there is.
         let long = u64::MAX.to_le_bytes();
         assert_eq!(Vec::<u8>::back(&mut Kept::new(&long)), Err(Broken));
+    }
+
+    /// What is kept of a thing in six versions of a program.
+    mod versions {
+        macro_rules! version {
+            ($name:ident: $($field:ident: $type:ty),*) => {
+                pub mod $name {
+                    pub struct Thing { $(pub $field: $type),* }
+                    keep!(Thing { $($field),* });
+                }
+            };
+        }
+        version!(first: count: usize, length: f64);
+        version!(again: count: usize, length: f64);
+        version!(more: count: usize, length: f64, width: f64);
+        version!(moved: length: f64, count: usize);
+        version!(called: count: usize, width: f64);
+        version!(typed: count: usize, length: [f64; 1]);
+    }
+
+    #[test]
+    fn a_field_that_is_added_moved_renamed_or_of_another_type_makes_another_layout() {
+        use versions::*;
+        assert_eq!(
+            layout::<first::Thing>(),
+            "Thing { count usize length f64 } "
+        );
+        assert_eq!(layout::<first::Thing>(), layout::<again::Thing>());
+        let all = [
+            layout::<first::Thing>(),
+            layout::<more::Thing>(),
+            layout::<moved::Thing>(),
+            layout::<called::Thing>(),
+            layout::<typed::Thing>(),
+            layout::<(usize, f64)>(),
+        ];
+        for (i, one) in all.iter().enumerate() {
+            assert!(!all[..i].contains(one), "{one}");
+        }
+        // However deep it is.
+        let deep = layout::<Vec<Option<Box<first::Thing>>>>();
+        assert_ne!(deep, layout::<Vec<Option<Box<more::Thing>>>>());
+    }
+
+    #[test]
+    fn a_layout_has_what_variants_carry_and_tells_each_type_once() {
+        let name = "Name { One Both ( usize 2 of f64 ) Other }";
+        assert_eq!(
+            layout::<(Name, Vec<Name>, Some)>(),
+            format!(
+                "( {name} list Name Some {{ bits list u64 name option Name by list ( text ( usize bool ) ) all 3 of i32 }} ) "
+            )
+        );
     }
 }

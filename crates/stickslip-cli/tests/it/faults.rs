@@ -512,7 +512,7 @@ fn damages(length: usize) -> Vec<Damage> {
     all.push(("longer".into(), more, 100, DAMAGED));
     for digit in [b'1', b'9'] {
         let layout = |bytes: &mut Vec<u8>, digit: usize| bytes[15] = digit as u8;
-        let said = "has another layout than this version of stickslip reads";
+        let said = "has another layout than this build of stickslip reads";
         all.push(("another layout".into(), layout, digit.into(), said));
     }
     for (major, said) in [(b'0', "stickslip 0.0"), (b'9', "stickslip 9.0")] {

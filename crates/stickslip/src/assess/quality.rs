@@ -10,7 +10,7 @@ use super::figures::{
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
-use crate::keep::{Broken, Keep, Kept};
+use crate::keep::{Broken, Keep, Kept, Layout};
 use crate::math::norm;
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
@@ -426,42 +426,33 @@ pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
     .collect()
 }
 
-impl Keep for Figure {
+/// By its name.
+impl Keep for &'static Kind {
     fn keep(&self, out: &mut Vec<u8>) {
-        // Its name stands for what it is.
-        let Figure {
-            figure,
-            place,
-            value,
-            limit,
-            met,
-            time,
-            kind: _,
-        } = self;
-        figure.to_string().keep(out);
-        place.keep(out);
-        (*value, *limit, *met).keep(out);
-        time.keep(out);
+        self.name.to_string().keep(out);
     }
 
     fn back(from: &mut Kept) -> Result<Self, Broken> {
         let name = String::back(from)?;
-        let kind = figures::ALL.iter().find(|kind| kind.name == name);
-        let kind: &'static Kind = kind.ok_or(Broken)?;
-        let place = Keep::back(from)?;
-        let (value, limit, met) = Keep::back(from)?;
-        Ok(Figure {
-            figure: kind.name,
-            place,
-            value,
-            limit,
-            met,
-            time: Keep::back(from)?,
-            kind,
-        })
+        let mut all = figures::ALL.iter();
+        let kind: Option<&'static Kind> = all.find(|kind| kind.name == name).copied();
+        kind.ok_or(Broken)
+    }
+
+    fn lay_out(out: &mut Layout) {
+        String::lay_out(out);
     }
 }
 
+crate::keep!(Figure {
+    figure,
+    place,
+    value,
+    limit,
+    met,
+    time,
+    kind
+});
 crate::keep!(Gate {
     gate,
     met,

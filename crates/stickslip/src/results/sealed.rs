@@ -1,21 +1,21 @@
-//! State as bytes that say whether they are what was written: in front of it a mark, the version of the program, and a digest of the rest.
+//! State as bytes that say whether they are what was written: in front of it a mark, the version of the program, and digests of the rest and of its layout.
 //!
-//! What was cut or changed is found before anything is made of it, and so is what another version wrote.
+//! What was cut or changed is found before anything is made of it, and so is what another version wrote, or another build in which something else is kept:
+//! the digest is that of the [layout](crate::keep::layout), which follows from what is kept.
 
-use crate::keep::{Keep, Kept};
+use crate::keep::{Keep, Kept, layout};
 use crate::linear::Digest;
 
-/// What sealed state begins with, in the version of its layout.
-const MARK: &[u8; 16] = b"stickslip state3";
+/// What sealed state begins with, in the version of what stands in front of the state.
+const MARK: &[u8; 16] = b"stickslip state4";
 
 /// Bytes of state, sealed.
 pub fn seal(state: &impl Keep) -> Vec<u8> {
-    let mut content = Vec::new();
-    state.keep(&mut content);
+    let content = laid_out(state);
     let mut out = MARK.to_vec();
     env!("CARGO_PKG_VERSION").to_string().keep(&mut out);
     digest(&content).keep(&mut out);
-    out.append(&mut content);
+    out.extend(content);
     out
 }
 
@@ -24,11 +24,14 @@ pub fn seal(state: &impl Keep) -> Vec<u8> {
 /// # Errors
 /// Why not, in a sentence: it is something else, of another version, or damaged.
 pub fn unseal<T: Keep>(bytes: &[u8], what: &str) -> Result<T, String> {
+    let other = || {
+        format!(
+            "{what} has another layout than this build of stickslip reads: go on with the one that wrote it"
+        )
+    };
     let Some(rest) = bytes.strip_prefix(MARK) else {
         return Err(match bytes.starts_with(&MARK[..15]) {
-            true => format!(
-                "{what} has another layout than this version of stickslip reads: go on with the version that wrote it"
-            ),
+            true => other(),
             false => format!("this is not {what}, or it is damaged at its beginning"),
         });
     };
@@ -45,9 +48,43 @@ pub fn unseal<T: Keep>(bytes: &[u8], what: &str) -> Result<T, String> {
     if digest(kept.rest()) != wanted {
         return Err(damaged());
     }
+    match read(kept.rest()) {
+        Ok(state) => Ok(state),
+        Err(Unread::Layout) => Err(other()),
+        Err(Unread::Damaged) => Err(damaged()),
+    }
+}
+
+/// Bytes of state behind a digest of its layout.
+pub(crate) fn laid_out(state: &impl Keep) -> Vec<u8> {
+    fn digest_of<T: Keep>(_: &T) -> [u64; 2] {
+        digest(layout::<T>().as_bytes())
+    }
+    let mut out = Vec::new();
+    digest_of(state).keep(&mut out);
+    state.keep(&mut out);
+    out
+}
+
+/// Why bytes are not the state that was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unread {
+    /// They are one of another layout.
+    Layout,
+    /// They are of this layout, and broken.
+    Damaged,
+}
+
+/// The state in bytes behind a digest of its layout.
+pub(crate) fn read<T: Keep>(bytes: &[u8]) -> Result<T, Unread> {
+    let mut kept = Kept::new(bytes);
+    let found = <[u64; 2]>::back(&mut kept).map_err(|_| Unread::Damaged)?;
+    if found != digest(layout::<T>().as_bytes()) {
+        return Err(Unread::Layout);
+    }
     match T::back(&mut kept) {
         Ok(state) if kept.is_empty() => Ok(state),
-        _ => Err(damaged()),
+        _ => Err(Unread::Damaged),
     }
 }
 
@@ -82,5 +119,24 @@ mod tests {
             assert!(unseal::<(Vec<f64>, String)>(&other, "it").is_err(), "{at}");
             assert!(unseal::<(Vec<f64>, String)>(&bytes[..at], "it").is_err());
         }
+    }
+
+    #[test]
+    fn state_of_another_layout_is_told_from_damaged_state() {
+        struct Before {
+            a: u64,
+            b: f64,
+        }
+        struct After {
+            a: u64,
+            c: f64,
+        }
+        crate::keep!(Before { a, b });
+        crate::keep!(After { a, c });
+        let bytes = seal(&Before { a: 1, b: 0.5 });
+        let back: Before = unseal(&bytes, "it").unwrap();
+        assert_eq!((back.a, back.b), (1, 0.5));
+        let said = unseal::<After>(&bytes, "it").map(|after| (after.a, after.c));
+        assert!(said.unwrap_err().contains("it has another layout"));
     }
 }

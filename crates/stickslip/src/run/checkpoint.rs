@@ -32,9 +32,9 @@ use crate::body::couplings::CouplingsState;
 use crate::contact::interface::{History, Memory};
 use crate::error::{Error, IoError};
 use crate::integrate::explicit::ExplicitState;
-use crate::keep::{Keep, Kept};
 use crate::model::frame::Frame;
 use crate::results::saved::Saved;
+use crate::results::sealed::{laid_out, read};
 use crate::results::summary::Summary;
 use crate::solve::state::SolverState;
 use crate::time::Pace;
@@ -117,16 +117,12 @@ crate::keep!(Working {
 impl Checkpoint {
     /// Its bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = Vec::new();
-        self.keep(&mut out);
-        out
+        laid_out(self)
     }
 
-    /// From its bytes; `None` where they are no checkpoint of this version of the program.
+    /// From its bytes; `None` where they are no checkpoint, or one of a program that keeps other state.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
-        let mut kept = Kept::new(bytes);
-        let checkpoint = Checkpoint::back(&mut kept).ok()?;
-        kept.is_empty().then_some(checkpoint)
+        read(bytes).ok()
     }
 
     /// That of a file in a folder of results.
@@ -155,5 +151,24 @@ impl Checkpoint {
     /// The index of the step at hand, and whether it has ended.
     pub fn step(&self) -> (usize, bool) {
         (self.frame.step, self.position.running.is_none())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keep::layout;
+
+    #[test]
+    fn the_layout_of_a_checkpoint_goes_down_to_single_numbers() {
+        let text = layout::<Checkpoint>();
+        for words in [
+            "Frame {",
+            "History {",
+            "pending list Pending {",
+            "krylov usize",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::keep::{Broken, Keep, Kept};
+use crate::keep::{Broken, Keep, Kept, Layout};
 
 /// Makes [`DoctorCause`] of rows: meaning, variant, name in files, and `mistake` where advice about how a model is solved does not help.
 macro_rules! causes {
@@ -156,6 +156,10 @@ impl Keep for DoctorCause {
         let name = String::back(from)?;
         let mut all = DoctorCause::ALL.iter();
         all.find(|c| c.name() == name).copied().ok_or(Broken)
+    }
+
+    fn lay_out(out: &mut Layout) {
+        String::lay_out(out);
     }
 }
 
