@@ -2,23 +2,26 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::body::CellState;
 use stickslip::contact::interface::Interface;
-use stickslip::io::write_atomically;
+use stickslip::io::Growing;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::results::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
 use crate::translate::Translation;
 
-/// Writes the `.dat` file of a deck while it runs. It is complete up to the last increment that was printed.
+/// Writes the `.dat` file of a deck while it runs: what an increment prints is in the file when its fields are.
 #[derive(Debug)]
 pub struct Printer {
     path: PathBuf,
-    text: String,
+    /// Made by the first thing that is to be in it, or to be read from it.
+    file: Option<Growing>,
     prints: Vec<Vec<Print>>,
     node_sets: BTreeMap<String, Vec<u64>>,
     element_sets: BTreeMap<String, Vec<u64>>,
@@ -80,15 +83,18 @@ fn row(out: &mut String, head: &str, values: &[f64]) {
 }
 
 /// Step and increment that stand last in a file.
-fn last_printed(text: &str) -> Option<(usize, usize)> {
+fn last_printed(path: &Path) -> std::io::Result<Option<(usize, usize)>> {
     let number = |line: &str, head: &str| -> Option<usize> {
         line.trim().strip_prefix(head)?.trim().parse().ok()
     };
-    let increment = |line| number(line, "INCREMENT");
-    let last = text.lines().rev().find_map(increment)?;
-    let step = |line| number(line, "S T E P");
-    let step = text.lines().rev().find_map(step)?;
-    Some((step, last))
+    let (mut step, mut increment) = (None, None);
+    // Line by line: the file may be longer than there is memory.
+    for line in BufReader::new(File::open(path)?).lines() {
+        let line = line?;
+        step = number(&line, "S T E P").or(step);
+        increment = number(&line, "INCREMENT").or(increment);
+    }
+    Ok(step.zip(increment))
 }
 
 impl Printer {
@@ -100,7 +106,7 @@ impl Printer {
             .any(|p| !p.is_empty())
             .then(|| Printer {
                 path: path.to_path_buf(),
-                text: String::new(),
+                file: None,
                 prints: translation.prints.clone(),
                 node_sets: translation.node_sets.clone(),
                 element_sets: translation.element_sets.clone(),
@@ -122,17 +128,19 @@ impl Printer {
     /// # Errors
     /// [`Error::Io`] if it cannot be read.
     pub fn resume(self) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
         Ok(Printer {
-            done: last_printed(&text),
-            text,
+            done: last_printed(&self.path).map_err(|e| Error::io(&self.path, e))?,
+            file: Some(Growing::resume(&self.path)?),
             ..self
         })
     }
 
-    /// What was printed so far.
-    pub fn text(&self) -> &str {
-        &self.text
+    fn add(&mut self, text: &str) -> Result<(), Error> {
+        let file = match self.file.take() {
+            Some(file) => file,
+            None => Growing::create(&self.path, "")?,
+        };
+        self.file.insert(file).add(text)
     }
 
     fn due(&self, when: &When) -> bool {
@@ -144,17 +152,17 @@ impl Printer {
             }
     }
 
-    fn print(&mut self, analysis: &Analysis) {
+    fn print(&mut self, analysis: &Analysis) -> Result<(), Error> {
         let key = (self.step, self.increment);
         if self.done == Some(key) {
-            return;
+            return Ok(());
         }
         if self.points.is_empty() {
             let ids = &analysis.model.mesh.point_ids;
             self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
         }
         let Some(prints) = self.prints.get(self.step - 1).cloned() else {
-            return;
+            return Ok(());
         };
         let mut out = String::new();
         for p in &prints {
@@ -189,22 +197,24 @@ impl Printer {
             }
         }
         if out.is_empty() {
-            return;
+            return Ok(());
         }
+        let mut head = String::new();
         if self.done.is_none_or(|(step, _)| step != self.step) {
             let _ = write!(
-                self.text,
+                head,
                 "\n                        S T E P  {:>6}\n\n",
                 self.step
             );
         }
         let _ = write!(
-            self.text,
+            head,
             "\n                                INCREMENT{:>6}\n\n",
             self.increment
         );
-        self.text.push_str(&out);
+        self.add(&(head + &out))?;
         self.done = Some(key);
+        Ok(())
     }
 
     fn nodes(
@@ -518,15 +528,9 @@ impl Observer for Printer {
                     .map(|s| s.end);
                 self.last = ends.is_some_and(|end| self.time >= end * (1.0 - 1e-12));
             }
-            Event::Output if self.step > 0 => {
-                self.print(analysis);
-                if self.last {
-                    write_atomically(&self.path, self.text.as_bytes())?;
-                }
-            }
-            Event::Checkpoint(_) | Event::End => {
-                write_atomically(&self.path, self.text.as_bytes())?
-            }
+            Event::Output if self.step > 0 => self.print(analysis)?,
+            // What is noted of how far it is has to find it; and at the end it is there, be it empty.
+            Event::Checkpoint(_) | Event::End => self.add("")?,
             _ => {}
         }
         Ok(())

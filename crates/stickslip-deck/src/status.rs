@@ -1,37 +1,46 @@
 //! The `.sta` file: a line an increment, in the columns of Abaqus.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
-use stickslip::io::write_atomically;
+use stickslip::io::Growing;
 use stickslip::results::{Analysis, Event, Observer};
 
-/// Writes the `.sta` file of a run.
+/// The lines of headings.
+const HEAD: &str = " SUMMARY OF JOB INFORMATION:\n STEP  INC ATT SEVERE EQUIL TOTAL  TOTAL      STEP       INC OF\n                 DISCON ITERS ITERS  TIME/      TIME/LPF   TIME/LPF\n                 ITERS               FREQ\n";
+
+/// Writes the `.sta` file of a run, a line when an increment is told of.
 #[derive(Debug)]
 pub struct Status {
     path: PathBuf,
-    text: String,
+    /// Made by the first thing that is to be in it, or to be read from it.
+    file: Option<Growing>,
 }
 
 impl Status {
-    /// A file with the two lines of headings.
+    /// A file with the lines of headings, when there is more.
     pub fn new(path: &Path) -> Self {
         Status {
             path: path.to_path_buf(),
-            text: " SUMMARY OF JOB INFORMATION:\n STEP  INC ATT SEVERE EQUIL TOTAL  TOTAL      STEP       INC OF\n                 DISCON ITERS ITERS  TIME/      TIME/LPF   TIME/LPF\n                 ITERS               FREQ\n".into(),
+            file: None,
         }
     }
-}
 
-impl Status {
     /// Goes on with the file that is there.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read.
+    /// [`Error::Io`] if it cannot be opened.
     pub fn resume(self) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(&self.path).map_err(|e| Error::io(&self.path, e))?;
-        Ok(Status { text, ..self })
+        let file = Some(Growing::resume(&self.path)?);
+        Ok(Status { file, ..self })
+    }
+
+    fn add(&mut self, text: &str) -> Result<(), Error> {
+        let file = match self.file.take() {
+            Some(file) => file,
+            None => Growing::create(&self.path, HEAD)?,
+        };
+        self.file.insert(file).add(text)
     }
 }
 
@@ -48,9 +57,8 @@ impl Observer for Status {
                     .get(step.saturating_sub(1))
                     .map_or(0.0, |s| s.start);
                 let iterations = column("ITRS") as usize;
-                let _ = writeln!(
-                    self.text,
-                    "{step:>5} {:>4} {:>3} {:>6} {:>5} {:>5} {:>10} {:>10} {:>10}",
+                self.add(&format!(
+                    "{step:>5} {:>4} {:>3} {:>6} {:>5} {:>5} {:>10} {:>10} {:>10}\n",
                     column("INC") as usize,
                     column("ATT") as usize,
                     0,
@@ -59,17 +67,16 @@ impl Observer for Status {
                     short(time),
                     short(time - start),
                     short(dt)
-                );
+                ))?;
             }
-            Event::Checkpoint(_) => write_atomically(&self.path, self.text.as_bytes())?,
+            // What is noted of how far it is has to find it.
+            Event::Checkpoint(_) => self.add("")?,
             Event::End => {
                 let total = analysis.model.steps.last().map_or(0.0, |s| s.end);
-                self.text
-                    .push_str(match analysis.frame.state.t >= total * (1.0 - 1e-12) {
-                        true => "\n THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n",
-                        false => "\n THE ANALYSIS HAS NOT BEEN COMPLETED\n",
-                    });
-                write_atomically(&self.path, self.text.as_bytes())?;
+                self.add(match analysis.frame.state.t >= total * (1.0 - 1e-12) {
+                    true => "\n THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n",
+                    false => "\n THE ANALYSIS HAS NOT BEEN COMPLETED\n",
+                })?;
             }
             _ => {}
         }

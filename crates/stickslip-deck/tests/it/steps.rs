@@ -1,6 +1,9 @@
 //! Steps: how values go from one to the next, amplitudes, dynamics, and when something is printed.
 
-use crate::support::{column, cube, near, refused, run, sections, translate};
+use stickslip::Error;
+use stickslip::results::{Analysis, Event, Observer};
+
+use crate::support::{column, cube, near, place, refused, run, run_before, sections, translate};
 
 /// A rod with E A = 1000 and length 1 through these steps; the displacement of its end.
 fn rod(name: &str, steps: &str) -> Vec<(f64, f64)> {
@@ -310,4 +313,48 @@ fn forces_in_motion_are_those_of_the_elements() {
             );
         }
     }
+}
+
+/// Another process that looks into the files of a run.
+#[derive(Default)]
+struct Reader {
+    increments: usize,
+    outputs: usize,
+}
+
+impl Observer for Reader {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
+        let count = |name: &str, is: fn(&str) -> bool| {
+            let text = std::fs::read_to_string(place(name)).unwrap_or_default();
+            text.lines().filter(|line| is(line)).count()
+        };
+        match event {
+            Event::Increment(_) => {
+                self.increments += 1;
+                let rows = count("grows.sta", |line| {
+                    line.trim_start().starts_with(|c: char| c.is_ascii_digit())
+                });
+                assert_eq!(rows, self.increments);
+            }
+            Event::Output => {
+                self.outputs += 1;
+                let printed = count("grows.dat", |line| line.contains("INCREMENT"));
+                assert_eq!(printed, self.outputs);
+                let nodes = count("grows.dat", |line| line.trim_start().starts_with("7 "));
+                assert_eq!(nodes, self.outputs);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn what_is_printed_is_in_the_files_while_the_run_goes_on() {
+    let mut reader = Reader::default();
+    let steps = format!("*STEP\n*STATIC, DIRECT\n.125, 1.\n*CLOAD\nNTOP, 3, 1.\n{PRINT}");
+    let text = format!("{}*NSET, NSET=END\n7\n{steps}", column());
+    let printed = run_before("grows", &text, Some(&mut reader)).course("displacements", 3);
+    assert_eq!((reader.increments, reader.outputs), (8, 8));
+    assert_eq!(printed.len(), 8);
 }

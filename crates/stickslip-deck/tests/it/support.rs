@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::results::Observer;
 use stickslip::run::Simulation;
-use stickslip_deck::{Deck, Printer, Translation};
+use stickslip_deck::{Deck, Printer, Status, Translation};
 
 /// A file of one test.
 pub fn place(name: &str) -> PathBuf {
@@ -71,6 +71,11 @@ impl Run {
 
 /// Runs a deck. It is kept in the temporary folder of the tests, so that it can be given to other programs.
 pub fn run(name: &str, text: &str) -> Run {
+    run_before(name, text, None)
+}
+
+/// The same, before an observer that comes behind those that write `NAME.dat` and `NAME.sta`.
+pub fn run_before(name: &str, text: &str, last: Option<&mut dyn Observer>) -> Run {
     std::fs::write(place(&format!("{name}.inp")), text).expect("a file");
     let translation = translate(text);
     let document = translation.document(Vec::new());
@@ -89,8 +94,13 @@ pub fn run(name: &str, text: &str) -> Run {
     let mut simulation = Simulation::new(model).expect("a sound model");
     let dat = place(&format!("{name}.dat"));
     let mut printer = Printer::new(&translation, &dat);
+    let mut status = Status::new(&place(&format!("{name}.sta")));
     let mut observers: Vec<&mut dyn Observer> = Vec::new();
     observers.extend(printer.as_mut().map(|p| p as &mut dyn Observer));
+    observers.push(&mut status);
+    if let Some(last) = last {
+        observers.push(last);
+    }
     simulation
         .run(&mut observers)
         .unwrap_or_else(|e| panic!("{name}: {e}\n{}", translation.toml));
@@ -99,7 +109,9 @@ pub fn run(name: &str, text: &str) -> Run {
     let u = ids.map(|(i, id)| (*id, model.dofs.vector(&simulation.frame.state.u, i)));
     Run {
         u: u.collect(),
-        blocks: printer.map_or(Vec::new(), |p| blocks(p.text())),
+        blocks: printer.map_or(Vec::new(), |_| {
+            blocks(&std::fs::read_to_string(&dat).expect("a .dat file"))
+        }),
         notes: translation.notes.iter().map(ToString::to_string).collect(),
     }
 }

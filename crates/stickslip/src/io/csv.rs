@@ -3,22 +3,17 @@
 //! The first line holds the names of the columns. Numbers are written in the shortest form that reads back to the same
 //! bits. Names with commas or quotes are quoted.
 
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::{Error, IoError};
 
-use super::write_atomically;
+use super::{Growing, write_atomically};
 
 /// A history that is written as the analysis goes: one row an increment, on disk after each.
 #[derive(Debug)]
 pub struct History {
-    path: PathBuf,
-    file: File,
+    file: Growing,
     columns: usize,
-    /// Of whole rows `[bytes]`.
-    length: u64,
 }
 
 impl History {
@@ -27,8 +22,10 @@ impl History {
     /// # Errors
     /// [`Error::Io`] if it cannot be written.
     pub fn create(path: &Path, names: &[String]) -> Result<Self, Error> {
-        write_atomically(path, header(names).as_bytes())?;
-        History::resume(path, names.len())
+        Ok(History {
+            file: Growing::create(path, &header(names))?,
+            columns: names.len(),
+        })
     }
 
     /// Goes on with a file that has so many columns.
@@ -36,18 +33,8 @@ impl History {
     /// # Errors
     /// [`Error::Io`] if it cannot be opened.
     pub fn resume(path: &Path, columns: usize) -> Result<Self, Error> {
-        let open = || {
-            let file = File::options().append(true).open(path)?;
-            let length = file.metadata()?.len();
-            Ok((file, length))
-        };
-        let (file, length) = open().map_err(|e| Error::io(path, e))?;
-        Ok(History {
-            path: path.to_path_buf(),
-            file,
-            columns,
-            length,
-        })
+        let file = Growing::resume(path)?;
+        Ok(History { file, columns })
     }
 
     /// How many columns it has.
@@ -60,16 +47,8 @@ impl History {
     /// # Errors
     /// [`Error::Io`] if it cannot be written, or has another length than the header.
     pub fn row(&mut self, values: &[f64]) -> Result<(), Error> {
-        check_length(&self.path, values.len(), self.columns)?;
-        // In one call and unbuffered, so that a row is there entirely or not at all.
-        let row = line(values);
-        self.file.write_all(row.as_bytes()).map_err(|e| {
-            // What a full disk has taken of it goes; the first error is the one to report.
-            let _ = self.file.set_len(self.length);
-            Error::io(&self.path, e)
-        })?;
-        self.length += row.len() as u64;
-        Ok(())
+        check_length(self.file.path(), values.len(), self.columns)?;
+        self.file.add(&line(values))
     }
 }
 

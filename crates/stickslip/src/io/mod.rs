@@ -7,6 +7,7 @@ pub mod abaqus;
 mod atomic;
 pub mod csv;
 pub mod gmsh;
+mod growing;
 pub mod input;
 mod numbers;
 pub mod pvd;
@@ -15,3 +16,4 @@ pub mod vtu;
 
 pub(crate) use atomic::meant_by;
 pub use atomic::{drop_leftovers, write_atomically};
+pub use growing::Growing;
