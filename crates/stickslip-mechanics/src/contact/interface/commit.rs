@@ -9,6 +9,9 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
 
+/// Part of the force of a point that rounding may leave of what the laws answer, up to which they have the word.
+const ROUNDED: f64 = 1e-8;
+
 /// What the committed history of a point becomes, and what happened on the way, per area.
 struct Passed {
     history: PointHistory,
@@ -42,6 +45,7 @@ impl Interface {
         let active = self.schedule.active(stage.at.t);
         self.history.cone = self.judge_friction(stage);
         self.history.nodal = self.nodal_forces(active);
+        self.trust_multipliers();
         self.push(stage);
         self.note_opposite();
         self.history.acting = active && !self.cache.last.points.is_empty();
@@ -78,6 +82,17 @@ impl Interface {
         if increment.resolved {
             // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
             self.history.energy.path += work - (before - stored - dissipated);
+        }
+    }
+
+    /// Takes multipliers for the tractions where laws are so steep that what they answer is rounding to some digits: multipliers are what acts on the bodies.
+    fn trust_multipliers(&mut self) {
+        for e in &mut self.cache.last.points {
+            let size = e.multiplier.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+            let open = e.response.status == Status::Open;
+            if e.saddle.is_some() && !open && e.rounding > ROUNDED * size * e.area {
+                e.response.traction = e.multiplier;
+            }
         }
     }
 
