@@ -5,9 +5,8 @@ use std::path::Path;
 use stickslip::problem::Document;
 use stickslip::run::Simulation;
 
-/// The gaps of two half-balls that meet pole on pole: of most nodes the nearest facets face away, and the planes of those that do not are
-/// far from them.
-fn balls(lower: &str, upper: &str) -> (f64, usize) {
+/// Two half-balls that meet pole on pole, the upper one pressed down by so much, with what else the interface has.
+fn balls(lower: &str, upper: &str, down: f64, joint: &str) -> Simulation {
     let text = format!(
         r#"
         format = 1
@@ -15,28 +14,48 @@ fn balls(lower: &str, upper: &str) -> (f64, usize) {
         body.lower = {{ generate.half-ball = {{ centre = [0, 0, -10], direction = [0, 0, 1], radius = 10, size = 5, element = "{lower}" }}, material = "steel" }}
         body.upper = {{ generate.half-ball = {{ centre = [0, 0, 10], radius = 10, size = 5, element = "{upper}" }}, material = "steel" }}
         material.steel.isotropic = {{ young = 1e5, poisson = 0.3 }}
-        interface.joint = {{ secondary = "lower.arc", primary = "upper.arc", discretisation.node-to-facet = {{}} }}
+        interface.joint = {{ secondary = "lower.arc", primary = "upper.arc", discretisation.node-to-facet = {{}}{joint} }}
         support.base = {{ set = "lower.flat", x = 0, y = 0, z = 0 }}
-        support.top = {{ set = "upper.flat", x = 0, y = 0, z = -0.1 }}
-        step = [{{}}]
+        support.top = {{ set = "upper.flat", x = 0, y = 0, z = -{down} }}
+        step = [{{ increments = {{ initial = 0.25, largest = 0.25 }} }}]
         "#
     );
     let problem = Document::new(text, None).problem().expect("a problem");
     let model = problem.build(Path::new(".")).expect("a model");
-    let report = Simulation::new(model).expect("a simulation").check();
-    (
-        report.interfaces[0].smallest,
-        report.interfaces[0].overlapping,
-    )
+    Simulation::new(model).expect("a simulation")
 }
 
+/// Of most nodes the nearest facets face away, and the planes of those that do not are far from them.
 #[test]
 fn balls_that_touch_in_one_point_do_not_overlap() {
     for lower in ["hex8", "tet4", "hex20"] {
         for upper in ["hex8", "tet4", "hex20", "tet10"] {
-            let (smallest, overlapping) = balls(lower, upper);
+            let report = balls(lower, upper, 0.1, "").check();
+            let gaps = &report.interfaces[0];
+            let (smallest, overlapping) = (gaps.smallest, gaps.overlapping);
             assert!(smallest > -1e-6, "{lower} on {upper}: {smallest}");
             assert!(overlapping <= 1, "{lower} on {upper}: {overlapping}");
         }
+    }
+}
+
+/// A node under the pole of a ball of flat facets is as near to one of them as to the next, and held by friction it would come to lie under the other
+/// wherever it was held by one: it stays on the one until its foot leaves it.
+#[test]
+fn a_pole_pressed_on_a_pole_comes_to_rest_on_one_of_its_facets() {
+    for friction in [
+        "coulomb = { mu = 0.5 }",
+        "exponential-decay = { static = 0.532, kinetic = 0.323, decay = 7.97 }",
+    ] {
+        let joint = format!(", normal.linear = {{ c = 6e4 }}, friction.{friction}");
+        let mut simulation = balls("tet4", "tet4", 0.15, &joint);
+        simulation.run(&mut []).expect("equilibria");
+        let summary = &simulation.summary;
+        assert_eq!(summary.cutbacks, 0, "{friction}");
+        assert!(
+            summary.iterations <= 15 * summary.increments,
+            "{friction}: {}",
+            summary.iterations
+        );
     }
 }

@@ -76,7 +76,7 @@ fn facet_size(facet: &Facet, p: &FacetPoint) -> f64 {
 impl Choice<'_> {
     /// The facet that the point belongs to and its projection there.
     ///
-    /// The nearest facet wins; between equally near ones the previous one. Beyond an edge where the surface goes on the facet is extended, so that a point
+    /// The nearest facet wins; between equally near ones, and behind a ridge, the previous one. Beyond an edge where the surface goes on the facet is extended, so that a point
     /// in a re-entrant corner is not lost; beyond an outer edge the point is free.
     ///
     /// # Errors
@@ -117,15 +117,24 @@ impl Choice<'_> {
             }
         }
         match (best, kept, previous.facet) {
-            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro.
+            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro. Under a ridge it does, and
+            // nearest changes where the feet on both facets still lie within them: a point that is held there would have an equilibrium on neither.
+            // The point goes over the ridge when its foot does.
             (Some((_, look)), Some(k), Some(f))
-                if look.carried && dot(look.p.normal, k.normal) > 1.0 - FLAT =>
+                if look.carried
+                    && (dot(look.p.normal, k.normal) > 1.0 - FLAT
+                        || self.behind(&k) && self.behind(&look.p)) =>
             {
                 Ok((f, k))
             }
             (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
             _ => Err(nearest),
         }
+    }
+
+    /// Whether the point lies on the inner side of its projection's plane.
+    fn behind(&self, p: &FacetPoint) -> bool {
+        dot(sub(self.position, p.x), p.normal) < 0.0
     }
 
     fn box_distance2(&self, f: usize) -> f64 {
@@ -158,8 +167,8 @@ impl Choice<'_> {
         let over = beyond(facet.kind, nodes, &p);
         // A facet is extended for points near its edge. Behind the plane of a distant one lie points that no facet nearby faces, such as
         // those on the far side of a ball.
-        let behind = dot(sub(position, p.x), p.normal) < 0.0;
-        let extended = facet.continues[over.edge] && !(behind && over.distance > size);
+        let far_behind = self.behind(&p) && over.distance > size;
+        let extended = facet.continues[over.edge] && !far_behind;
         Some(Look {
             p,
             size,

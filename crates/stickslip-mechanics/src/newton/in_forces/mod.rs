@@ -17,6 +17,7 @@ use super::progress::Converged;
 use super::rounds::rounds;
 use super::settings::Settings;
 use crate::friction::{FrictionProblem, Solution, solve};
+use crate::math::vector::dot;
 use crate::system::{Assembler, Cause, ContactBlock, Stage, StepFailure};
 use place::{At, Place};
 
@@ -111,6 +112,7 @@ fn settle(
 ) -> Result<bool, StepFailure> {
     let mut last: Vec<Found> = Vec::new();
     let mut residuals = Vec::new();
+    let mut relaxation = Relaxation::default();
     while residuals.len() < attempt.settings.max_iterations && !stalled(&residuals) {
         let Some(pass) = Pass::new(attempt)? else {
             return Ok(false);
@@ -119,7 +121,7 @@ fn settle(
         if pass.residual <= 1.0 {
             break;
         }
-        let Some(next) = pass.solve((points, &last), account)? else {
+        let Some(next) = pass.solve((points, &last), &mut relaxation, account)? else {
             return Ok(false);
         };
         let done = settled(&last, &next);
@@ -129,6 +131,40 @@ fn settle(
         }
     }
     Ok(true)
+}
+
+/// How much of a step from one solution to the next is taken, where surfaces and laws make them go to and fro or creep: Aitken's relaxation
+/// ([Küttler and Wall 2008](stickslip_base::references::kuettler_2008)), which at most doubles from step to step.
+#[derive(Debug)]
+struct Relaxation {
+    length: f64,
+    last: Option<Vec<f64>>,
+}
+
+impl Default for Relaxation {
+    fn default() -> Self {
+        Self {
+            length: 1.0,
+            last: None,
+        }
+    }
+}
+
+impl Relaxation {
+    /// The part of this step that is taken.
+    fn length(&mut self, du: &[f64]) -> f64 {
+        if let Some(last) = &self.last {
+            let change: Vec<f64> = du.iter().zip(last).map(|(now, then)| now - then).collect();
+            let length = -self.length * dot(last, &change) / dot(&change, &change);
+            self.length = if length > 0.0 {
+                length.min(2.0 * self.length)
+            } else {
+                1.0
+            };
+        }
+        self.last = Some(du.to_vec());
+        self.length
+    }
 }
 
 /// Whether forces are those of the problem before.
@@ -235,6 +271,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
     fn solve(
         self,
         (Points { restless, loose }, last): (&Points, &[Found]),
+        relaxation: &mut Relaxation,
         account: &mut Account,
     ) -> Result<Option<Vec<Found>>, StepFailure> {
         let Pass {
@@ -281,7 +318,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             .zip(solution.forces.chunks(d))
             .map(|(p, r)| (p.at, [0, 1, 2].map(|q| r.get(q).copied().unwrap_or(0.0))))
             .collect();
-        let du = step(&mut linear, (&chosen, &found), free)?;
+        let du = step(&mut linear, (&chosen, &found), free, relaxation)?;
         let carried: Vec<Found> = others.iter().map(|p| (p.at, p.carried(&du))).collect();
         adopt(linear.attempt, &counts, &[&found[..], &carried].concat());
         Ok(Some(found))
@@ -399,6 +436,7 @@ fn step(
     linear: &mut Linear,
     (chosen, found): (&[&Place], &[Found]),
     free: Vec<f64>,
+    relaxation: &mut Relaxation,
 ) -> Result<Vec<f64>, StepFailure> {
     let mut b = free;
     for (place, (_, forces)) in chosen.iter().zip(found) {
@@ -409,7 +447,8 @@ fn step(
     let du = linear.displacements(&b)?;
     let start = linear.attempt.at.u.clone();
     let attempt = &mut *linear.attempt;
-    attempt.system.advance(attempt.at, &start, &du, 1.0);
+    let length = relaxation.length(&du);
+    attempt.system.advance(attempt.at, &start, &du, length);
     Ok(du)
 }
 
