@@ -240,6 +240,27 @@ fn a_friction_problem_finds_what_two_iterations_do_not() {
     }
 }
 
+/// The last finding of a run says what became of the friction problem, and where.
+fn blames_the_friction_problem(folder: &str, said: &str) {
+    let summary = std::fs::read_to_string(Path::new(folder).join("summary.json"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&summary.expect("a summary")).expect("JSON");
+    let finding = summary["findings"].as_array().and_then(|all| all.last());
+    let finding = finding.expect("a finding");
+    let message = finding["message"].as_str().expect("a sentence");
+    assert!(message.contains("friction problem of"), "{message}");
+    assert!(!message.contains("of 0 points"), "{message}");
+    assert!(message.contains("by proximal newton"), "{message}");
+    let guilty = finding["guilty"].as_array().expect("places");
+    let known = |g: &serde_json::Value| g["interface"] == "base" && g["position"].is_array();
+    assert!(guilty.iter().all(known), "{guilty:?}");
+    let ids: std::collections::BTreeSet<_> = guilty.iter().map(|g| g["id"].as_u64()).collect();
+    assert!(ids.len() == guilty.len() && !ids.is_empty(), "{guilty:?}");
+    let advice = finding["advice"].to_string();
+    assert!(advice.contains("a smoother law"), "{advice}");
+    assert!(said.contains("is solved, by proximal newton"), "{said}");
+}
+
 #[test]
 fn an_increment_that_fails_is_written_as_a_friction_problem_and_solved_alone() {
     for mu in [0.3, 1.0, 2.0] {
@@ -259,6 +280,7 @@ fn an_increment_that_fails_is_written_as_a_friction_problem_and_solved_alone() {
             &[&more[..], &["--set", law, "--set", whole]].concat(),
         );
         assert_eq!(code(&output), Some(3), "{}", text(&output.stderr));
+        blames_the_friction_problem(&out, &text(&output.stderr));
         let written = dumped.join("case.txt").display().to_string();
         let output = stickslip(&["friction", &written]);
         assert_eq!(

@@ -85,7 +85,7 @@ impl Newton {
         let mut account = Account::default();
         let outcome = in_forces(&mut attempt, &failure.cause, &mut account);
         let solver = account.solver();
-        self.unsolved = account.last;
+        self.unsolved = account.last.take();
         let outcome = match outcome {
             None => return Err(failure),
             Some(Err(failure)) if failure.cause == Cause::Interrupted => return Err(failure),
@@ -98,8 +98,17 @@ impl Newton {
             converged: outcome.is_ok(),
             solver: solver.clone(),
         });
-        let Ok(converged) = outcome else {
-            return Err(failure);
+        let converged = match outcome {
+            Ok(converged) => converged,
+            Err(otherwise) => {
+                let system = &attempt.system;
+                let place = |(force, point): (usize, usize)| system.contact[force].place(point);
+                let otherwise = account.otherwise(&otherwise, place);
+                return Err(StepFailure {
+                    otherwise: Some(Box::new(otherwise)),
+                    ..failure
+                });
+            }
         };
         self.unsolved = None;
         Ok(Converged {

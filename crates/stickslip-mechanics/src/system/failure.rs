@@ -94,6 +94,19 @@ pub struct StepFailure {
     pub help: Option<String>,
     /// The dof at which a singular system was found out.
     pub dof: Option<usize>,
+    /// What became of it when it was tried as a friction problem.
+    pub otherwise: Option<Box<Otherwise>>,
+}
+
+/// What became of an increment as a friction problem, where that has failed as well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Otherwise {
+    /// In a sentence: which problem, who came how far.
+    pub message: String,
+    /// The points that are to blame, most guilty first.
+    pub culprits: Vec<Culprit>,
+    /// What to try.
+    pub help: String,
 }
 
 impl StepFailure {
@@ -105,6 +118,7 @@ impl StepFailure {
             culprits: Vec::new(),
             help: None,
             dof: None,
+            otherwise: None,
         }
     }
 
@@ -166,5 +180,11 @@ crate::keep!(StepFailure {
     message,
     culprits,
     help,
-    dof
+    dof,
+    otherwise
+});
+crate::keep!(Otherwise {
+    message,
+    culprits,
+    help
 });

@@ -122,6 +122,11 @@ pub trait Force: Send {
         Vec::new()
     }
 
+    /// One of its points as a place to look at, and what it does.
+    fn place(&self, _point: usize) -> Option<super::Culprit> {
+        None
+    }
+
     /// The points that change status, of a force that has such.
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
         None

@@ -14,7 +14,7 @@ pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
 pub use constraints::Constraints;
 pub use dofs::{Component, Dofs};
-pub use failure::{Cause, Culprit, Evidence, StepFailure};
+pub use failure::{Cause, Culprit, Evidence, Otherwise, StepFailure};
 pub use fields::{Field, Fields, Location};
 pub use force::{ActiveSet, Augmentation, Energy, Force, PointAlone, Rate, Stage, State, Tally};
 pub use links::{Freedom, Link, Links, Motion, Row};

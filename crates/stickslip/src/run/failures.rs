@@ -114,11 +114,24 @@ impl Simulation {
             let help = Some(doctor::MORE_MEMORY.to_string());
             return StepFailure { help, ..failure }.at(t);
         }
+        let otherwise = failure.otherwise.as_deref();
+        let also = otherwise.map_or(String::new(), |o| format!("; {}", o.message));
         let message = format!(
-            "{}: {}; the increment cannot be made smaller",
+            "{}: {}{also}; the increment cannot be made smaller",
             view.called(),
             failure.message
         );
-        StepFailure { message, ..failure }.at(t)
+        let mut culprits = otherwise.map_or_else(Vec::new, |o| o.culprits.clone());
+        for own in &failure.culprits {
+            if culprits.iter().all(|known| known.place != own.place) {
+                culprits.push(own.clone());
+            }
+        }
+        let failure = StepFailure {
+            message,
+            culprits,
+            ..failure
+        };
+        failure.at(t)
     }
 }

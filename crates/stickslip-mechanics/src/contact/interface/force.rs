@@ -131,6 +131,10 @@ impl Force for Interface {
         self.culprits()
     }
 
+    fn place(&self, point: usize) -> Option<Culprit> {
+        (point < self.points.len()).then(|| self.culprit(point))
+    }
+
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
         Some(self)
     }

@@ -90,6 +90,11 @@ impl Interface {
         all.into_iter().map(culprit).collect()
     }
 
+    /// A point as a place to look at.
+    pub(super) fn culprit(&self, i: usize) -> Culprit {
+        culprit(self.evidence(i))
+    }
+
     /// Statuses at the last evaluation, or at the last accepted state where there is none.
     pub fn statuses(&self) -> Vec<Status> {
         let (history, cache) = (&self.history, &self.cache);

@@ -8,6 +8,7 @@
 //! Its unknowns are all points that are or may come to be pressed. Where a solution for each of them costs more than another attempt would, they are those
 //! that do not settle, and the others surround them as they are.
 
+mod account;
 mod place;
 
 use super::attempt::Attempt;
@@ -16,9 +17,10 @@ use super::equilibrium::{equilibrium, stalled};
 use super::progress::Converged;
 use super::rounds::rounds;
 use super::settings::Settings;
-use crate::friction::{FrictionProblem, Solution, solve};
+use crate::friction::{FrictionProblem, solve};
 use crate::math::vector::dot;
 use crate::system::{Assembler, Cause, ContactBlock, Stage, StepFailure};
+pub(super) use account::Account;
 use place::{At, Place};
 
 /// Most unknowns of a friction problem: solvers take their cube.
@@ -36,9 +38,6 @@ const COLUMN: f64 = 1e-9;
 /// Change of the forces from one problem to the next, relative to their size, that counts as none.
 const SETTLED: f64 = 1e-6;
 
-/// What stands for a solver where none was needed.
-const FIRST_GUESS: &str = "first guess";
-
 /// A point, and what it carries.
 type Found = (At, [f64; 3]);
 
@@ -48,35 +47,6 @@ struct Points {
     restless: Vec<At>,
     /// Whether bodies are held by nothing else.
     loose: bool,
-}
-
-/// What has come of the friction problems of an increment.
-#[derive(Default)]
-pub(super) struct Account {
-    /// The last of them.
-    pub last: Option<FrictionProblem>,
-    /// The solver that one of them took and that comes last in the portfolio: its place there, from 1, and its name.
-    taken: (usize, String),
-}
-
-impl Account {
-    /// The solver without which one of the problems would not have been solved, and which comes last in the portfolio.
-    pub fn solver(&self) -> String {
-        match self.taken.0 {
-            0 => FIRST_GUESS.into(),
-            _ => self.taken.1.clone(),
-        }
-    }
-
-    /// Takes note of a problem and its solution.
-    fn note(&mut self, problem: FrictionProblem, solution: &Solution) {
-        self.last = Some(problem);
-        if let Some(tried) = solution.tried.last()
-            && solution.tried.len() > self.taken.0
-        {
-            self.taken = (solution.tried.len(), tried.solver.clone());
-        }
-    }
 }
 
 /// Equilibria by friction problems, one after the other as [`rounds`] asks for them, where Newton's method has failed for some cause; `None` where it is not
@@ -110,7 +80,8 @@ fn settle(
     points: &Points,
     account: &mut Account,
 ) -> Result<bool, StepFailure> {
-    let mut last: Vec<Found> = Vec::new();
+    let (mut before, mut last): (Vec<Found>, Vec<Found>) = Default::default();
+    let mut done = false;
     let mut residuals = Vec::new();
     let mut relaxation = Relaxation::default();
     while residuals.len() < attempt.settings.max_iterations && !stalled(&residuals) {
@@ -118,18 +89,20 @@ fn settle(
             return Ok(false);
         };
         residuals.push(pass.residual);
-        if pass.residual <= 1.0 {
+        done = pass.residual <= 1.0;
+        if done {
             break;
         }
         let Some(next) = pass.solve((points, &last), &mut relaxation, account)? else {
             return Ok(false);
         };
-        let done = settled(&last, &next);
-        last = next;
+        done = settled(&last, &next);
+        before = std::mem::replace(&mut last, next);
         if done {
             break;
         }
     }
+    account.row(done, (&before, &last));
     Ok(true)
 }
 
@@ -304,7 +277,8 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             .flat_map(|p| known(p).map_or([0.0; 3], |(_, f)| *f).into_iter().take(d))
             .collect();
         let solution = solve(&problem, Some(&guess), ERROR);
-        account.note(problem, &solution);
+        let points: Vec<At> = chosen.iter().map(|p| p.at).collect();
+        account.note(problem, &points, &solution);
         if !solution.solved {
             let sentence = format!(
                 "no solver ends the friction problem of {} points; its error is still {:.1e}",
@@ -319,6 +293,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             .map(|(p, r)| (p.at, [0, 1, 2].map(|q| r.get(q).copied().unwrap_or(0.0))))
             .collect();
         let du = step(&mut linear, (&chosen, &found), free, relaxation)?;
+        account.step(du.iter().fold(0.0, |m, u| f64::max(m, u.abs())));
         let carried: Vec<Found> = others.iter().map(|p| (p.at, p.carried(&du))).collect();
         adopt(linear.attempt, &counts, &[&found[..], &carried].concat());
         Ok(Some(found))

@@ -57,11 +57,26 @@ pub(crate) fn diagnose(
     } else {
         finding.message = format!("{}: {}", finding.message, failure.message);
     }
-    for (culprit, e) in failure.culprits.iter().zip(&evidence) {
-        finding = finding.blame(point(e, culprit.what.clone()));
+    // What the friction problem does not settle comes first: it knows all points together.
+    let otherwise = failure.otherwise.as_deref();
+    let first = otherwise.map_or(&[][..], |o| &o.culprits);
+    let mut named: Vec<&Evidence> = Vec::new();
+    for culprit in first.iter().chain(&failure.culprits) {
+        let Some(e) = culprit.evidence.as_deref() else {
+            continue;
+        };
+        let known = |n: &&Evidence| n.interface == e.interface && n.position == e.position;
+        if !named.iter().any(known) {
+            named.push(e);
+            finding = finding.blame(point(e, culprit.what.clone()));
+        }
+    }
+    if let Some(otherwise) = otherwise {
+        finding.message = format!("{}; {}", finding.message, otherwise.message);
     }
     // What helps against the failure does not help against the mistake that led to it.
     if !finding.cause.is_mistake() {
+        finding.advice.extend(otherwise.map(|o| o.help.clone()));
         finding.advice.extend(failure.help.clone());
     }
     finding.tried = tried(view, trial, attempt, counters);
