@@ -8,6 +8,8 @@ use std::sync::{Arc, Mutex};
 use stickslip::Error;
 use stickslip::assess::View;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
+use stickslip::model::Solution;
+use stickslip::problem::Problem;
 use stickslip::results::{Analysis, Event, Observer};
 use stickslip::run::{Simulation, Work};
 
@@ -161,6 +163,62 @@ fn an_interrupted_analysis_keeps_its_results_and_goes_on() {
     }
 }
 
+/// Runs a problem that asks the program whether to stop, and tells it of iterations; by question how many iterations it had heard of by then. It is
+/// stopped at one of the questions, if there is such.
+fn asked(problem: &Problem, stop: Option<usize>) -> (Vec<usize>, Simulation, Result<(), Error>) {
+    let (iterations, questions) = (Arc::new(AtomicUsize::new(0)), Arc::new(Mutex::new(vec![])));
+    let mut simulation = support::build(problem).unwrap_or_else(|e| panic!("{e}"));
+    let heard = Arc::clone(&iterations);
+    simulation.set_watch(Arc::new(move |work: &Work| {
+        if let Work::Iteration(_) = work {
+            heard.fetch_add(1, Ordering::Relaxed);
+        }
+    }));
+    let all = Arc::clone(&questions);
+    simulation.set_interrupt(Arc::new(move || {
+        let mut all = all.lock().expect("one thread");
+        all.push(iterations.load(Ordering::Relaxed));
+        stop == Some(all.len() - 1)
+    }));
+    let outcome = simulation.run(&mut []);
+    let questions = questions.lock().expect("one thread").clone();
+    (questions, simulation, outcome)
+}
+
+#[test]
+fn a_search_by_forces_is_interrupted_between_two_columns_of_its_operator() {
+    for method in [Solution::Condensed, Solution::Sparse] {
+        let greco = include_str!("chatter/greco.toml").replace("[32, 32]", "[20, 20]");
+        let mut problem = support::problem(&greco);
+        problem.solver.method = method;
+        // Too few for plain iteration.
+        problem.solver.max_iterations = 3;
+        let (questions, whole, outcome) = asked(&problem, None);
+        outcome.unwrap_or_else(|e| panic!("{e}"));
+        // Where nobody hears of an iteration columns are solved for: one for each of some dozens of forces.
+        let streak = |from: usize| {
+            let same = questions[from..].iter();
+            same.take_while(|n| **n == questions[from]).count()
+        };
+        let begin = (0..questions.len()).max_by_key(|&k| (streak(k), usize::MAX - k));
+        let begin = begin.expect("questions");
+        assert!(streak(begin) > 20, "{method:?}: {}", streak(begin));
+
+        let middle = begin + streak(begin) / 2;
+        let (asked, mut stopped, outcome) = asked(&problem, Some(middle));
+        assert!(matches!(outcome, Err(Error::Interrupted(_))), "{method:?}");
+        // It is answered at once, and what is asked of no solution any more.
+        assert!(asked.len() <= middle + 2, "{} {middle}", asked.len());
+        assert_eq!(asked[..middle], questions[..middle]);
+        assert!(stopped.summary.fallbacks.len() < whole.summary.fallbacks.len());
+        assert_eq!(stopped.summary.cutbacks, 0);
+
+        stopped.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(stopped.frame.state.u, whole.frame.state.u, "{method:?}");
+        assert_eq!(stopped.summary.fallbacks, whole.summary.fallbacks);
+    }
+}
+
 #[test]
 fn an_analysis_can_be_interrupted_between_increments() {
     let stop = Arc::new(AtomicBool::new(true));
@@ -262,8 +320,8 @@ fn somebody_who_waits_hears_of_iterations_and_ways_while_they_go_on() {
     for method in ["condensed", "sparse"] {
         let mut problem = greco.clone();
         problem.solver.method = match method {
-            "sparse" => stickslip::model::Solution::Sparse,
-            _ => stickslip::model::Solution::Condensed,
+            "sparse" => Solution::Sparse,
+            _ => Solution::Condensed,
         };
         let heard = Heard::default();
         let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
