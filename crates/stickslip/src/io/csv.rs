@@ -185,6 +185,8 @@ pub fn split(line: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
 
     fn temporary(name: &str) -> PathBuf {
