@@ -21,6 +21,9 @@ pub(crate) const AFTER: f64 = 1e-9;
 /// Lengths of the trial increments that find the forces of contact at the start, in first increments.
 const TRIALS: [f64; 2] = [0.1, 0.5];
 
+/// Length of the trial increment over which points without mass go where overlap presses them, in first increments: none to speak of.
+const AT_ONCE: f64 = 1e-3;
+
 /// Part of themselves by which these forces may differ between the two: those of an impact, which take the same momentum out of bodies in any
 /// time, differ by four fifths.
 const SUDDEN: f64 = 0.5;
@@ -55,14 +58,80 @@ impl Implicit {
             step.increments.initial,
         );
         frame.load = frame.external(model, t);
+        let pressed = self.press_light(model, frame, contact, solver, (t, dt));
         let evaluated = initial_contact(model, frame, contact, t, dt).map_err(|e| e.at(t))?;
         let before = std::mem::replace(&mut frame.contact, evaluated);
         match self.tried_contact(model, frame, contact, solver, dt) {
             Some(forces) => frame.contact = forces,
-            None => keep_light(model, frame, contact, solver, t, &before),
+            None => keep_light(model, frame, contact, solver, t, &pressed.unwrap_or(before)),
         }
         let lag = self.alphas.lag() * dt;
         initial_acceleration(model, frame, contact, solver, (t, lag)).map_err(|e| e.at(t).into())
+    }
+
+    /// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
+    /// is found. What that strains bodies by is work of the overlap. Damping has no part in it: it would make any work of what takes no time.
+    fn press_light(
+        &self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        (t, dt): (f64, f64),
+    ) -> Option<Vec<f64>> {
+        let (before, at) = at_start(frame, t, dt);
+        let stage = Stage {
+            from: &before,
+            at: &at,
+            dt,
+            rate: None,
+        };
+        let mut interfaces = contact.interfaces.iter_mut();
+        if !interfaces.any(|i| i.presses_light_points(&stage)) {
+            return None;
+        }
+        let trial = Trial {
+            from: frame.state.t,
+            to: frame.state.t + AT_ONCE * dt,
+        };
+        let couplings = contact.couplings.memory.clone();
+        let damping = solver.inertia.as_mut()?.damping.take();
+        let tried = self.euler().attempt(model, frame, contact, solver, trial);
+        solver.seen.clear();
+        contact.couplings.memory = couplings;
+        let inertia = solver.inertia.as_mut()?;
+        inertia.damping = damping;
+        // It knows of no damping.
+        inertia.forget_matrices();
+        let accepted = tried.ok()?;
+        for interface in &mut contact.interfaces {
+            let tried = interface.tried();
+            interface.adopt_light(&tried);
+        }
+        let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
+        for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
+            *u = *to;
+        }
+        let internal = times(&solver.stiffness, &frame.state.u);
+        let strain = 0.5 * dot(&frame.state.u, &internal);
+        let energy = &mut frame.ledger;
+        energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
+        frame.motion.internal = internal;
+        frame.motion.start.clone_from(&frame.state.u);
+        Some(accepted.contact)
+    }
+
+    /// The method of Euler with what else is chosen.
+    fn euler(&self) -> Implicit {
+        Implicit {
+            dynamic: Dynamic {
+                contact_at: ContactAt::End,
+                error: None,
+                events: None,
+                ..self.dynamic
+            },
+            alphas: BACKWARD,
+        }
     }
 
     /// The forces of the interfaces at the end of a short increment with the method of Euler: pressure holds what would go through, points stick that
@@ -81,15 +150,7 @@ impl Implicit {
         if !forces_are_sought(model, contact, inertia, t + AFTER * dt) {
             return None;
         }
-        let mut euler = Implicit {
-            dynamic: Dynamic {
-                contact_at: ContactAt::End,
-                error: None,
-                events: None,
-                ..self.dynamic
-            },
-            alphas: BACKWARD,
-        };
+        let mut euler = self.euler();
         let couplings = contact.couplings.memory.clone();
         let tried = TRIALS.map(|part| {
             let trial = Trial {
@@ -164,15 +225,8 @@ fn start_motion(
     solver.inertia = Some(inertia);
 }
 
-/// Forces of the interfaces at the start as the laws have them, slip at the velocities of the start. Where pressure or stick are multipliers the
-/// laws say nothing of them. What overlap stores enters the ledger.
-pub(crate) fn initial_contact(
-    model: &Model,
-    frame: &mut Frame,
-    contact: &mut Contact,
-    t: f64,
-    dt: f64,
-) -> Result<Vec<f64>, StepFailure> {
+/// Where bodies are at the start of a motion, and where they were `dt` before with the velocities that they have.
+fn at_start(frame: &Frame, t: f64, dt: f64) -> (State, State) {
     let State { u, v, .. } = &frame.state;
     let before = State {
         t: t - dt,
@@ -184,6 +238,20 @@ pub(crate) fn initial_contact(
         u: u.clone(),
         ..State::default()
     };
+    (before, at)
+}
+
+/// Forces of the interfaces at the start as the laws have them, slip at the velocities of the start. Where pressure or stick are multipliers the
+/// laws say nothing of them. What overlap stores enters the ledger.
+pub(crate) fn initial_contact(
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    t: f64,
+    dt: f64,
+) -> Result<Vec<f64>, StepFailure> {
+    let (before, at) = at_start(frame, t, dt);
+    let u = &frame.state.u;
     let stage = Stage {
         from: &before,
         at: &at,

@@ -138,6 +138,11 @@ impl Inertia {
             .collect()
     }
 
+    /// Drops the matrices of increments.
+    pub fn forget_matrices(&mut self) {
+        self.matrices.clear();
+    }
+
     /// Whether it serves a step with these settings.
     pub fn suits(&self, contact: &Contact, dynamic: &Dynamic) -> bool {
         self.mass_kind == dynamic.mass && self.redistributed == redistributed(contact, dynamic)

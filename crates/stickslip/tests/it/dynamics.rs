@@ -741,6 +741,58 @@ dynamic = {{ scheme.newmark = {{}}, mass = "{mass}" }}
     }
 }
 
+/// Points without mass are where overlap has pressed them when a motion begins: what springs of a penalty had stored before is nothing that the bodies ever get, and
+/// schemes that weigh elastic forces over an increment do not begin to swing.
+#[test]
+fn overlap_presses_points_without_mass_before_a_motion_begins() {
+    let mut strained = Vec::new();
+    for enforcement in [
+        "penalty = {}",
+        "penalty = { factor = 1e4 }",
+        "augmented-lagrangian = {}",
+    ] {
+        for scheme in ["newmark = {}", "generalised-alpha = { rho = 0.5 }"] {
+            let text = THROWN
+                .replace("LEFT", "-4e-3")
+                .replace("CONTACT", &format!("enforcement.{enforcement}"))
+                .replace("DURATION", "0.2")
+                .replace("LENGTH", "0.01")
+                .replace("DYNAMIC", &format!("scheme.{scheme}"));
+            let what = format!("{enforcement}, {scheme}");
+            let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let rows: Vec<_> = record.increments.iter().map(|(_, row)| row).collect();
+            let thrown = 0.5 * 0.251 * (1e-4 + 9e-6);
+            let now = |row: &support::Row| {
+                ["ALLKE", "ALLSE", "ALLCE"]
+                    .map(|e| value(row, e))
+                    .iter()
+                    .sum::<f64>()
+            };
+            strained.push(now(rows[0]) - thrown);
+            for row in rows {
+                let left = value(row, "ERESIDUAL").abs() / thrown;
+                assert!(left < 0.01, "{what}: {left:e}");
+                assert!(value(row, "EINITIAL") < 1.05 * thrown, "{what}");
+            }
+            // Pressure does not swing from the first increment to the second.
+            let force = |k: usize| value(&record.increments[k].1, "hit.CFN1");
+            assert!(
+                (force(1) / force(0) - 1.0).abs() < 0.1,
+                "{what}: {:e} and {:e}",
+                force(0),
+                force(1)
+            );
+        }
+    }
+    // The same work of the overlap, however it is resolved.
+    for work in &strained {
+        assert!(
+            (work / strained[4] - 1.0).abs() < 0.05 && *work > 0.0,
+            "{strained:?}"
+        );
+    }
+}
+
 /// Creep at a velocity of 1e-6 m/s over increments of 1e-8 s is a slip of 1e-14 m, of which rounding leaves a few digits: what an interface is said to carry is
 /// what it carries all the same.
 #[test]

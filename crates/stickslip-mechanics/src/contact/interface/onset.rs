@@ -49,6 +49,34 @@ impl Interface {
         Ok(self.initial_energy())
     }
 
+    /// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
+    pub fn presses_light_points(&mut self, stage: &Stage) -> bool {
+        if !self.schedule.active(stage.at.t) || self.history.acting || self.laws.tied {
+            return false;
+        }
+        self.prepare(stage);
+        self.begin();
+        let wants = Wants {
+            initial: true,
+            ..Wants::default()
+        };
+        let evaluations = self.evaluate_all(stage, wants);
+        let masses = self.directives.inertia.iter().zip(&self.points);
+        let mut points = evaluations.points.iter().zip(masses);
+        points.any(|(e, (mass, point))| *mass == 0.0 && e.over && e.gap < -TOUCHING * point.size)
+    }
+
+    /// Takes the tractions of an attempt as those from which points without mass go on: what presses them has pressed them before the motion begins.
+    pub fn adopt_light(&mut self, tried: &Tried) {
+        let masses = self.directives.inertia.iter();
+        let all = self.history.points.iter_mut().zip(&tried.0).zip(masses);
+        for ((history, &(status, pressure, shear)), _) in all.filter(|(_, m)| **m == 0.0) {
+            history.status = status;
+            history.pressure = pressure;
+            history.shear = shear;
+        }
+    }
+
     /// The tractions of the present attempt.
     pub fn tried(&self) -> Tried {
         let points = self.cache.last.points.iter();
