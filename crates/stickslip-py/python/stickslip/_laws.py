@@ -1,10 +1,19 @@
-"""Calls functions that stand for laws; the compiled part calls these with the arguments of all points at once."""
+"""Functions that stand for laws, and how they are called: the compiled part does so with the arguments of all points at once."""
 
 from __future__ import annotations
 
-from typing import Any, Callable
+from collections.abc import Mapping
+from typing import Any, Callable, Optional
 
 import numpy as np
+
+#: By interface its functions: ``normal``, ``friction``.
+Laws = Mapping[str, Mapping[str, Callable[..., Any]]]
+
+
+def given(laws: Optional[Laws]) -> dict[str, dict[str, Callable[..., Any]]]:
+    """The functions that are given, as the compiled part takes them."""
+    return {name: dict(of) for name, of in (laws or {}).items()}
 
 
 def _numbers(values: Any, count: int, what: str) -> bytes:

@@ -8,7 +8,8 @@ from typing import Any, Callable, Optional
 
 from . import _core
 from ._errors import Error
-from .problem import Laws, Problem
+from ._laws import Laws
+from .problem import Problem
 from .simulation import Simulation
 
 

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from . import _core
+from . import _core, _laws
+from ._laws import Laws
 from .mesh import Mesh
 from .simulation import Simulation
-
-Laws = Mapping[str, Mapping[str, Callable[..., Any]]]
 
 
 class Problem:
@@ -110,8 +109,8 @@ class Problem:
         factors
             Factors of bodies shared with other simulations, see `sweep`.
         """
-        functions = _functions(laws)
-        return Simulation(self._core.build(factors, functions), self, functions)
+        functions = _laws.given(laws)
+        return Simulation(self._core.build(factors, functions), self._core, functions)
 
     def __repr__(self) -> str:
         return "<stickslip.Problem>"
@@ -130,10 +129,6 @@ class Report(dict):  # type: ignore[type-arg]
 
 def _restored(state: bytes) -> Problem:
     return Problem(_core.Problem.restore(state))
-
-
-def _functions(laws: Optional[Laws]) -> dict[str, dict[str, Callable[..., Any]]]:
-    return {name: dict(of) for name, of in (laws or {}).items()}
 
 
 def _given(meshes: Optional[Mapping[str, Mesh]]) -> dict[str, _core.Mesh]:

@@ -8,17 +8,22 @@ import pickle
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, Union
 
 import numpy as np
 
-from . import _core
+from . import _core, _laws
+from ._laws import Laws
 from .mesh import _KINDS
 
 if TYPE_CHECKING:
     import pyvista
 
-    from .problem import Laws, Problem
+
+class _OfProblem(Protocol):
+    """A `Problem`, which makes simulations and so knows them; they know what is behind it."""
+
+    _core: _core.Problem
 
 
 @dataclass(frozen=True)
@@ -127,7 +132,7 @@ class Simulation:
     """
 
     def __init__(
-        self, core: _core.Simulation, problem: Problem, laws: dict[str, dict[str, Callable[..., Any]]]
+        self, core: _core.Simulation, problem: _core.Problem, laws: dict[str, dict[str, Callable[..., Any]]]
     ) -> None:
         self._core = core
         self._problem = problem
@@ -138,7 +143,7 @@ class Simulation:
     def resume(
         cls,
         directory: Union[str, os.PathLike[str]],
-        problem: Optional[Problem] = None,
+        problem: Optional[_OfProblem] = None,
         laws: Optional[Laws] = None,
         increments: Optional[int] = None,
     ) -> Simulation:
@@ -150,7 +155,7 @@ class Simulation:
         Parameters
         ----------
         problem
-            The problem, where it was given meshes, or where something has changed that may: ``output``, the duration of the step at hand, later
+            The `Problem`, where it was given meshes, or where something has changed that may: ``output``, the duration of the step at hand, later
             steps. If not given, the one that was run.
         laws
             The functions that it was built with, see `Problem.build`.
@@ -164,12 +169,9 @@ class Simulation:
         ProblemError
             If something has changed that must not.
         """
-        from .problem import Problem, _functions
-
-        if problem is None:
-            problem = Problem(_core.Problem.of_results(Path(directory)))
-        functions = _functions(laws)
-        return cls(problem._core.resume(None, functions, Path(directory), increments), problem, functions)
+        core = _core.Problem.of_results(Path(directory)) if problem is None else problem._core
+        functions = _laws.given(laws)
+        return cls(core.resume(None, functions, Path(directory), increments), core, functions)
 
     def __reduce__(self) -> tuple[Any, ...]:
         for name, of in self._laws.items():
@@ -181,7 +183,7 @@ class Simulation:
                         f"the {kind} law of interface `{name}` cannot be pickled: make it a function that a module has by name, "
                         "without what stands around it (no lambda, no function within a function)"
                     ) from error
-        return _restored, (self._problem, self._laws, self._core.state(), self._over)
+        return _restored, (self._problem.state(), self._laws, self._core.state(), self._over)
 
     def __iter__(self) -> Iterator[Step]:
         return self
@@ -336,9 +338,10 @@ class Simulation:
 
 
 def _restored(
-    problem: Problem, laws: dict[str, dict[str, Callable[..., Any]]], state: Optional[bytes], over: bool
+    problem_state: bytes, laws: dict[str, dict[str, Callable[..., Any]]], state: Optional[bytes], over: bool
 ) -> Simulation:
-    core = problem._core.build(None, laws) if state is None else problem._core.go_on(None, laws, state)
+    problem = _core.Problem.restore(problem_state)
+    core = problem.build(None, laws) if state is None else problem.go_on(None, laws, state)
     simulation = Simulation(core, problem, laws)
     simulation._over = over
     return simulation
