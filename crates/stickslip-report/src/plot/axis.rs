@@ -27,7 +27,7 @@ pub fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
     let text = if value == 0.0 {
         "0".into()
-    } else if (1e-3..1e6).contains(&size) {
+    } else if (1e-3..1e6).contains(&size) && fits(value, digits) {
         let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
         trimmed(&format!("{value:.after$}"))
     } else {
@@ -38,6 +38,12 @@ pub fn number(value: f64, digits: usize) -> String {
         }
     };
     text.replace('-', "−")
+}
+
+/// Whether a number has no digits left of the point beyond those that count.
+fn fits(value: f64, digits: usize) -> bool {
+    let rounded = format!("{value:.*e}", digits - 1);
+    value.abs() < 10f64.powi(digits as i32) || rounded.parse() == Ok(value)
 }
 
 fn trimmed(text: &str) -> String {
@@ -71,7 +77,9 @@ mod tests {
             (0.6000000000000001, "0.6"),
             (-1.25e-5, "−1.25e−5"),
             (1e9, "1e9"),
-            (123_456.0, "123456"),
+            (123_456.0, "1.235e5"),
+            (250_000.0, "250000"),
+            (9_876.0, "9876"),
             (0.012_346, "0.01235"),
         ] {
             assert_eq!(number(value, 4), text);
