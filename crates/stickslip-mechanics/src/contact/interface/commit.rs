@@ -9,8 +9,8 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
 
-/// Part of the force of a point that rounding may leave of what the laws answer, up to which they have the word.
-const ROUNDED: f64 = 1e-8;
+/// Part of the largest force of a point by which multipliers may differ from what the laws answer, and these have the word.
+const SAME: f64 = 1e-9;
 
 /// What the committed history of a point becomes, and what happened on the way, per area.
 struct Passed {
@@ -85,12 +85,17 @@ impl Interface {
         }
     }
 
-    /// Takes multipliers for the tractions where laws are so steep that what they answer is rounding to some digits: multipliers are what acts on the bodies.
+    /// Takes multipliers for the tractions where what the laws answer is not quite the same: because they are so steep that it is rounding to some digits, or
+    /// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
     fn trust_multipliers(&mut self) {
-        for e in &mut self.cache.last.points {
-            let size = e.multiplier.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+        let points = &mut self.cache.last.points;
+        let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+        let forces = points.iter().map(|e| size(&e.multiplier) * e.area);
+        let largest = forces.fold(0.0, f64::max);
+        for e in points {
             let open = e.response.status == Status::Open;
-            if e.saddle.is_some() && !open && e.rounding > ROUNDED * size * e.area {
+            let off = e.saddle.map_or(0.0, |(rest, _)| size(&rest) * e.area);
+            if !open && off > SAME * largest {
                 e.response.traction = e.multiplier;
             }
         }
