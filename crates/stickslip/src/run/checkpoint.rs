@@ -71,6 +71,8 @@ pub(super) struct Standing {
     pub accepted: usize,
     pub attempt: usize,
     pub opened: Option<(f64, i32)>,
+    pub vain: bool,
+    pub too_long: f64,
     pub tight: bool,
     pub failed: Option<Failed>,
 }
@@ -104,6 +106,8 @@ crate::keep!(Standing {
     accepted,
     attempt,
     opened,
+    vain,
+    too_long,
     tight,
     failed
 });

@@ -21,9 +21,12 @@ pub(super) struct Increments {
     pub(super) stepper: Stepper,
     pub(super) accepted: usize,
     pub(super) attempt: usize,
-    /// By how much the balance of energies opened over the first attempt at the increment at hand that was weighed and found too open, and how often it
-    /// was halved since.
+    /// By how much the balance of energies opened over the last increment that was found too long, and how many halvings in a row had not helped by then.
     pub(super) opened: Option<(f64, i32)>,
+    /// Smaller increments make the balance of energies open no less.
+    pub(super) vain: bool,
+    /// The length of that increment; infinite before there was one.
+    pub(super) too_long: f64,
     /// The last increment must not be followed by a longer one.
     pub(super) tight: bool,
     /// An attempt that failed, kept until the increments before it are reported.
@@ -41,6 +44,8 @@ impl Increments {
             accepted: 0,
             attempt: 1,
             opened: None,
+            vain: false,
+            too_long: f64::INFINITY,
             tight: false,
             failed: None,
         }
@@ -53,6 +58,8 @@ impl Increments {
             accepted: self.accepted,
             attempt: self.attempt,
             opened: self.opened,
+            vain: self.vain,
+            too_long: self.too_long,
             tight: self.tight,
             failed: self.failed.clone(),
         }
@@ -65,6 +72,8 @@ impl Increments {
             accepted,
             attempt,
             opened,
+            vain,
+            too_long,
             tight,
             failed,
         } = standing;
@@ -74,6 +83,8 @@ impl Increments {
             accepted,
             attempt,
             opened,
+            vain,
+            too_long,
             tight,
             failed,
         }

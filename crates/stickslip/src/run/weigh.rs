@@ -18,11 +18,17 @@ const SHARE: f64 = 0.5;
 /// By what twice the increment makes its error larger, that of all schemes here being of the third order.
 const ORDER: f64 = 8.0;
 
+/// Part of themselves by which lengths differ that are the same but for rounding of times.
+const ROUNDED: f64 = 1e-6;
+
 /// Increments over the time that the fastest mass on a spring of contact takes for a radian, up to which they resolve it.
 const RESOLVED: f64 = 1.0;
 
-/// Halvings that may be of no use because of where in an increment a point opens or closes.
-const SPOILT: i32 = 2;
+/// The power of the increment with which its error has to fall for halving to help: errors of the first power add up to the same, however short increments are.
+const HELPS: f64 = 1.5;
+
+/// Halvings in a row that did not help, after which they are in vain; fewer may be because of where in an increment a point opens or closes.
+const USELESS: i32 = 4;
 
 impl Simulation {
     /// Commits an increment in motion, or takes it back as one to be made smaller.
@@ -44,24 +50,26 @@ impl Simulation {
         self.contact.commit(&stage);
         if let Some(before) = before {
             let [opened, may] = self.opened(trial, &accepted);
-            let half = 0.5 * (trial.to - trial.from);
+            let length = trial.to - trial.from;
             let resolved = opened <= may || self.resolves(trial);
-            if running.too_open((opened, may), resolved) && half >= self.step().increments.smallest
-            {
-                let known = running.opened.filter(|_| resolved);
-                let (first, halvings) = known.unwrap_or((opened, 0));
-                running.opened = Some((first, halvings + 1));
+            let smallest = 0.5 * length < self.step().increments.smallest;
+            let was_vain = running.vain;
+            if running.is_to_halve(length, (opened, may), resolved, smallest) {
                 self.exchange(before);
                 let message = format!(
                     "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
                 );
                 return Err(StepFailure::new(Cause::TooFar, message));
             }
-            // Where the limit is passed already increments are as long as they would be without it.
-            accepted.hard |= may > 0.0 && opened > may / ORDER;
+            // Where the limit is passed already, or smaller increments are in vain, they are as long as they would be without it; and up to a length that was
+            // found too long nobody knows that one is.
+            let long = 2.0 * length >= running.too_long * (1.0 - ROUNDED);
+            accepted.hard |= long && may > 0.0 && !running.vain && opened > may / ORDER;
+            if running.vain && !was_vain {
+                running.stepper.bound(length * f64::powi(2.0, USELESS));
+            }
         }
         running.tight = accepted.hard;
-        running.opened = None;
         self.integration.as_dyn_mut().accept();
         Ok(accepted)
     }
@@ -141,23 +149,39 @@ fn allowance(limit: f64, open: f64, part: f64) -> f64 {
 }
 
 impl Increments {
-    /// Whether the balance opens too far, and a smaller increment would help. Where the limit is passed already none does; and where halving makes the
-    /// error no smaller than by half each time, many small increments come to no less than one. What opens or closes on the way may spoil single ones,
-    /// and increments that do not resolve how masses swing on the springs of contact are all alike.
-    fn too_open(&self, (opened, may): (f64, f64), resolved: bool) -> bool {
-        let helps = match self.opened {
-            Some((first, halvings)) if resolved => {
-                opened < first * f64::powi(0.5, halvings - SPOILT)
+    /// Whether the balance opens too far over an increment of this length, and a smaller one would help. Where the limit is passed already none does; and where
+    /// halving makes the error no smaller than by half, time after time, many small increments come to no less than one: they are in vain until one opens the
+    /// balance by no more than it may. What opens or closes on the way may spoil single ones, and increments that do not resolve how masses swing on the
+    /// springs of contact are all alike.
+    fn is_to_halve(
+        &mut self,
+        length: f64,
+        (opened, may): (f64, f64),
+        resolved: bool,
+        smallest: bool,
+    ) -> bool {
+        if may <= 0.0 || opened <= may {
+            self.vain = false;
+            return false;
+        }
+        let halved = (2.0 * length - self.too_long).abs() <= ROUNDED * self.too_long;
+        let useless = match self.opened {
+            Some((before, useless)) if halved && opened > before * f64::powf(0.5, HELPS) => {
+                useless + 1
             }
-            _ => true,
+            _ => 0,
         };
-        may > 0.0 && opened > may && helps
+        self.opened = resolved.then_some((opened, useless));
+        self.too_long = length;
+        self.vain |= resolved && useless >= USELESS;
+        !self.vain && !smallest
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::allowance;
+    use super::{Increments, allowance};
+    use crate::time::Stepper;
 
     /// Increments that each use up what they may come near the limit at the end of the time, not long before.
     #[test]
@@ -175,5 +199,43 @@ mod tests {
         // An impact may take more, and where the limit is passed nothing is left.
         assert!(allowance(limit, 0.0, 1e-6) > 0.2);
         assert!(allowance(limit, 1.1, 0.5) < 0.0);
+    }
+
+    /// How often an increment is halved that opens the balance by this power of its length, a thousand times as much as it may at first, and whether it was in vain.
+    fn halved(power: i32) -> (i32, bool) {
+        let sizes = crate::time::Increments {
+            initial: 1.0,
+            smallest: 0.0,
+            largest: 1.0,
+        };
+        let mut running = Increments {
+            stepper: Stepper::new(0.0, vec![1.0], sizes),
+            accepted: 0,
+            attempt: 1,
+            opened: None,
+            vain: false,
+            too_long: f64::INFINITY,
+            tight: false,
+            failed: None,
+        };
+        for halvings in 0..100 {
+            let length = f64::powi(0.5, halvings);
+            // What it may is a part of what the limit leaves for the time that is left.
+            let balance = (1e3 * length.powi(power), length);
+            if !running.is_to_halve(length, balance, true, false) {
+                return (halvings, running.vain);
+            }
+        }
+        (100, running.vain)
+    }
+
+    #[test]
+    fn halving_ends_where_many_small_increments_come_to_no_less_than_one() {
+        let (halvings, vain) = halved(1);
+        assert!(vain && halvings < 8, "{halvings}");
+        for power in [2, 3] {
+            let (halvings, vain) = halved(power);
+            assert!(!vain && halvings < 12, "{power}: {halvings}");
+        }
     }
 }
