@@ -147,51 +147,20 @@ fn example(name: &str, overrides: &[&str]) {
     check(&format!("{name} {overrides:?}"), &problem, &folder, 3);
 }
 
-/// A block on a base through steps of all kinds, with a law that changes and a spring that joins them.
-const KINDS: &str = r#"
-format = 1
-model.space = "plane-strain"
-solver.method = "METHOD"
-quality.gate = "off"
+/// The block that is dragged, through steps of all kinds, with a law that changes.
+fn kinds_of(method: &str) -> String {
+    let numbers = ["[9, 3]", "[4, 4]", "2e9", "2e-3", "3"];
+    let text = support::dragged(method, numbers);
+    text.replace("solver.method", "quality.gate = \"off\"\nsolver.method") + STEPS
+}
 
-[body.base]
-generate.rectangle = { from = [0, -1], to = [3, 0], cells = [9, 3] }
-material = "rubber"
-
-[body.block]
-generate.rectangle = { from = [1, 0], to = [2, 1], cells = [4, 4] }
-material = "rubber"
-rayleigh = { mass = 1, stiffness = 1e-4 }
-
-[material.rubber]
+const STEPS: &str = r#"
+[material.m]
 isotropic = { young = 2e7, poisson = 0.3, density = 1000 }
 
-[interface.press]
-secondary = "block.bottom"
-primary = "base.top"
-normal.linear = { c = 2e9 }
-friction.coulomb = { mu = 0.3 }
-
-[support.base]
-set = "base.bottom"
-x = 0
-y = 0
-
-[support.top-y]
-set = "block.top"
-y = -1e-3
-amplitude = "press"
-
-[support.top-x]
-set = "block.top"
-x = 2e-3
-amplitude = "drag"
-
-[amplitude.press]
-table = [[0, 0], [1, 1]]
-
-[amplitude.drag]
-table = [[1, 0], [3, 1]]
+[body.block.rayleigh]
+mass = 1
+stiffness = 1e-4
 
 [[step]]
 increments.fixed = 3
@@ -220,7 +189,7 @@ dynamic.scheme.central-difference = {}
 "#;
 
 fn kinds(method: &str) -> Problem {
-    support::problem(&KINDS.replace("METHOD", method))
+    support::problem(&kinds_of(method))
 }
 
 #[test]
@@ -318,8 +287,7 @@ impl Observer for Written {
 fn what_a_run_writes_is_told_before_it() {
     for method in ["condensed", "sparse", "multigrid"] {
         // Large enough for what is beside the vectors not to count.
-        let text = KINDS
-            .replace("METHOD", method)
+        let text = kinds_of(method)
             .replace(
                 "quality.gate",
                 "output.checkpoint.increments = 1\nquality.gate",
@@ -354,9 +322,7 @@ fn a_checkpoint_of_another_model_is_refused() {
         run.advance(&mut []).unwrap_or_else(|e| panic!("{e}"));
     }
     let bytes = run.checkpoint().expect("between increments").to_bytes();
-    let other = KINDS
-        .replace("METHOD", "sparse")
-        .replace("[4, 4]", "[4, 5]");
+    let other = kinds_of("sparse").replace("[4, 4]", "[4, 5]");
     let setup = support::problem(&other).build(Path::new("."));
     let checkpoint = Checkpoint::from_bytes(&bytes).expect("its bytes");
     let library = Arc::new(Library::new(Library::small_limit()));
@@ -373,7 +339,7 @@ fn a_checkpoint_of_another_model_is_refused() {
 fn what_is_still_to_come_may_change_and_the_rest_not() {
     let before = kinds("sparse");
     let keys = |from: &str, to: &str, step: usize| -> Vec<String> {
-        let text = KINDS.replace("METHOD", "sparse").replace(from, to);
+        let text = kinds_of("sparse").replace(from, to);
         let after = support::problem(&text);
         let found = changed_keys(&before, &after, (step, false), 0.5 + step as f64);
         found.into_iter().map(|f| f.key).collect()

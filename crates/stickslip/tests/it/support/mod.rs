@@ -16,6 +16,53 @@ pub fn problem(text: &str) -> Problem {
     Problem::from_toml(text, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// A block that is pressed on a base over the first second and dragged along it after that, of a material `m`. Numbers are cells of the base and of the block, the
+/// stiffness of the interface, the way, and the time at which it is covered; material and steps are to follow.
+pub fn dragged(method: &str, [base, block, stiffness, way, end]: [&str; 5]) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+solver.method = "{method}"
+
+[body.base]
+generate.rectangle = {{ from = [0, -1], to = [3, 0], cells = {base} }}
+material = "m"
+
+[body.block]
+generate.rectangle = {{ from = [1, 0], to = [2, 1], cells = {block} }}
+material = "m"
+
+[interface.press]
+secondary = "block.bottom"
+primary = "base.top"
+normal.linear = {{ c = {stiffness} }}
+friction.coulomb = {{ mu = 0.3 }}
+
+[support.base]
+set = "base.bottom"
+x = 0
+y = 0
+
+[support.top-y]
+set = "block.top"
+y = -1e-3
+amplitude = "press"
+
+[support.top-x]
+set = "block.top"
+x = {way}
+amplitude = "drag"
+
+[amplitude.press]
+table = [[0, 0], [1, 1]]
+
+[amplitude.drag]
+table = [[1, 0], [{end}, 1]]
+"#
+    )
+}
+
 /// A folder for temporary files, empty.
 pub fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
