@@ -142,6 +142,26 @@ macro_rules! keep {
             }
         }
     };
+    // One of a list, by the name it has there: what stands in the list is no layout, as its order does not count.
+    ($name:ty = one of $all:expr, by $called:expr) => {
+        impl $crate::keep::Keep for $name {
+            fn keep(&self, out: &mut Vec<u8>) {
+                let called: fn(&Self) -> &'static str = $called;
+                $crate::keep::Keep::keep(&called(self).to_string(), out);
+            }
+
+            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
+                let called: fn(&Self) -> &'static str = $called;
+                let name: String = $crate::keep::Keep::back(from)?;
+                let mut all = $all.iter().copied();
+                all.find(|one| called(one) == name).ok_or($crate::keep::Broken)
+            }
+
+            fn lay_out(out: &mut $crate::keep::Layout) {
+                <String as $crate::keep::Keep>::lay_out(out);
+            }
+        }
+    };
     // Variants by their place in this list; what they carry is named in brackets. The list is the only one: a variant that it lacks does not compile.
     ($name:ty [ $($variant:ident $(( $($carried:ident),+ ))?),* $(,)? ]) => {
         impl $crate::keep::Keep for $name {

@@ -10,7 +10,6 @@ use super::figures::{
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
-use crate::keep::{Broken, Keep, Kept, Layout};
 use crate::math::norm;
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
@@ -426,24 +425,7 @@ pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
     .collect()
 }
 
-/// By its name.
-impl Keep for &'static Kind {
-    fn keep(&self, out: &mut Vec<u8>) {
-        self.name.to_string().keep(out);
-    }
-
-    fn back(from: &mut Kept) -> Result<Self, Broken> {
-        let name = String::back(from)?;
-        let mut all = figures::ALL.iter();
-        let kind: Option<&'static Kind> = all.find(|kind| kind.name == name).copied();
-        kind.ok_or(Broken)
-    }
-
-    fn lay_out(out: &mut Layout) {
-        String::lay_out(out);
-    }
-}
-
+crate::keep!(&'static Kind = one of figures::ALL, by |kind| kind.name);
 crate::keep!(Figure {
     figure,
     place,
@@ -463,6 +445,7 @@ crate::keep!(Gate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::keep::{Keep, Kept};
 
     #[test]
     fn every_figure_comes_back_as_what_it_was() {

@@ -4,8 +4,6 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::keep::{Broken, Keep, Kept, Layout};
-
 /// Makes [`DoctorCause`] of rows: meaning, variant, name in files, and `mistake` where advice about how a model is solved does not help.
 macro_rules! causes {
     ($($(#[doc = $meaning:literal])+ $cause:ident = $name:literal $($mistake:ident)?,)*) => {
@@ -147,25 +145,12 @@ impl fmt::Display for DoctorCause {
     }
 }
 
-impl Keep for DoctorCause {
-    fn keep(&self, out: &mut Vec<u8>) {
-        self.name().to_string().keep(out);
-    }
-
-    fn back(from: &mut Kept) -> Result<Self, Broken> {
-        let name = String::back(from)?;
-        let mut all = DoctorCause::ALL.iter();
-        all.find(|c| c.name() == name).copied().ok_or(Broken)
-    }
-
-    fn lay_out(out: &mut Layout) {
-        String::lay_out(out);
-    }
-}
+crate::keep!(DoctorCause = one of DoctorCause::ALL, by |cause| cause.name());
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::keep::{Keep, Kept};
 
     #[test]
     fn every_cause_has_a_name_and_a_number_of_its_own() {
