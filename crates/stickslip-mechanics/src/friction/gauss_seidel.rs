@@ -14,7 +14,7 @@ pub struct GaussSeidel {
 /// Sweeps between two looks at the error, which costs as much as a sweep.
 const LOOK: usize = 10;
 
-/// Looks after which it must have fallen to a part of what it was, or the sweeps gain nothing.
+/// Looks after which it must have fallen to a part of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of them.
 const PATIENCE: usize = 10;
 
 /// That part.
@@ -34,6 +34,7 @@ impl FrictionSolver for GaussSeidel {
         let own: Vec<[f64; 9]> = (0..problem.points()).map(|k| problem.own(k)).collect();
         let mut forces = start.to_vec();
         let mut best = Best::new(&forces, problem.error(&forces));
+        let patience = PATIENCE.max(self.sweeps / (10 * LOOK));
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
             for (k, block) in own.iter().enumerate() {
@@ -44,7 +45,7 @@ impl FrictionSolver for GaussSeidel {
             }
             best.see(&forces, problem.error(&forces));
             seen.push(best.error());
-            let gains = match seen.len().checked_sub(PATIENCE + 1) {
+            let gains = match seen.len().checked_sub(patience + 1) {
                 Some(before) => best.error() <= GAIN * seen[before],
                 None => true,
             };

@@ -70,6 +70,30 @@ fn problems_of_siconos_are_solved() {
     }
 }
 
+/// Friction on two sides is all that holds the block: Newton's method finds no way, and only patience does.
+#[test]
+fn a_block_that_is_dragged_between_two_others_is_solved() {
+    let problem = text::read(include_str!("../problems/block_between.txt")).unwrap();
+    let solution = solve(&problem, None, 1e-10);
+    assert!(solution.solved, "{:?}", solution.tried);
+    let size = |of: &[f64]| of.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let (small, few) = (1e-8 * size(&problem.free), 1e-8 * size(&solution.forces));
+    for (k, law) in problem.laws.iter().enumerate() {
+        let of = |x: &[f64]| (x[2 * k], x[2 * k + 1]);
+        let ((push, shear), (gap, slip)) = (of(&solution.forces), of(&solution.motion));
+        let (limit, _) = law.limit(push);
+        assert!(
+            push >= 0.0 && gap > -small && (push < few || gap < small),
+            "{k}"
+        );
+        assert!(shear.abs() <= limit + few, "{k}");
+        assert!(
+            push == 0.0 || slip.abs() < small || (limit - shear.abs() < few && shear * slip <= 0.0),
+            "{k}"
+        );
+    }
+}
+
 #[test]
 fn stacks_of_boxes_are_solved() {
     for seed in 0..40 {
