@@ -154,6 +154,13 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
             let dt = results.at("DT", state);
             let inertia = results.case.steps[step].dynamic();
             let turn = turned(results, i);
+            // In explicit steps it is springs that hold them.
+            let hard = laws.normal.0 == "unilateral" && !results.case.steps[step].explicit();
+            if hard && !pair.damped && !pair.two_sided {
+                let depths = nodes.iter().filter(|n| now[**n].pressure > 0.0);
+                let deepest = depths.fold(0.0_f64, |m, n| m.max(-now[*n].gap));
+                report.note("yielding", name, deepest / scale.approach, state.t);
+            }
             for node in &nodes {
                 let last = before.as_ref().map(|b| b[*node]);
                 one(

@@ -129,6 +129,12 @@ pub const KINDS: &[Kind] = &[
         "depth of points of either side in the other beyond what the law has, of the approach",
     ),
     kind(
+        "yielding",
+        5e-3,
+        0.1,
+        "depth of points that a law does not let into the other side, of the approach",
+    ),
+    kind(
         "apart",
         0.05,
         0.5,
