@@ -1,10 +1,12 @@
 //! What has come of the friction problems of an increment: who solved them, and where they led to nothing.
 
-use super::place::At;
-use super::{ERROR, Found};
+use super::place::{At, Found};
 use crate::friction::{FrictionProblem, Solution, Tried, natural_map};
 use crate::math::vector;
 use crate::system::{Culprit, Otherwise, StepFailure};
+
+/// Error to which friction problems are solved.
+pub(super) const ERROR: f64 = 1e-8;
 
 /// Most points that a failure names.
 const NAMED: usize = 5;

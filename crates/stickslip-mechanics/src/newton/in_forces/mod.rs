@@ -21,7 +21,8 @@ use crate::friction::{FrictionProblem, solve};
 use crate::math::vector::dot;
 use crate::system::{Assembler, Cause, ContactBlock, Stage, StepFailure};
 pub(super) use account::Account;
-use place::{At, Place};
+use account::ERROR;
+use place::{At, Found, Place};
 
 /// Most unknowns of a friction problem: solvers take their cube.
 const MOST_UNKNOWNS: usize = 900;
@@ -29,17 +30,11 @@ const MOST_UNKNOWNS: usize = 900;
 /// Stiffness by which a point is held where it is, relative to that of the body beneath: that of anchors.
 const HOLD: f64 = 1e-3;
 
-/// Error to which friction problems are solved.
-const ERROR: f64 = 1e-8;
-
 /// Residual to which the columns of the operator are solved.
 const COLUMN: f64 = 1e-9;
 
 /// Change of the forces from one problem to the next, relative to their size, that counts as none.
 const SETTLED: f64 = 1e-6;
-
-/// A point, and what it carries.
-type Found = (At, [f64; 3]);
 
 /// What is known of points from the attempt that failed.
 struct Points {

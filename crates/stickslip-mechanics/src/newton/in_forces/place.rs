@@ -7,6 +7,9 @@ use crate::system::{Assembler, ContactBlock, PointAlone, Tangent};
 /// Force, and point of that force.
 pub(super) type At = (usize, usize);
 
+/// A point, and what it carries.
+pub(super) type Found = (At, [f64; 3]);
+
 /// A point of one of the forces.
 pub(super) struct Place {
     pub at: At,
