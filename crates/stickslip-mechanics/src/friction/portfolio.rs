@@ -7,7 +7,7 @@ use super::solver::FrictionSolver;
 /// One solver that was tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
-    /// Its name, and where it started if that was where sweeps had come to.
+    /// Its name, and where it started if that was not the guess.
     pub solver: String,
     /// Iterations or sweeps.
     pub iterations: usize,
@@ -115,7 +115,25 @@ fn members() -> Vec<(Box<dyn FrictionSolver>, Start)> {
 /// A member of the portfolio by name: two may be the same solver with another start.
 fn called(solver: &dyn FrictionSolver, start: Start) -> String {
     match start {
-        Start::Guess | Start::Best => solver.name().into(),
+        Start::Guess => solver.name().into(),
+        Start::Best => format!("{} from the best", solver.name()),
         Start::Swept => format!("{} after sweeps", solver.name()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{called, members};
+    use std::collections::BTreeSet;
+
+    /// Increments are counted by these names.
+    #[test]
+    fn no_two_members_have_one_name() {
+        let all = members();
+        let names: BTreeSet<String> = all
+            .iter()
+            .map(|(s, from)| called(s.as_ref(), *from))
+            .collect();
+        assert_eq!(names.len(), all.len(), "{names:?}");
     }
 }
