@@ -20,6 +20,8 @@ pub struct ReducedSystem {
     active: Option<Active>,
     /// `None` as well where the last solution took too many iterations.
     preconditioner: Option<Preconditioner>,
+    /// What the preconditioner was made of where it is made anew every time: the columns of a friction problem have the same.
+    made_of: Vec<ContactBlock>,
 }
 
 /// What a solution consists of.
@@ -141,6 +143,7 @@ impl ReducedSystem {
         Ok(ReducedSystem {
             active: Some(active),
             preconditioner,
+            made_of: Vec::new(),
         })
     }
 
@@ -177,8 +180,13 @@ impl ReducedSystem {
         if !suits {
             self.active = None;
         }
-        if !suits || ReducedSystem::is_tiny(blocks, springs.len()) {
+        let tiny = ReducedSystem::is_tiny(blocks, springs.len());
+        if !suits || (tiny && self.made_of != blocks) {
             self.preconditioner = None;
+        }
+        self.made_of.clear();
+        if tiny {
+            self.made_of.extend_from_slice(blocks);
         }
         let active = &*self
             .active
