@@ -48,24 +48,18 @@ pub fn creep(epsilon: f64, ratio: f64) -> f64 {
     epsilon * ratio / (1.0 + (1.0 - ratio).sqrt())
 }
 
-impl Regularised {
-    /// `f` of `φ(w) = f w`: `φ(|w|)/|w|`, which is `(2 - |w|/ε)/ε` at and near rest `[s/m]`.
-    fn secant(&self, speed: f64) -> f64 {
-        if speed <= self.epsilon {
-            (2.0 - speed / self.epsilon) / self.epsilon
-        } else {
-            1.0 / speed
-        }
-    }
-}
-
 impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
         let speed = motion.length(w);
         let epsilon = self.epsilon;
-        let (_, slope) = phi(epsilon, speed);
-        let f = self.secant(speed);
+        let (value, slope) = phi(epsilon, speed);
+        // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
+        let f = if speed <= epsilon {
+            (2.0 - speed / epsilon) / epsilon
+        } else {
+            value / speed
+        };
         let phi_vector = [f * w[0], f * w[1]];
         let mut state = SlipState {
             traction: [-limit * phi_vector[0], -limit * phi_vector[1]],
@@ -147,8 +141,8 @@ impl SlipRule for Regularised {
     }
 
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
-        let speed = motion.length(motion.slip) / motion.dt;
-        let slope = self.secant(speed) / motion.dt;
+        // the tangent at rest, φ ≈ 2 w/ε
+        let slope = 2.0 / (self.epsilon * motion.dt);
         let phi = motion.slip.map(|s| slope * s);
         SlipState {
             traction: phi.map(|phi| -limit * phi),
