@@ -372,12 +372,13 @@ fn ratio(simulation: &Simulation, mu: f64) -> (f64, usize) {
     })
 }
 
-/// A pad on a drum, and on a ball, that turn by `angle` an increment.
+/// A pad on a drum, and on a ball, that turn by `angle` an increment. What multipliers carry is within the limit as nearly as balance is met.
 fn pads(angle: f64, more: &str) -> [String; 2] {
     let turned = 2.0 * angle;
     let pad = format!(
         r#"
 format = 1
+solver.tolerance = 1e-12
 material.m.isotropic = {{ young = 1e4, poisson = 0.3 }}
 step = [{{ increments.fixed = 2 }}, {{ increments.fixed = 2 }}]
 interface.sole = {{ secondary = "pad.bottom", primary = "turning", friction.coulomb.mu = 0.3 }}

@@ -37,6 +37,7 @@ impl<'a> CondensedBulk<'a> {
         guess: Vec<f64>,
         scale: f64,
     ) -> Self {
+        system.begin();
         CondensedBulk {
             condensation,
             system,

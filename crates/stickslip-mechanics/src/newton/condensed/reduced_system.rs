@@ -152,6 +152,11 @@ impl ReducedSystem {
         *self = ReducedSystem::default();
     }
 
+    /// Forgets what need not outlast an increment, so that one that goes on from a checkpoint makes what one that was not stopped makes.
+    pub(super) fn begin(&mut self) {
+        self.made_of.clear();
+    }
+
     /// Whether so little is solved for that no accuracy need be saved.
     pub(super) fn is_tiny(blocks: &[ContactBlock], springs: usize) -> bool {
         3 * blocks.len() + springs <= TINY
