@@ -97,8 +97,8 @@ pub fn solve(problem: &FrictionProblem, guess: Option<&[f64]>, tolerance: f64) -
 /// The solvers in their order, and where they start.
 ///
 /// What is cheap and often enough comes first, what always gets somewhere last. Of 428 problems (18 of Siconos' test set, 410 random stacks of boxes, heaps of
-/// balls and walls with friction up to 1.5) each member ends some that those before it do not, and the proximal point iteration ends what is left. A block that is dragged between
-/// two others and held by nothing else was left even so: sweeps gain a little there each time, and get to the end.
+/// balls and walls with friction up to 1.5) each member ends some that those before it do not, and the proximal point iteration
+/// ends what is left. A block that is dragged between two others and held by nothing else was left even so: sweeps gain a little there each time, and get to the end.
 fn members() -> Vec<(Box<dyn FrictionSolver>, Start)> {
     let newton = |step, length| Box::new(NewtonInForces::new(step, length));
     vec![

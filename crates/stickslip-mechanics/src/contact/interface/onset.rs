@@ -1,6 +1,7 @@
 //! What acts in the first instant of a motion.
 
 use super::definition::Interface;
+use super::evaluation::Evaluations;
 use super::initial::TOUCHING;
 use super::scene::Wants;
 use crate::contact::response::Status;
@@ -21,13 +22,7 @@ impl Interface {
         if !self.schedule.active(stage.at.t) {
             return Ok(0.0);
         }
-        self.prepare(stage);
-        self.begin();
-        let wants = Wants {
-            initial: true,
-            ..Wants::default()
-        };
-        let evaluations = self.evaluate_all(stage, wants);
+        let evaluations = self.evaluate_initial(stage);
         if self.unknown() && self.laws.needs_normal_stiffness() {
             let points = evaluations.points.iter();
             let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
@@ -49,18 +44,23 @@ impl Interface {
         Ok(self.initial_energy())
     }
 
-    /// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
-    pub fn presses_light_points(&mut self, stage: &Stage) -> bool {
-        if !self.schedule.active(stage.at.t) || self.history.acting || self.laws.tied {
-            return false;
-        }
+    /// What laws say before anything is solved.
+    fn evaluate_initial(&mut self, stage: &Stage) -> Evaluations {
         self.prepare(stage);
         self.begin();
         let wants = Wants {
             initial: true,
             ..Wants::default()
         };
-        let evaluations = self.evaluate_all(stage, wants);
+        self.evaluate_all(stage, wants)
+    }
+
+    /// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
+    pub fn presses_light_points(&mut self, stage: &Stage) -> bool {
+        if !self.schedule.active(stage.at.t) || self.history.acting || self.laws.tied {
+            return false;
+        }
+        let evaluations = self.evaluate_initial(stage);
         let masses = self.directives.inertia.iter().zip(&self.points);
         let mut points = evaluations.points.iter().zip(masses);
         points.any(|(e, (mass, point))| *mass == 0.0 && e.over && e.gap < -TOUCHING * point.size)

@@ -186,12 +186,14 @@ impl ReducedSystem {
             self.active = None;
         }
         let tiny = ReducedSystem::is_tiny(blocks, springs.len());
-        if !suits || (tiny && self.made_of != blocks) {
+        let same = tiny && self.made_of == blocks;
+        if !suits || (tiny && !same) {
             self.preconditioner = None;
         }
-        self.made_of.clear();
-        if tiny {
-            self.made_of.extend_from_slice(blocks);
+        if !same {
+            self.made_of.clear();
+            let known = if tiny { blocks } else { &[] };
+            self.made_of.extend_from_slice(known);
         }
         let active = &*self
             .active
