@@ -54,6 +54,7 @@ references! {
     hinton_1976: "E. Hinton, T. Rock, O. C. Zienkiewicz, A note on mass lumping and related processes in the finite element method, Earthquake Engineering and Structural Dynamics 4 (1976) 245-249.",
     khenous_2008: "H. B. Khenous, P. Laborde, Y. Renard, Mass redistribution method for finite element contact problems in elastodynamics, European Journal of Mechanics A/Solids 27 (2008) 918-932.",
     kuettler_2008: "U. Küttler, W. A. Wall, Fixed-point fluid-structure interaction solvers with dynamic relaxation, Computational Mechanics 43 (2008) 61-72.",
+    kelley_1995: "C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM (1995).",
     kane_1999: "C. Kane, E. A. Repetto, M. Ortiz, J. E. Marsden, Finite element analysis of nonsmooth contact, Computer Methods in Applied Mechanics and Engineering 180 (1999) 1-26.",
     doyen_2011: "D. Doyen, A. Ern, S. Piperno, Time-integration schemes for the finite element dynamic Signorini problem, SIAM Journal on Scientific Computing 33 (2011) 223-249.",
     lanczos_1950: "C. Lanczos, An iteration method for the solution of the eigenvalue problem of linear differential and integral operators, Journal of Research of the National Bureau of Standards 45 (1950) 255-282.",

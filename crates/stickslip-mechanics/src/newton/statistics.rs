@@ -8,6 +8,8 @@ pub struct Statistics {
     pub augmentations: usize,
     /// Increments solved as friction problems, or tried to, where plain iteration had failed.
     pub fallbacks: usize,
+    /// Columns of the operators of friction problems.
+    pub columns: usize,
     /// Symbolic factorisations.
     pub analyses: usize,
     /// Numeric factorisations.
@@ -60,6 +62,7 @@ crate::keep!(Statistics {
     iterations,
     augmentations,
     fallbacks,
+    columns,
     analyses,
     factorisations,
     substructures_made,

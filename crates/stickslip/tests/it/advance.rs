@@ -168,6 +168,12 @@ fn a_search_by_forces_is_interrupted_between_two_columns_of_its_operator() {
         let begin = (0..questions.len()).max_by_key(|&k| (streak(k), usize::MAX - k));
         let begin = begin.expect("questions");
         assert!(streak(begin) > 20, "{method:?}: {}", streak(begin));
+        // One an increment for each component of a point, however many friction problems it takes.
+        let columns = whole.summary.solver.columns;
+        assert!(
+            columns > 20 && columns <= 2 * 21 * whole.summary.fallbacks.len(),
+            "{method:?}: {columns}"
+        );
 
         let middle = begin + streak(begin) / 2;
         let (asked, mut stopped, outcome) = asked(&problem, Some(middle));

@@ -1,0 +1,74 @@
+//! The linear problem of one pass: everything but the unknowns.
+
+use super::place::Place;
+use crate::newton::attempt::Attempt;
+use crate::newton::settings::Settings;
+use crate::system::{Assembler, Cause, StepFailure};
+
+/// Residual to which its solutions are found.
+const COLUMN: f64 = 1e-9;
+
+/// The linear problem of one pass.
+pub(super) struct Linear<'a, 'b, 's> {
+    pub attempt: &'a mut Attempt<'b, 's>,
+    /// Forces and tangents of all that is no unknown, and of what holds points where they are.
+    pub held: Assembler,
+    /// Forces of the bulk at the iterate.
+    pub rest: Vec<f64>,
+}
+
+impl Linear<'_, '_, '_> {
+    /// The displacements under forces by dof.
+    pub fn displacements(&mut self, b: &[f64]) -> Result<Vec<f64>, StepFailure> {
+        if (self.attempt.interrupted)() {
+            return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
+        }
+        let system = &mut *self.attempt.system;
+        let fixed = system.bulk.fixed();
+        let free: Vec<f64> = b
+            .iter()
+            .zip(fixed)
+            .map(|(b, fixed)| if *fixed { 0.0 } else { *b })
+            .collect();
+        let mut du = vec![0.0; b.len()];
+        // As accurate as rounding lets it be: what holds points is soft, and would make much of what is left.
+        let settings = Settings {
+            linear_tolerance: COLUMN,
+            ..self.attempt.settings
+        };
+        let effort = (&settings, &mut *self.attempt.statistics);
+        system
+            .bulk
+            .solve(&self.held, &free, COLUMN, &mut du, effort)?;
+        system.links.impose(&mut du);
+        Ok(du)
+    }
+
+    /// Components of a force.
+    pub fn dimension(&self) -> usize {
+        self.attempt.system.dofs.dim.min(3)
+    }
+
+    /// What is out of balance without the unknowns.
+    pub fn unbalanced(&self) -> Vec<f64> {
+        let both = self.rest.iter().zip(&self.held.residual);
+        both.map(|(a, b)| -(a + b)).collect()
+    }
+
+    /// The displacements with forces at points, next to those by dof.
+    pub fn under(
+        &mut self,
+        free: &[f64],
+        points: &[&Place],
+        forces: &[f64],
+    ) -> Result<Vec<f64>, StepFailure> {
+        let d = forces.len() / points.len().max(1);
+        let mut b = free.to_vec();
+        for (place, forces) in points.iter().zip(forces.chunks(d.max(1))) {
+            for (q, &force) in forces.iter().enumerate() {
+                place.push(q, force, &mut b);
+            }
+        }
+        self.displacements(&b)
+    }
+}
