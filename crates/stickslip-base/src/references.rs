@@ -27,6 +27,7 @@ references! {
     taylor_papadopoulos_1991: "R. L. Taylor, P. Papadopoulos, On a patch test for contact problems in two dimensions, in: Nonlinear Computational Mechanics, Springer, 1991, 690-702.",
     wohlmuth_2000: "B. I. Wohlmuth, A mortar finite element method using dual spaces for the Lagrange multiplier, SIAM Journal on Numerical Analysis 38 (2000) 989-1012.",
     puso_2004: "M. A. Puso, T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics, Computer Methods in Applied Mechanics and Engineering 193 (2004) 601-629.",
+    cichosz_2011: "T. Cichosz, M. Bischoff, Consistent treatment of boundaries with mortar contact formulations using dual Lagrange multipliers, Computer Methods in Applied Mechanics and Engineering 200 (2011) 1317-1332.",
     popp_2012: "A. Popp, B. I. Wohlmuth, M. W. Gee, W. A. Wall, Dual quadratic mortar finite element methods for 3D finite deformation contact, SIAM Journal on Scientific Computing 34 (2012) B421-B446.",
     raous_1988: "M. Raous, P. Chabrand, F. Lebon, Numerical methods for frictional contact problems and applications, Journal de Mécanique Théorique et Appliquée 7 suppl. 1 (1988) 111-128.",
     ssnv128: "Code_Aster V6.04.128, SSNV128: plaque avec contact et frottement sur un plan rigide.",

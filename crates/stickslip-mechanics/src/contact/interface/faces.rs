@@ -72,6 +72,7 @@ impl Interface {
             reference,
             turn,
             facets,
+            compliant: !self.laws.needs_normal_stiffness(),
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
         let excluded = &self.directives.excluded;

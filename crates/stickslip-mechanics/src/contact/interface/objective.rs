@@ -9,7 +9,7 @@ use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::law::slip::{Regularised, SlipModel};
-use crate::contact::mortar::{Face, Mortar};
+use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::response::{Laws, Status};
 use crate::contact::surface::{ContactPoint, Facet, connect, skin};
 use crate::math::{Mat3, Vec3, add, cross, dot, mat_vec, norm, normalize, rotation, scale, sub};
@@ -159,6 +159,10 @@ fn drum(
         points: nodes.iter().map(|n| n - first).collect(),
         normals: nodes.iter().map(|&n| points[n - first].normal).collect(),
         extents: vec![1.0; nodes.len()],
+        area: {
+            let x: Vec<Vec3> = nodes.iter().map(|&n| reference[n]).collect();
+            positive_areas(kind, &x, |_| 1.0).iter().sum()
+        },
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));

@@ -19,6 +19,8 @@ pub struct Face {
     pub normals: Vec<Vec3>,
     /// Extent out of the plane at each node: thickness or `2πr` `[m]`; one in 3D.
     pub extents: Vec<f64>,
+    /// Its area in the reference configuration `[m²]`.
+    pub area: f64,
 }
 
 /// The secondary as faces.

@@ -7,10 +7,9 @@ use super::interval::Interval;
 use super::plane::Plane;
 use super::sides::Sides;
 use super::sum::sum;
-use super::view::{Sample, View, gather, looks_back, place};
+use super::view::{Sample, View, gather, looks_back};
 use super::window::Window;
-use crate::math::{Vec3, cross, norm};
-use crate::shape::ElementKind;
+use crate::math::Vec3;
 
 /// Part of a face below which what lies opposite is left out.
 const LEAST: f64 = 1e-4;
@@ -37,7 +36,6 @@ pub fn integrate(
         reference: gather(&face.nodes, sides.reference),
         normals: sides.normals(face),
     };
-    let whole = measure(&view);
     for cell in cells(face.kind, &face.nodes, sides.reference) {
         let normal = view.cell_normal(cell);
         match face.kind.dim() {
@@ -50,7 +48,7 @@ pub fn integrate(
         }
     }
     let covered: f64 = scratch.samples.iter().map(|s| s.w).sum();
-    if covered < LEAST * whole {
+    if covered < LEAST * face.area {
         out.clear();
         return;
     }
@@ -87,20 +85,4 @@ fn meet<W: Window>(
             });
         }
     }
-}
-
-/// Area of the face, roughly.
-fn measure(view: &View) -> f64 {
-    let kind = view.face.kind;
-    let centre = kind.centre();
-    let p = place(kind, &view.reference, [centre[0], centre[1]]);
-    let extent: f64 = (view.face.extents.iter().zip(&p.n))
-        .map(|(e, n)| e * n)
-        .sum();
-    let (jacobian, reference) = match kind.linear() {
-        ElementKind::Line2 => (norm(p.a[0]), 2.0),
-        ElementKind::Tri3 => (norm(cross(p.a[0], p.a[1])), 0.5),
-        _ => (norm(cross(p.a[0], p.a[1])), 4.0),
-    };
-    extent * jacobian * reference
 }

@@ -7,7 +7,8 @@
 //!
 //! over the part of the surface that has the primary opposite, cut where facets of the primary end. Φ is dual to the shape functions
 //! ([Wohlmuth 2000](stickslip_base::references::wohlmuth_2000)): the mean of a field that is a sum of shape functions is its value at the node, so that laws
-//! and multipliers stay local. The Φ add up to one: a uniform pressure gives the nodal forces that it has in the bodies, on both sides, and
+//! and multipliers stay local; where pressure follows from the gap, Φ on faces that are covered in part is the nearer to the shape functions the less of them is covered, so that no gap is taken
+//! from beyond the edge. The Φ add up to one: a uniform pressure gives the nodal forces that it has in the bodies, on both sides, and
 //! patch tests pass on any pair of meshes.
 //!
 //! The gradient of the gap is that of the integral at fixed places of the secondary. What moves with the cuts drops out, as the integrand is

@@ -15,6 +15,8 @@ pub struct Sides<'a> {
     pub turn: Mat3,
     /// The primary.
     pub facets: &'a [Facet],
+    /// Whether pressure follows from the gap by a law, so that no gap may be taken from beyond the edge of what lies opposite.
+    pub compliant: bool,
 }
 
 impl Sides<'_> {

@@ -18,7 +18,7 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
             }
         }
     }
-    let functions = dual(&m, n);
+    let functions = functions(&m, n, sides.compliant.then_some(face.area));
     // Nodes of the primary, and where those of each piece are among them.
     let mut places: Vec<[usize; FACE_NODES]> = Vec::with_capacity(out.pieces.len());
     for piece in &out.pieces {
@@ -53,11 +53,7 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
             *sum += s.w * n;
         }
         for a in 0..n {
-            let phi = match &functions {
-                Some(f) => (0..n).map(|k| f[a][k] * s.positive[k]).sum(),
-                // a sliver: functions that are not dual serve as well
-                None => s.positive[a],
-            };
+            let phi: f64 = (0..n).map(|k| functions[a][k] * s.positive[k]).sum();
             let w = s.w * phi;
             out.area[a] += w;
             out.gap[a] += w * s.gap;
@@ -68,6 +64,69 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
             let row = &mut out.primary[a * opposite..(a + 1) * opposite];
             for (&k, n) in at.iter().zip(s.opposite) {
                 row[k].add(w * n, s.direction);
+            }
+        }
+    }
+}
+
+/// The functions of the multipliers on the part of a face that has the primary opposite, in those of positive integral: `m` are the integrals of
+/// their products, `compliant` is the area of the whole face where pressure follows from the gap ([Cichosz and Bischoff 2011](stickslip_base::references::cichosz_2011) make functions that are dual
+/// on the part).
+///
+/// Functions that are dual on a part take a linear field to its value at the node, also at a node that lies outside: they extrapolate, and the pressure
+/// that a law makes of such a gap, the farther the smaller the part, is found nowhere on the surfaces. The positive functions themselves take it to a mean
+/// over the part. Between them lies what takes it no farther than to the edge of the part. Where a share `c` of a line is covered from one
+/// end, the mean by the function of the other end is that at `2c/3` of its length; with the share `b` of the dual function, which takes
+/// the field to the end, it is at `c` for `b = c / (3 - 2c)`. Multipliers, which are what keeps the gap closed, need no such mean.
+fn functions(m: &Matrix, n: usize, compliant: Option<f64>) -> Matrix {
+    let mut out = Matrix::default();
+    for (k, row) in out.iter_mut().enumerate().take(n) {
+        row[k] = 1.0;
+    }
+    // On a sliver there are none that are dual.
+    let Some(dual) = dual(m, n) else {
+        return out;
+    };
+    let Some(area) = compliant else {
+        return dual;
+    };
+    let covered = m.iter().flatten().sum::<f64>() / area;
+    let c = covered.min(1.0);
+    let b = c / (3.0 - 2.0 * c);
+    for (row, dual) in out.iter_mut().zip(&dual) {
+        for (v, d) in row.iter_mut().zip(dual) {
+            *v += b * (d - *v);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line that is covered from its first end to the share `c`: the mean of a field by the function of the other end is its value at the edge of what is
+    /// covered, and at the node where all is.
+    #[test]
+    fn means_reach_to_the_edge_of_what_is_covered() {
+        for c in [1e-3_f64, 0.1, 0.5, 0.9, 1.0] {
+            // ∫ (1-s)², ∫ s (1-s), ∫ s² from 0 to c
+            let [one, two, three] = [c, c * c / 2.0, c.powi(3) / 3.0];
+            let mut m = Matrix::default();
+            m[0][..2].copy_from_slice(&[one - 2.0 * two + three, two - three]);
+            m[1][..2].copy_from_slice(&[two - three, three]);
+            let f = functions(&m, 2, Some(1.0));
+            // ∫ N_k and ∫ N_k s
+            let (areas, moments) = ([one - two, two], [two - three, three]);
+            let sum = |a: usize, of: [f64; 2]| f[a][0] * of[0] + f[a][1] * of[1];
+            let mean = sum(1, moments) / sum(1, areas);
+            assert!((mean / c - 1.0).abs() < 1e-9, "{c}: {mean}");
+            for k in 0..2 {
+                assert!(
+                    (f[0][k] + f[1][k] - 1.0).abs() < 1e-9,
+                    "{c}: they add up to one"
+                );
+                assert!((sum(k, areas) - areas[k]).abs() < 1e-12, "{c}: areas stay");
             }
         }
     }

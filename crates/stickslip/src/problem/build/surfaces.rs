@@ -333,6 +333,7 @@ impl Surfaces<'_> {
                 points: Vec::new(),
                 normals: groups.normals(k).to_vec(),
                 extents: x.iter().map(|&x| self.space.extent(x)).collect(),
+                area: areas.iter().sum(),
             };
             for (a, &node) in nodes.iter().enumerate() {
                 let normal = face.normals[a];
