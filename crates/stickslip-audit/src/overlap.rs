@@ -1,6 +1,7 @@
 //! Where the surfaces really are: depth of points of either side in the other, gaps, ties and slip, by own projections.
 
 use crate::bulk::Bulk;
+use crate::case::kind;
 use crate::contact::{Scale, at, points};
 use crate::figure::Report;
 use crate::law::{depth, laws};
@@ -238,12 +239,15 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
     let quadratic = results.mesh.cells.iter().any(|(kind, _)| kind.quadratic());
     let springs = bulk.map(|b| spring::of_stick(&results.case, &results.mesh, pair, b));
     let springs = springs.unwrap_or_default();
+    let enforcement = results.case.of("interface", &pair.name);
+    let enforcement = enforcement.and_then(|t| kind(t, "enforcement"));
+    let penalised = enforcement.is_some_and(|(name, _)| name == "penalty");
     for (i, state) in results.states.iter().enumerate() {
         let Some(Before::Written(old)) = results.before(i) else {
             continue;
         };
         let (now, then) = (at(state), at(old));
-        let explicit = results.case.steps[results.case.step_at(state.t)].explicit();
+        let sprung = penalised || results.case.steps[results.case.step_at(state.t)].explicit();
         let (x1, x0) = (state.places(), old.places());
         let (mut mean, mut count) = ([0.0; 2], 0.0);
         let frictionless = now
@@ -306,16 +310,17 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
                     state.t,
                 );
             }
-            // Of quadratic faces the mean of a mortar point has weights of both signs, which only the whole of the places gives: there it is
-            // held against the slip that is written.
-            let own = if pair.mortar && quadratic { said } else { own };
+            // The mean of a mortar point is not that of the places where what lies opposite has corners within its faces, or its weights have both signs:
+            // there friction is held against the slip that is written, which in motion says nothing of how it ends.
+            let written = pair.mortar && (quadratic || !dynamic);
+            let own = if written { said } else { own };
             let (length, carried) = (own[0].hypot(own[1]), now[*node].carried());
             let slides = now[*node].status == 2.0 && then[*node].status == 2.0;
             if slides && !frictionless && length > 0.05 * sizes.slip && carried > 1e-3 * sizes.limit
             {
                 let shear = now[*node].shear;
                 // Where points stick by springs friction is against what is left of the slip without what the spring has stretched by.
-                let stretch = match explicit {
+                let stretch = match sprung {
                     true => {
                         let Some(stiffness) = springs.get(node) else {
                             continue;
@@ -340,7 +345,7 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
                     }
                 };
                 let end = |k: usize| pair.mean(*node, |n| Some(swept(n)?[k]));
-                let end = match pair.mortar && quadratic {
+                let end = match written {
                     true => own,
                     false => end(0).zip(end(1)).map_or(own, |(a, b)| left([a, b])),
                 };

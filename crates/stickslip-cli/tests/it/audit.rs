@@ -10,8 +10,29 @@ use stickslip_audit::draw::{self, FAMILIES};
 use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
-/// Numbers of the first series: small problems that take a fraction of a second each, all families among them.
-const NUMBERS: [u64; 12] = [3, 8, 14, 15, 17, 26, 30, 32, 39, 60, 63, 67];
+/// Series and numbers of small problems that take a fraction of a second each, all families among them.
+const NUMBERS: [(u64, u64); 16] = [
+    (1, 3),
+    (1, 8),
+    (1, 14),
+    (1, 15),
+    (1, 17),
+    (1, 26),
+    (1, 30),
+    (1, 32),
+    (1, 39),
+    (1, 60),
+    (1, 63),
+    (1, 67),
+    // The limit of friction falls faster than the springs of stick let go.
+    (19, 205),
+    // A node of a mortar just outside the other body, under a steep law.
+    (19, 305),
+    // A ball of three facets comes in beside the few integration points that press.
+    (19, 462),
+    // Points touch and part in large increments of sliding.
+    (19, 490),
+];
 
 /// Runs a problem file; the folder of its results and the exit code.
 fn run(name: &str, text: &str) -> (PathBuf, Option<i32>) {
@@ -39,14 +60,14 @@ fn lines(report: &Result<Report, String>) -> Vec<String> {
 fn random_problems_of_all_families_are_right_or_the_program_says_so() {
     let mut families = Vec::new();
     let mut broken = Vec::new();
-    for number in NUMBERS {
-        let draft = draw::problem(1, number);
-        let (out, exit) = run(&number.to_string(), &draft.text);
+    for (series, number) in NUMBERS {
+        let draft = draw::problem(series, number);
+        let (out, exit) = run(&format!("{series}-{number}"), &draft.text);
         let report = audit(&out);
         let verdict = Verdict::new(exit, &report);
         if verdict.broken() || verdict == Verdict::Refused {
             broken.push(format!(
-                "{number}, {}: {}: {:?}",
+                "{series}-{number}, {}: {}: {:?}",
                 verdict.words(),
                 draft.words,
                 lines(&report)

@@ -30,7 +30,7 @@ pub struct Quality {
     /// it is judged by what is reported, not by what made it.
     pub friction_law: f64,
     /// Mean compression of one layer of cells over what carries, `Σ A p / Σ A k` `[m]`: the least that the bodies have come nearer, as no other pressure of
-    /// the same force takes less energy. Not that under the largest pressure, which grows with every cell under an edge.
+    /// the same force takes less energy. Of a face with points inside it is the whole, as its cell gives way as a whole. Not that under the largest pressure, which grows with every cell under an edge.
     pub layer: f64,
     /// What `complementarity` is relative to, `Σ A p height` `[N m]`.
     #[serde(skip)]
@@ -61,6 +61,17 @@ impl Interface {
         self.history.springs
     }
 
+    /// Stiffness of the layer of cells beneath what presses, `Σ A k` `[N/m]`.
+    fn pressed_stiffness(&self) -> f64 {
+        let presses = |i: &usize| self.history.acting && self.history.points[*i].pressure > 0.0;
+        let stiffness = |i: usize| self.area_of(i) * self.points[i].stiffness;
+        let inside = |i: &usize| self.points[*i].node().is_none();
+        let at_nodes = (0..self.history.points.len()).filter(|i| !inside(i) && presses(i));
+        let faces = (self.skin.iter()).map(|s| s.points.iter().copied().filter(inside));
+        let pressed = faces.filter(|points| points.clone().any(|i| presses(&i)));
+        at_nodes.chain(pressed.flatten()).map(stiffness).sum()
+    }
+
     /// How well contact and stick hold at the last committed state.
     pub fn quality(&self) -> Quality {
         let mut q = Quality {
@@ -79,7 +90,7 @@ impl Interface {
         let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
         let rounding = 16.0 * f64::EPSILON * (largest + norm(self.origin));
         let (mut bridged, mut pressed) = (0.0, 0.0);
-        let (mut carried, mut stiffness) = (0.0, 0.0);
+        let mut carried = 0.0;
         let (mut most, mut over_limit) = (0.0_f64, 0.0_f64);
         let acting = self.history.points.iter().filter(|_| self.history.acting);
         for (i, h) in acting.enumerate() {
@@ -96,7 +107,6 @@ impl Interface {
                 q.penetration = q.penetration.max(over);
                 q.relative_to_size = q.relative_to_size.max(over / p.size);
                 carried += area * h.pressure;
-                stiffness += area * p.stiffness;
                 bridged += area * h.pressure * under;
                 pressed += area * h.pressure * p.size;
                 if exact {
@@ -118,6 +128,7 @@ impl Interface {
                 over_limit = over_limit.max(shear - h.limit);
             }
         }
+        let stiffness = self.pressed_stiffness();
         if stiffness > 0.0 {
             q.layer = carried / stiffness;
         }
