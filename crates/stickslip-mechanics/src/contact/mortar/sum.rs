@@ -52,8 +52,8 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
         for (sum, n) in piece.sums.iter_mut().zip(&s.opposite[..count]) {
             *sum += s.w * n;
         }
-        for a in 0..n {
-            let phi: f64 = (0..n).map(|k| functions[a][k] * s.positive[k]).sum();
+        for (a, function) in functions.iter().enumerate().take(n) {
+            let phi: f64 = (0..n).map(|k| function[k] * s.positive[k]).sum();
             let w = s.w * phi;
             out.area[a] += w;
             out.gap[a] += w * s.gap;
