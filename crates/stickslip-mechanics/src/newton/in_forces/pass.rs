@@ -82,7 +82,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
         if *loose && !places.iter().any(|p| p.alone.rubs) {
             return Ok(None);
         }
-        let d = linear.attempt.system.dofs.dim.min(3);
+        let d = linear.dimension();
         let mut free = linear.unbalanced();
         let mut alone = linear.displacements(&free)?;
         let Some((chosen, others)) = choose(&linear, &places, (restless, last), (d, &alone)) else {
