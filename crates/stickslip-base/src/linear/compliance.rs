@@ -60,14 +60,14 @@ impl Number for f32 {
 }
 
 impl Compliance {
-    /// The inverse of a stiffness of shape `(n, n)`, column by column, of which the lower triangle is read.
+    /// The inverse of a stiffness of shape `(n, n)`, column by column, of which the lower triangle is read and destroyed.
     ///
     /// # Errors
     /// [`LinearError::NotPositive`] with the row, [`LinearError::OutOfMemory`].
     ///
     /// # Panics
     /// If `stiffness` has not `n²` entries.
-    pub fn of(n: usize, mut stiffness: Vec<f64>) -> Result<Compliance, LinearError> {
+    pub fn of(n: usize, stiffness: &mut [f64]) -> Result<Compliance, LinearError> {
         assert_eq!(stiffness.len(), n * n, "size of a stiffness");
         if n == 0 {
             return Ok(Compliance::from_values(0, Vec::new()));
@@ -86,7 +86,7 @@ impl Compliance {
         }
         values.resize(n * n, 0.0);
         let done = cholesky_in_place(
-            MatMut::from_column_major_slice_mut(&mut stiffness, n, n),
+            MatMut::from_column_major_slice_mut(&mut *stiffness, n, n),
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),
@@ -97,7 +97,7 @@ impl Compliance {
         }
         inverse(
             MatMut::from_column_major_slice_mut(&mut values, n, n),
-            MatRef::from_column_major_slice(&stiffness, n, n),
+            MatRef::from_column_major_slice(&*stiffness, n, n),
             Par::Seq,
             MemStack::new(&mut memory),
         );
@@ -385,7 +385,7 @@ mod tests {
     fn undoes_the_stiffness() {
         for n in [1, 3, 4, 7, 40, 61, 530] {
             let s = sample(n);
-            let w = Compliance::of(n, s.clone()).unwrap();
+            let w = Compliance::of(n, &mut s.clone()).unwrap();
             let x = noise(&mut 9, n);
             let f: Vec<f64> = (0..n)
                 .map(|i| (0..n).map(|j| s[i * n + j] * x[j]).sum())
@@ -404,7 +404,7 @@ mod tests {
 
     #[test]
     fn products_do_not_depend_on_threads() {
-        let w = Compliance::of(600, sample(600)).unwrap();
+        let w = Compliance::of(600, &mut sample(600)).unwrap();
         let x = noise(&mut 5, 600);
         let product = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -418,7 +418,7 @@ mod tests {
     #[test]
     fn a_decoded_compliance_is_the_same() {
         for n in [0, 1, 5, 70] {
-            let w = Compliance::of(n, sample(n)).unwrap();
+            let w = Compliance::of(n, &mut sample(n)).unwrap();
             let mut bytes = Vec::new();
             w.encode(&mut bytes).unwrap();
             assert_eq!(bytes.len(), 8 + 4 * n * (n + 1));
@@ -437,9 +437,9 @@ mod tests {
         let mut s = sample(5);
         s[18] = -1.0;
         assert_eq!(
-            Compliance::of(5, s).unwrap_err(),
+            Compliance::of(5, &mut s).unwrap_err(),
             LinearError::NotPositive { dof: 3 }
         );
-        assert_eq!(Compliance::of(0, Vec::new()).unwrap().size(), 0);
+        assert_eq!(Compliance::of(0, &mut []).unwrap().size(), 0);
     }
 }

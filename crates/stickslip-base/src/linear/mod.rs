@@ -27,7 +27,7 @@ pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
 pub use isotropic::Isotropic;
-pub use multifrontal::{Fronts, PartialFactor};
+pub use multifrontal::{Fronts, PartialFactor, Workspace};
 pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};

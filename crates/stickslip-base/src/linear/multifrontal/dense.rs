@@ -15,7 +15,14 @@ use rayon::prelude::*;
 /// Columns of a panel eliminated at a time.
 pub(super) const BLOCK: usize = 128;
 
-/// Rows or columns handled by one task in a large front; fixed, so that results never depend on the number of threads.
+/// Rows and columns of a product made at a time, and the depth to which it is made; fixed, so that results never depend on the number of
+/// threads. A target of this size stays in the second cache while all depth is added to it: on an AVX-512 core with 2 MiB of it 60 GF/s for
+/// a product of order 2352 and depth 512 to 1000, where one call for the whole reaches 50, and where sizes of 192 to 768 and depths of 96
+/// to 256 reach 54 to 60.
+const TILE: usize = 240;
+const DEPTH: usize = 128;
+
+/// Columns of the root that one task adds to.
 const CHUNK: usize = 384;
 
 /// Fronts with less work stay in one task \[additions and multiplications\].
@@ -155,53 +162,76 @@ pub(super) fn factor_panel(panel: &mut [f64], columns: usize, large: bool) -> Re
         let pivots = pivots.as_ref();
         let eliminate = |(mut rows, done): (MatMut<f64>, MatRef<f64>)| {
             if start > 0 {
-                let own = own.transpose();
-                matmul(rows.as_mut(), Accum::Add, done, own, -1.0, Par::Seq);
+                product(rows.as_mut(), Accum::Add, done, own);
             }
             solve_lower_triangular_in_place(pivots, rows.transpose_mut(), Par::Seq);
         };
+        let tiles = row_tiles(below, done_below);
         if large {
-            row_chunks(below, done_below)
-                .into_par_iter()
-                .for_each(eliminate);
+            tiles.into_par_iter().for_each(eliminate);
         } else {
-            eliminate((below, done_below));
+            tiles.into_iter().for_each(eliminate);
         }
         start += width;
     }
     Ok(())
 }
 
-/// Two matrices with as many rows, cut into chunks of rows.
-fn row_chunks<'a>(
+/// Two matrices with as many rows, cut into tiles of rows.
+fn row_tiles<'a>(
     mut rows: MatMut<'a, f64>,
     mut done: MatRef<'a, f64>,
 ) -> Vec<(MatMut<'a, f64>, MatRef<'a, f64>)> {
-    let mut chunks = Vec::with_capacity(rows.nrows().div_ceil(CHUNK));
+    let mut tiles = Vec::with_capacity(rows.nrows().div_ceil(TILE));
     while rows.nrows() > 0 {
-        let height = CHUNK.min(rows.nrows());
+        let height = TILE.min(rows.nrows());
         let (own, rest) = rows.split_at_row_mut(height);
         let (above, below) = done.split_at_row(height);
-        chunks.push((own, above));
+        tiles.push((own, above));
         (rows, done) = (rest, below);
     }
-    chunks
+    tiles
+}
+
+/// Factors of a product slice by slice of its depth, and how each slice counts.
+fn slices<'a>(
+    accum: Accum,
+    left: MatRef<'a, f64>,
+    right: MatRef<'a, f64>,
+) -> impl Iterator<Item = (Accum, MatRef<'a, f64>, MatRef<'a, f64>)> {
+    let depth = left.ncols();
+    (0..depth.max(1)).step_by(DEPTH).map(move |from| {
+        let count = DEPTH.min(depth - from);
+        let accum = if from == 0 { accum } else { Accum::Add };
+        let (left, right) = (left.subcols(from, count), right.subcols(from, count));
+        (accum, left, right)
+    })
+}
+
+/// `target -= left rightᵀ` or `target = -left rightᵀ`.
+fn product(mut target: MatMut<f64>, accum: Accum, left: MatRef<f64>, right: MatRef<f64>) {
+    for (accum, left, right) in slices(accum, left, right) {
+        let right = right.transpose();
+        matmul(target.as_mut(), accum, left, right, -1.0, Par::Seq);
+    }
 }
 
 /// `target -= factor factorᵀ` or `target = -factor factorᵀ`, lower triangle.
-fn lower_product(target: MatMut<f64>, accum: Accum, factor: MatRef<f64>) {
+fn lower_product(mut target: MatMut<f64>, accum: Accum, factor: MatRef<f64>) {
     use triangular::BlockStructure::{Rectangular, TriangularLower};
-    triangular::matmul(
-        target,
-        TriangularLower,
-        accum,
-        factor,
-        Rectangular,
-        factor.transpose(),
-        Rectangular,
-        -1.0,
-        Par::Seq,
-    );
+    for (accum, factor, _) in slices(accum, factor, factor) {
+        triangular::matmul(
+            target.as_mut(),
+            TriangularLower,
+            accum,
+            factor,
+            Rectangular,
+            factor.transpose(),
+            Rectangular,
+            -1.0,
+            Par::Seq,
+        );
+    }
 }
 
 /// What elimination leaves to the rows below: `-L_r L_rᵀ` plus the contributions of the children to them.
@@ -218,28 +248,27 @@ pub(super) fn contribute(
     }
     let below = MatRef::from_column_major_slice(panel, columns + rows, columns);
     let below = below.split_at_row(columns).1;
-    let width = if large { CHUNK } else { rows };
     let fill = |(chunk, part): (usize, &mut [f64])| {
-        let start = chunk * width;
+        let start = chunk * TILE;
         let count = part.len() / rows;
         let target = MatMut::from_column_major_slice_mut(&mut *part, rows, count);
         let (_, target) = target.split_at_row_mut(start);
         let (diagonal, rest) = target.split_at_row_mut(count);
         let (own, under) = below.split_at_row(start).1.split_at_row(count);
         lower_product(diagonal, Accum::Replace, own);
-        if rest.nrows() > 0 {
-            matmul(rest, Accum::Replace, under, own.transpose(), -1.0, Par::Seq);
+        for (tile, left) in row_tiles(rest, under) {
+            product(tile, Accum::Replace, left, own);
         }
         let wanted = columns + start..columns + start + count;
         add_children(part, rows, columns, wanted, children);
     };
+    let chunks = TILE * rows;
     if large {
-        contribution
-            .par_chunks_mut(width * rows)
-            .enumerate()
-            .for_each(fill);
+        let chunks = contribution.par_chunks_mut(chunks).enumerate();
+        chunks.for_each(fill);
     } else {
-        fill((0, contribution));
+        let chunks = contribution.chunks_mut(chunks).enumerate();
+        chunks.for_each(fill);
     }
 }
 

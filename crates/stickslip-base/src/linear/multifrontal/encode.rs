@@ -279,6 +279,7 @@ fn read_panels(input: &mut dyn Read, fronts: &Fronts, range: Range<usize>) -> io
 
 #[cfg(test)]
 mod tests {
+    use super::super::Workspace;
     use super::super::tests::{cube, factor};
     use super::*;
     use crate::linear::testing::{grid, noise};
@@ -295,7 +296,8 @@ mod tests {
         let mut bytes_again = Vec::new();
         decoded.encode(&mut bytes_again).unwrap();
         assert!(bytes == bytes_again);
-        let (again, schur_again) = PartialFactor::new(decoded.fronts(), &a).unwrap();
+        let (again, schur_again) =
+            PartialFactor::new(decoded.fronts(), &a, &Workspace::default()).unwrap();
         assert!(schur_again == schur);
         for columns in [1, 4] {
             let sweep = |factor: &PartialFactor| {
@@ -337,7 +339,7 @@ mod tests {
                         factor.forward(&mut x, &mut w, 1);
                         factor.backward(&mut x, &w, 1);
                         if fronts.shape == (a.points(), block) {
-                            let _ = PartialFactor::new(&fronts, &a);
+                            let _ = PartialFactor::new(&fronts, &a, &Workspace::default());
                         }
                     }
                 }

@@ -30,32 +30,39 @@ struct Work<'a> {
     fronts: &'a Fronts,
     matrix: &'a BlockCsr,
     panels: Vec<OnceLock<Vec<f64>>>,
-    buffers: Buffers,
+    buffers: &'a Workspace,
 }
 
-/// Memory used again and again: fresh pages cost as much as arithmetic.
-#[derive(Default)]
-struct Buffers(Mutex<Vec<Vec<f64>>>);
+/// Memory that factorisations use one after the other, or side by side: fresh pages cost as much as arithmetic.
+#[derive(Debug, Default)]
+pub struct Workspace(Mutex<Vec<Vec<f64>>>);
 
-impl Buffers {
+impl Workspace {
     /// At least `length` numbers of any value.
     fn take(&self, length: usize) -> Result<Vec<f64>, LinearError> {
-        {
+        let mut buffer = {
             let mut free = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let large_enough = (0..free.len()).filter(|&i| free[i].len() >= length);
             let best = large_enough.min_by_key(|&i| free[i].len());
-            let largest = (0..free.len()).max_by_key(|&i| free[i].len());
-            match (best, largest) {
-                (Some(best), _) => return Ok(free.swap_remove(best)),
-                // Instead of one more of them.
-                (None, Some(largest)) => drop(free.swap_remove(largest)),
-                (None, None) => {}
+            // Instead of one more of them the largest grows: its pages stay where they are.
+            let largest = || (0..free.len()).max_by_key(|&i| free[i].len());
+            match best.or_else(largest) {
+                Some(at) => free.swap_remove(at),
+                None => Vec::new(),
             }
+        };
+        let more = length.saturating_sub(buffer.len());
+        (buffer.try_reserve_exact(more)).map_err(|_| LinearError::OutOfMemory {
+            bytes: 8 * length as u64,
+        })?;
+        if more > 0 {
+            buffer.resize(length, 0.0);
         }
-        zeros(length)
+        Ok(buffer)
     }
 
-    fn give(&self, buffer: Vec<f64>) {
+    /// Takes memory back.
+    pub fn give(&self, buffer: Vec<f64>) {
         let mut free = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         free.push(buffer);
     }
@@ -63,7 +70,8 @@ impl Buffers {
 
 impl PartialFactor {
     /// Factors `matrix` as analysed, and returns the Schur complement of the kept dofs too: of shape
-    /// `(root, root)`, column by column, in the order of [`Fronts::root`]; the upper triangle is zero.
+    /// `(root, root)`, column by column, in the order of [`Fronts::root`]; the upper triangle is zero. Its memory comes from the workspace,
+    /// which likes to have it back.
     /// Only one triangle of `matrix` is read: the symmetry is taken for granted.
     ///
     /// # Errors
@@ -75,6 +83,7 @@ impl PartialFactor {
     pub fn new(
         fronts: &Arc<Fronts>,
         matrix: &BlockCsr,
+        workspace: &Workspace,
     ) -> Result<(PartialFactor, Vec<f64>), LinearError> {
         let shape = (matrix.points(), matrix.block_size());
         assert_eq!(shape, fronts.shape, "not the matrix analysed");
@@ -82,7 +91,7 @@ impl PartialFactor {
             fronts,
             matrix,
             panels: fronts.pieces.iter().map(|_| OnceLock::new()).collect(),
-            buffers: Buffers::default(),
+            buffers: workspace,
         };
         let (schur, smallest_pivot) = work.run()?;
         let (dof, ratio) = smallest_pivot;
@@ -141,7 +150,9 @@ impl Work<'_> {
                     None if targets.len() == order => schur = Some(contribution),
                     _ => {
                         if schur.is_none() {
-                            schur = Some(zeros(order * order)?);
+                            let mut root = self.buffers.take(order * order)?;
+                            root[..order * order].fill(0.0);
+                            schur = Some(root);
                         }
                         let values = &contribution;
                         let child = Child { targets, values };

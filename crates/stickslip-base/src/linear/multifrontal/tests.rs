@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use super::super::testing::{dense_of, grid, noise};
 use super::super::{BlockCsr, LinearError, Symbolic};
-use super::{Fronts, PartialFactor};
+use super::{Fronts, PartialFactor, Workspace};
 
 pub(super) fn factor(
     a: &BlockCsr,
@@ -12,7 +12,7 @@ pub(super) fn factor(
     kept: &[bool],
 ) -> Result<(PartialFactor, Vec<f64>), LinearError> {
     let fronts = Arc::new(Fronts::analyze(a, points, fixed, kept)?);
-    PartialFactor::new(&fronts, a)
+    PartialFactor::new(&fronts, a, &Workspace::default())
 }
 
 /// Marks with a given probability, the same on every run.
@@ -278,7 +278,7 @@ fn bits_do_not_depend_on_threads() {
             .build()
             .unwrap();
         pool.install(|| {
-            let (factor, schur) = PartialFactor::new(&fronts, &a).unwrap();
+            let (factor, schur) = PartialFactor::new(&fronts, &a, &Workspace::default()).unwrap();
             let mut bits: Vec<u64> = schur.iter().map(|v| v.to_bits()).collect();
             bits.extend(factor.panels.iter().flatten().map(|v| v.to_bits()));
             for columns in [1, 3] {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::identity::{Identity, Part};
 use super::library::{Library, Source};
 use super::substructure::{Seconds, Substructure};
-use crate::linear::{BlockCsr, Fronts, LinearError};
+use crate::linear::{BlockCsr, Fronts, LinearError, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::dot;
 
@@ -194,19 +194,21 @@ impl Condensation {
         library: &Library,
     ) -> Result<(Condensation, Effort), LinearError> {
         let Plan { parts, mut effort } = plan;
+        let workspace = Workspace::default();
         let made: Result<Vec<Got>, LinearError> = parts
             .into_par_iter()
             .map(|part| match part.known {
                 Some((known, _)) => Ok((known, false, None)),
                 None => {
-                    let made =
-                        Substructure::new(part.identity, &part.fronts, matrix, places, typical)?;
+                    let body = (part.identity, &part.fronts, matrix);
+                    let made = Substructure::new(body, (places, typical), &workspace)?;
                     let made = Arc::new(made);
                     let note = library.keep(&made);
                     Ok((made, true, note))
                 }
             })
             .collect();
+        drop(workspace);
         let mut parts = Vec::new();
         for (part, new, note) in made? {
             if new {

@@ -4,7 +4,7 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::identity::Identity;
-use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor};
+use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::{dot, norm};
 
@@ -74,14 +74,12 @@ impl Substructure {
     /// # Errors
     /// Those of the factorisation: the interior is singular if the kept points do not hold it.
     pub fn new(
-        identity: Identity,
-        fronts: &Arc<Fronts>,
-        matrix: &BlockCsr,
-        place: &dyn Fn(usize) -> Option<Vec3>,
-        typical: f64,
+        (identity, fronts, matrix): (Identity, &Arc<Fronts>, &BlockCsr),
+        (place, typical): (&dyn Fn(usize) -> Option<Vec3>, f64),
+        workspace: &Workspace,
     ) -> Result<Substructure, LinearError> {
         let started = Instant::now();
-        let (partial, mut stiffness) = PartialFactor::new(fronts, matrix)?;
+        let (partial, mut stiffness) = PartialFactor::new(fronts, matrix, workspace)?;
         let factor = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let floating = free_motions(
@@ -105,7 +103,9 @@ impl Substructure {
                 }
             }
         }
-        let compliance = Compliance::of(fronts.root().len(), stiffness).map_err(|e| match e {
+        let compliance = Compliance::of(fronts.root().len(), &mut stiffness);
+        workspace.give(stiffness);
+        let compliance = compliance.map_err(|e| match e {
             LinearError::NotPositive { dof } => LinearError::NotPositive {
                 dof: fronts.root().get(dof).map_or(0, |&d| d as usize),
             },
