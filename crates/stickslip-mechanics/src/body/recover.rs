@@ -359,17 +359,6 @@ impl Elastic {
         all
     }
 
-    /// Visits the quadrature points of a part in order.
-    pub(super) fn visit_stress(
-        &self,
-        part: usize,
-        u: &[f64],
-        visit: &mut (dyn FnMut(StressPoint) + Send),
-    ) {
-        let kind = self.mesh.blocks[self.parts[part].block].kind;
-        by_nodes!(kind, Elastic::part_stress(self, part, u, visit));
-    }
-
     fn part_stress<const N: usize>(
         &self,
         part: usize,
