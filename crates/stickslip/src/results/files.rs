@@ -2,6 +2,8 @@
 //! `culprits.vtu` where the doctor found something.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::thread::JoinHandle;
 
 use super::analysis::Analysis;
 use super::folder::{Claim, Folder, FolderClaim, INTERFACES};
@@ -20,6 +22,9 @@ pub struct ResultFiles {
     pvd: pvd::Collection,
     history: Option<csv::History>,
     count: usize,
+    /// What all files of fields share.
+    mesh: Option<Arc<vtu::PackedMesh>>,
+    writing: Option<Writing>,
     source: Option<Source>,
     /// Other files that grow.
     also: Vec<String>,
@@ -39,6 +44,8 @@ impl ResultFiles {
             pvd: pvd::Collection::new(&directory.join("fields.pvd")),
             history: None,
             count: 0,
+            mesh: None,
+            writing: None,
             source: claim.source.clone(),
             also: claim.also.clone(),
             unsaved: None,
@@ -68,6 +75,8 @@ impl ResultFiles {
                 columns => Some(csv::History::resume(&history, columns)?),
             },
             count: positions.fields.len(),
+            mesh: None,
+            writing: None,
             source: claim.source.clone(),
             also: claim.also.clone(),
         })
@@ -111,23 +120,50 @@ impl ResultFiles {
         self.unsaved.as_ref().map(|(why, _)| why.as_str())
     }
 
+    /// Hands fields and tables of the interfaces to a thread that writes them while the run goes on.
     fn output(&mut self, view: &View) -> Result<(), Error> {
-        let fields = fields(view);
+        self.written()?;
         let name = format!("fields_{:05}.vtu", self.count);
         self.count += 1;
+        let mesh = || Arc::new(vtu::PackedMesh::new(&view.model.mesh, Some(&owners(view))));
+        let mesh = Arc::clone(self.mesh.get_or_insert_with(mesh));
+        let fields = fields(view);
+        let interfaces = view.contact.interfaces.iter();
+        let tables: Vec<(String, csv::Table)> = interfaces
+            .map(|interface| {
+                let (names, columns) = interface.table(&view.frame.state.u);
+                (interface.name.clone(), csv::Table { names, columns })
+            })
+            .collect();
         let path = self.folder.directory.join(&name);
-        vtu::write(&path, &view.model.mesh, &fields, Some(&owners(view)))?;
-        self.pvd.push(view.frame.state.t, &name)?;
         let folder = self.folder.directory.join(INTERFACES);
-        if !view.contact.interfaces.is_empty() {
-            std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
-        }
-        for interface in &view.contact.interfaces {
-            let (names, columns) = interface.table(&view.frame.state.u);
-            let path = folder.join(format!("{}.csv", interface.name));
-            csv::write(&path, &csv::Table { names, columns })?;
-        }
+        self.writing = Some(Writing {
+            time: view.frame.state.t,
+            name,
+            thread: std::thread::spawn(move || {
+                mesh.write(&path, &fields)?;
+                if !tables.is_empty() {
+                    std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+                }
+                for (name, table) in &tables {
+                    csv::write(&folder.join(format!("{name}.csv")), table)?;
+                }
+                Ok(())
+            }),
+        });
         Ok(())
+    }
+
+    /// Waits for the files that are being written, and enters them into the list of all.
+    fn written(&mut self) -> Result<(), Error> {
+        let Some(Writing { time, name, thread }) = self.writing.take() else {
+            return Ok(());
+        };
+        match thread.join() {
+            Ok(outcome) => outcome?,
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+        self.pvd.push(time, &name)
     }
 
     fn end(&mut self, summary: &Summary) -> Result<(), Error> {
@@ -145,6 +181,25 @@ impl ResultFiles {
             };
         }
         doctor::write_culprits(&places, findings)
+    }
+}
+
+/// Files that a thread of their own writes.
+struct Writing {
+    /// `[the problem's unit of time]`.
+    time: f64,
+    /// The file of fields.
+    name: String,
+    thread: JoinHandle<Result<(), Error>>,
+}
+
+/// Nothing is written into a folder that is no longer held.
+impl Drop for ResultFiles {
+    fn drop(&mut self) {
+        if let Some(writing) = self.writing.take() {
+            // Whoever wants to know how it went waits for the end of the run.
+            let _ = writing.thread.join();
+        }
     }
 }
 
@@ -220,6 +275,10 @@ impl Observer for ResultFiles {
         if matches!(event, Event::Output | Event::Checkpoint(_) | Event::End) {
             self.folder.check()?;
         }
+        let done = self.writing.as_ref().map(|w| w.thread.is_finished());
+        if done == Some(true) || matches!(event, Event::Checkpoint(_)) {
+            self.written()?;
+        }
         match event {
             Event::Increment(row) => {
                 if self.history.is_none() {
@@ -249,6 +308,10 @@ impl Observer for ResultFiles {
             | Event::Finding(_) => {}
         }
         Ok(())
+    }
+
+    fn settle(&mut self) -> Result<(), Error> {
+        self.written()
     }
 
     fn remarks(&mut self) -> Vec<String> {

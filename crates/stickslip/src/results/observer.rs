@@ -75,6 +75,11 @@ pub trait Observer {
     /// Something happened. An error ends the run.
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error>;
 
+    /// Waits for what goes on beside the run: asked for before the end is told, which says whether all went well.
+    fn settle(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// What a user should know of what it did and what is no reason to end the run: asked for after every checkpoint, and told as notes.
     fn remarks(&mut self) -> Vec<String> {
         Vec::new()

@@ -181,6 +181,8 @@ impl Simulation {
         outcome: Result<bool, Error>,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
+        let settled = observers.iter_mut().try_for_each(|o| o.settle());
+        let outcome = outcome.and_then(|done| settled.map(|()| done));
         let outcome = outcome.map_err(|e| match e {
             Error::Run(error) => Error::Run(self.conclude(error)),
             e => e,

@@ -25,7 +25,7 @@ mod tests;
 pub use grid::{parse_mesh, read_mesh};
 pub use read::{PointArray, PointFields, parse, read};
 pub use whole::{Grid, read_grid};
-pub use write::{write, write_mesh, write_vertices};
+pub use write::{PackedMesh, write, write_mesh, write_vertices};
 
 pub(super) use write::escape;
 pub(super) use xml::{Event, Scanner};

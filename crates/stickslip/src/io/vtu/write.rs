@@ -1,8 +1,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use rayon::prelude::*;
-
 use crate::error::{Error, IoError};
 use crate::io::sets::{memberships, own_point_sets};
 use crate::io::write_atomically;
@@ -12,7 +10,7 @@ use crate::system::{Fields, Location};
 
 use super::kinds::{vtk_order, vtk_type};
 
-/// Bytes compressed at a time. Blocks are compressed in parallel, and are the same for any number of threads.
+/// Bytes compressed at a time.
 const BLOCK: usize = 1 << 18;
 
 /// Writes a mesh at its reference coordinates with the fields on it.
@@ -28,7 +26,7 @@ pub fn write(
     fields: &Fields,
     bodies: Option<&[usize]>,
 ) -> Result<(), Error> {
-    put(path, mesh, fields, bodies, false)
+    PackedMesh::new(mesh, bodies).write(path, fields)
 }
 
 /// Writes the points of a mesh as vertices, with the fields on them; cells are left out.
@@ -36,67 +34,96 @@ pub fn write(
 /// # Errors
 /// As [`write()`].
 pub fn write_vertices(path: &Path, mesh: &Mesh, fields: &Fields) -> Result<(), Error> {
-    put(path, mesh, fields, None, true)
+    PackedMesh::vertices(mesh).write(path, fields)
 }
 
-fn put(
-    path: &Path,
-    mesh: &Mesh,
-    fields: &Fields,
-    bodies: Option<&[usize]>,
-    vertices: bool,
-) -> Result<(), Error> {
-    let points = mesh.points.len();
-    let cells: usize = match vertices {
-        true => points,
-        false => mesh.blocks.iter().map(|block| block.cell_ids.len()).sum(),
-    };
-    let mut file = Writer::default();
-    let fits = |name: &str, found: usize, wanted: usize| {
-        if found == wanted {
-            return Ok(());
-        }
-        Err(Error::Io(IoError {
-            file: path.to_path_buf(),
-            message: format!("{name} has {found} values where the mesh has {wanted}"),
-        }))
-    };
+/// What all files of one mesh share: its points, its cells and their numbers, packed once.
+pub struct PackedMesh {
+    points: usize,
+    cells: usize,
+    /// Node numbers.
+    nodes: Array,
+    /// Element numbers and bodies.
+    elements: Vec<Array>,
+    places: Array,
+    topology: Vec<Array>,
+}
 
-    file.begin(points, cells);
-    for (location, element) in [(Location::Point, "PointData"), (Location::Cell, "CellData")] {
-        file.text += &format!("<{element}>\n");
-        let count = match location {
-            Location::Point => {
-                fits("the list of node numbers", mesh.point_ids.len(), points)?;
-                file.integers("NODE_ID", mesh.point_ids.iter().map(|&id| id as i64));
-                points
-            }
-            Location::Cell if vertices => points,
-            Location::Cell => {
-                let ids = mesh.blocks.iter().flat_map(|block| &block.cell_ids);
-                file.integers("ELEMENT_ID", ids.map(|&id| id as i64));
-                if let Some(bodies) = bodies {
-                    fits("the list of bodies", bodies.len(), cells)?;
-                    file.integers("BODY", bodies.iter().map(|&body| body as i64));
-                }
-                cells
-            }
-        };
-        for field in fields.all.iter().filter(|f| f.location == location) {
-            let wanted = count * field.components;
-            fits(&format!("field {}", field.name), field.values.len(), wanted)?;
-            file.floats(&field.name, field.components, &field.values);
+impl PackedMesh {
+    /// The cells of a mesh. `bodies` gives a number for every cell, blocks in order.
+    pub fn new(mesh: &Mesh, bodies: Option<&[usize]>) -> PackedMesh {
+        let ids = mesh.blocks.iter().flat_map(|block| &block.cell_ids);
+        let mut elements = vec![Array::integers("ELEMENT_ID", ids.map(|&id| id as i64))];
+        if let Some(bodies) = bodies {
+            let bodies = bodies.iter().map(|&body| body as i64);
+            elements.push(Array::integers("BODY", bodies));
         }
-        file.text += &format!("</{element}>\n");
+        PackedMesh {
+            cells: mesh.blocks.iter().map(|block| block.cell_ids.len()).sum(),
+            elements,
+            topology: Array::cells(mesh, &[]),
+            ..PackedMesh::vertices(mesh)
+        }
     }
-    file.text += "<Points>\n";
-    file.floats("Points", 3, mesh.points.as_flattened());
-    file.text += "</Points>\n<Cells>\n";
-    match vertices {
-        true => file.vertices(points),
-        false => file.cells(mesh, &[]),
+
+    /// The points of a mesh as vertices.
+    pub fn vertices(mesh: &Mesh) -> PackedMesh {
+        let points = mesh.points.len();
+        let last = points as i64;
+        PackedMesh {
+            points,
+            cells: points,
+            nodes: Array::integers("NODE_ID", mesh.point_ids.iter().map(|&id| id as i64)),
+            elements: Vec::new(),
+            places: Array::floats("Points", 3, mesh.points.as_flattened()),
+            topology: vec![
+                Array::integers("connectivity", 0..last),
+                Array::integers("offsets", 1..=last),
+                Array::new("UInt8", "types", 1, &vec![1; points]),
+            ],
+        }
     }
-    write_atomically(path, &file.end())
+
+    /// Writes the file with these fields.
+    ///
+    /// # Errors
+    /// As [`write()`].
+    pub fn write(&self, path: &Path, fields: &Fields) -> Result<(), Error> {
+        let fits = |name: &str, found: usize, wanted: usize| {
+            if found == wanted {
+                return Ok(());
+            }
+            Err(Error::Io(IoError {
+                file: path.to_path_buf(),
+                message: format!("{name} has {found} values where the mesh has {wanted}"),
+            }))
+        };
+        fits("the list of node numbers", self.nodes.values, self.points)?;
+        if let Some(bodies) = self.elements.get(1) {
+            fits("the list of bodies", bodies.values, self.cells)?;
+        }
+        let mut file = Writer::default();
+        file.begin(self.points, self.cells);
+        let nodes = std::slice::from_ref(&self.nodes);
+        for (location, element, count, own) in [
+            (Location::Point, "PointData", self.points, nodes),
+            (Location::Cell, "CellData", self.cells, &self.elements),
+        ] {
+            file.text += &format!("<{element}>\n");
+            own.iter().for_each(|array| file.add(array));
+            for field in fields.all.iter().filter(|f| f.location == location) {
+                let wanted = count * field.components;
+                fits(&format!("field {}", field.name), field.values.len(), wanted)?;
+                file.floats(&field.name, field.components, &field.values);
+            }
+            file.text += &format!("</{element}>\n");
+        }
+        file.text += "<Points>\n";
+        file.add(&self.places);
+        file.text += "</Points>\n<Cells>\n";
+        self.topology.iter().for_each(|array| file.add(array));
+        write_atomically(path, &file.end())
+    }
 }
 
 /// Numbers that are no sets.
@@ -136,7 +163,7 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
     for (name, points) in own_point_sets(mesh) {
         let mut ones = vec![0; mesh.points.len()];
         points.iter().for_each(|&p| ones[p] = 1);
-        file.array("UInt8", &named(name), 1, ones);
+        file.add(&Array::new("UInt8", &named(name), 1, &ones));
     }
     file.text += "</PointData>\n<CellData>\n";
     let behind = (next..).take(shapes.len());
@@ -155,17 +182,13 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
         let of_facets = facets
             .values()
             .map(|names| u8::from(names.contains(&name.as_str())));
-        file.array(
-            "UInt8",
-            &named(name),
-            1,
-            of_cells.chain(of_facets).collect(),
-        );
+        let ones: Vec<u8> = of_cells.chain(of_facets).collect();
+        file.add(&Array::new("UInt8", &named(name), 1, &ones));
     }
     file.text += "</CellData>\n<Points>\n";
     file.floats("Points", 3, mesh.points.as_flattened());
     file.text += "</Points>\n<Cells>\n";
-    file.cells(mesh, &shapes);
+    (Array::cells(mesh, &shapes).iter()).for_each(|array| file.add(array));
     write_atomically(path, &file.end())?;
     Ok(notes)
 }
@@ -197,16 +220,34 @@ impl Writer {
     }
 
     fn floats(&mut self, name: &str, components: usize, values: &[f64]) {
-        let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-        self.array("Float64", name, components, bytes);
+        self.add(&Array::floats(name, components, values));
     }
 
     fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) {
-        let bytes = values.flat_map(i64::to_le_bytes).collect();
-        self.array("Int64", name, 1, bytes);
+        self.add(&Array::integers(name, values));
     }
 
-    fn array(&mut self, kind: &str, name: &str, components: usize, bytes: Vec<u8>) {
+    fn add(&mut self, array: &Array) {
+        self.text += &format!(
+            "<DataArray {} format=\"appended\" offset=\"{}\"/>\n",
+            array.attributes,
+            self.appended.len()
+        );
+        self.appended.extend_from_slice(&array.packed);
+    }
+}
+
+/// An array as it stands in a file.
+struct Array {
+    /// Type, name and components.
+    attributes: String,
+    /// How many values it has.
+    values: usize,
+    packed: Vec<u8>,
+}
+
+impl Array {
+    fn new(kind: &str, name: &str, components: usize, bytes: &[u8]) -> Array {
         // One is what readers assume; some make a matrix of a column where it is written.
         let mut names = match components {
             1 => String::new(),
@@ -217,22 +258,28 @@ impl Writer {
                 names += &format!(" ComponentName{i}=\"{component}\"");
             }
         }
-        self.text += &format!(
-            "<DataArray type=\"{kind}\" Name=\"{}\"{names} format=\"appended\" offset=\"{}\"/>\n",
-            escape(name),
-            self.appended.len()
-        );
-        compress(&bytes, &mut self.appended);
+        let size = if kind == "UInt8" { 1 } else { 8 };
+        let mut packed = Vec::new();
+        compress(bytes, &mut packed);
+        Array {
+            attributes: format!("type=\"{kind}\" Name=\"{}\"{names}", escape(name)),
+            values: bytes.len() / size,
+            packed,
+        }
     }
 
-    fn vertices(&mut self, points: usize) {
-        self.integers("connectivity", 0..points as i64);
-        self.integers("offsets", 1..=points as i64);
-        self.array("UInt8", "types", 1, vec![1; points]);
+    fn floats(name: &str, components: usize, values: &[f64]) -> Array {
+        let bytes: Vec<[u8; 8]> = values.iter().map(|v| v.to_le_bytes()).collect();
+        Array::new("Float64", name, components, bytes.as_flattened())
+    }
+
+    fn integers(name: &str, values: impl Iterator<Item = i64>) -> Array {
+        let bytes: Vec<[u8; 8]> = values.map(i64::to_le_bytes).collect();
+        Array::new("Int64", name, 1, bytes.as_flattened())
     }
 
     /// The cells of the blocks, and more cells, of kinds whose order VTK shares, behind them.
-    fn cells(&mut self, mesh: &Mesh, more: &[(ElementKind, Vec<usize>)]) {
+    fn cells(mesh: &Mesh, more: &[(ElementKind, Vec<usize>)]) -> Vec<Array> {
         let mut connectivity = Vec::new();
         for block in &mesh.blocks {
             let cells = block.connectivity.chunks_exact(block.kind.node_count());
@@ -244,7 +291,6 @@ impl Writer {
         }
         let more_nodes = more.iter().flat_map(|(_, nodes)| nodes);
         connectivity.extend(more_nodes.map(|&point| point as i64));
-        self.integers("connectivity", connectivity.into_iter());
         let mut end = 0;
         let mut offsets = Vec::new();
         let mut types = Vec::new();
@@ -255,8 +301,11 @@ impl Writer {
             offsets.push(end);
             types.push(vtk_type(kind));
         }
-        self.integers("offsets", offsets.into_iter());
-        self.array("UInt8", "types", 1, types);
+        vec![
+            Array::integers("connectivity", connectivity.into_iter()),
+            Array::integers("offsets", offsets.into_iter()),
+            Array::new("UInt8", "types", 1, &types),
+        ]
     }
 }
 
@@ -264,7 +313,7 @@ impl Writer {
 /// (zero if there is none), compressed sizes.
 fn compress(bytes: &[u8], out: &mut Vec<u8>) {
     let blocks: Vec<Vec<u8>> = bytes
-        .par_chunks(BLOCK)
+        .chunks(BLOCK)
         .map(|block| {
             let level = flate2::Compression::fast();
             let mut encoder = flate2::bufread::ZlibEncoder::new(block, level);
