@@ -22,6 +22,7 @@ mod malformed;
 mod mortar;
 mod multigrid;
 mod pairing;
+mod price;
 mod problem_files;
 mod quality;
 mod restart;

@@ -45,7 +45,7 @@ const SINGLE_TOLERANCE: f64 = 3e-6;
 const TOLERANCES: (f64, f64) = (1e-14, 0.1);
 
 /// Gap rows up to which the factor is made anew every time.
-const TINY: usize = 240;
+pub(super) const TINY: usize = 240;
 
 /// Most iterations with a fresh factor, and with one that could be made anew: times what is usual.
 const MOST: usize = 200;
@@ -157,11 +157,6 @@ impl ReducedSystem {
         self.made_of.clear();
     }
 
-    /// Whether so little is solved for that no accuracy need be saved.
-    pub(super) fn is_tiny(blocks: &[ContactBlock], springs: usize) -> bool {
-        3 * blocks.len() + springs <= TINY
-    }
-
     /// Finds the forces `ds` with `(I + K W) ds = b` on the candidates, `K` the tangent of the interfaces less that of the artificial springs, and
     /// the displacements `W ds`.
     pub fn solve(
@@ -185,7 +180,7 @@ impl ReducedSystem {
         if !suits {
             self.active = None;
         }
-        let tiny = ReducedSystem::is_tiny(blocks, springs.len());
+        let tiny = 3 * blocks.len() + springs.len() <= TINY;
         let same = tiny && self.made_of == blocks;
         if !suits || (tiny && !same) {
             self.preconditioner = None;
@@ -257,12 +252,14 @@ fn solve_preconditioned(
     (settings, statistics): (&Settings, &mut Statistics),
 ) -> Result<(Vec<f64>, usize), StepFailure> {
     let patience = settings.krylov_patience;
-    // Where next to nothing holds a body, single precision would not see what does.
-    let single =
-        tolerance >= SINGLE_TOLERANCE && tangent.springs.is_empty() && tangent.active.len() > SMALL;
+    // Where next to nothing holds a body, single precision would not see what does. A preconditioner need not be exact.
+    let coarse = match tangent.springs.is_empty() && tangent.active.len() > SMALL {
+        true => Precision::Single,
+        false => Precision::Double,
+    };
     let mut attempt = Attempt {
-        precision: match single {
-            true => Precision::Single,
+        precision: match tolerance >= SINGLE_TOLERANCE {
+            true => coarse,
             false => Precision::Double,
         },
         factor: match kept {
@@ -282,7 +279,7 @@ fn solve_preconditioned(
         let mut y = vec![0.0; rhs.len()];
         let report = gmres(
             &mut |v, out| tangent.apply(v, out, attempt.precision),
-            &mut |v| preconditioner.apply(tangent, v, attempt.precision),
+            &mut |v| preconditioner.apply(tangent, v, coarse),
             rhs,
             &mut y,
             attempt.gmres(tolerance, patience),

@@ -41,21 +41,22 @@ impl SmallMatrix<'_> {
             .iter()
             .flat_map(|rows| (0..rows.count()).map(move |q| (rows, q)))
             .collect();
-        let mut matrix: Vec<T> = columns
-            .par_chunks(COLUMNS)
-            .flat_map_iter(|chunk| {
-                let mut out = Vec::with_capacity(chunk.len() * size);
+        let springs = self.springs.len();
+        let mut matrix = Vec::with_capacity(size * size);
+        matrix.resize(size * self.count, T::of(0.0));
+        matrix
+            .par_chunks_mut(COLUMNS * size.max(1))
+            .zip(columns.par_chunks(COLUMNS))
+            .for_each(|(out, columns)| {
                 let mut scratch = Scratch {
                     product: vec![T::of(0.0); self.tangent.active.len()],
                     met: Vec::new(),
                     local: Vec::new(),
                 };
-                for &(rows, q) in chunk {
-                    self.column(rows, q, &mut scratch, &mut out);
+                for (out, &(rows, q)) in out.chunks_exact_mut(size.max(1)).zip(columns) {
+                    self.column(rows, q, &mut scratch, out.split_at_mut(size - springs));
                 }
-                out.into_iter()
-            })
-            .collect();
+            });
         let mut amplification = 0.0_f64;
         for k in 0..self.count {
             let diagonal = &mut matrix[k * size + k];
@@ -67,7 +68,13 @@ impl SmallMatrix<'_> {
     }
 
     /// The column of row `q` of a point: `C W Bᵀ e` and `σ Zᵀ Bᵀ e`.
-    fn column<T: Entry>(&self, rows: &Rows, q: usize, scratch: &mut Scratch<T>, out: &mut Vec<T>) {
+    fn column<T: Entry>(
+        &self,
+        rows: &Rows,
+        q: usize,
+        scratch: &mut Scratch<T>,
+        (out, of_springs): (&mut [T], &mut [T]),
+    ) {
         self.compliance_product(rows, q, scratch);
         let Scratch {
             product,
@@ -80,6 +87,7 @@ impl SmallMatrix<'_> {
                 .any(|&part| (active.starts[part]..active.starts[part + 1]).contains(&i))
         };
         let all = met.len() == self.tangent.condensation.parts.len();
+        let mut out = out.iter_mut();
         for other in self.rows {
             local.clear();
             local.resize(other.at.len(), T::of(0.0));
@@ -88,20 +96,18 @@ impl SmallMatrix<'_> {
                     *l = product[at as usize];
                 }
             }
-            for changes in other.changes() {
-                let mut sum = T::of(0.0);
+            for (changes, out) in other.changes().zip(&mut out) {
                 for (c, l) in changes.iter().zip(&*local) {
-                    sum += T::of(*c) * *l;
+                    *out += T::of(*c) * *l;
                 }
-                out.push(sum);
             }
         }
-        for (sigma, z) in self.springs {
+        for ((sigma, z), out) in self.springs.iter().zip(of_springs) {
             let mut sum = 0.0;
             for (at, b) in rows.gradient(q) {
                 sum += b * z[at];
             }
-            out.push(T::of(sigma * sum));
+            *out = T::of(sigma * sum);
         }
     }
 
