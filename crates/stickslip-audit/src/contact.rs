@@ -206,16 +206,21 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
     }
 }
 
-/// About how far surfaces can have turned over the increment before a state: the largest motion over the size of the model. Nothing in the plane, where the
+/// How far surfaces can have turned over the increment before a state: the largest change along the side of a cell. Nothing in the plane, where the
 /// direction along a line does not turn the slip that is a length on it.
 fn turned(results: &Results, i: usize) -> f64 {
     let Some(Before::Written(old)) = results.before(i).filter(|_| results.case.space.dim() == 3)
     else {
         return 0.0;
     };
-    let moved = results.states[i].u.iter().zip(&old.u);
-    let most = moved.map(|(a, b)| norm(sub(*a, *b))).fold(0.0, f64::max);
-    most / results.mesh.size(None)
+    let (now, mesh) = (&results.states[i], &results.mesh);
+    let moved = |n: usize| sub(now.u[n], old.u[n]);
+    let sides = mesh.cells.iter().flat_map(|(_, nodes)| nodes.windows(2));
+    let turns = sides.map(|side| {
+        let (a, b) = (side[0], side[1]);
+        norm(sub(moved(a), moved(b))) / norm(sub(mesh.points[a], mesh.points[b]))
+    });
+    turns.fold(0.0, f64::max)
 }
 
 /// One point at one time. Without a state before only the bounds that hold at any speed are asked.
@@ -257,12 +262,22 @@ fn one(
     ) {
         report.note("law", name, (p - law).abs() / scale.pressure, t);
     }
+    // What had nothing opposite has slipped since it has.
+    let last = last.filter(|l| !l.pressure.is_nan());
     let moved = last.map(|l| (point.slip[0] - l.slip[0]).hypot(point.slip[1] - l.slip[1]));
     let slid = last.is_some_and(|l| l.status == 2.0);
     let depth = (-open).max(0.0);
     // In motion the law sees the velocity at the end of the increment, which the files have not: any speed may be.
+    // Slip is written in directions that turn with the surface: with them all that has been slipped so far turns.
+    let swung = last.map_or(0.0, |l| turn * l.slip[0].hypot(l.slip[1]));
     let speeds: Vec<f64> = match (moved, inertia) {
-        (Some(moved), false) if dt > 0.0 => vec![moved / dt],
+        (Some(moved), false) if dt > 0.0 => {
+            vec![
+                (moved - swung).max(0.0) / dt,
+                moved / dt,
+                (moved + swung) / dt,
+            ]
+        }
         _ => {
             let top = scale.slip / dt.max(1e-300);
             [0.0]
@@ -312,10 +327,9 @@ fn one(
     };
     match laws.epsilon {
         Some(epsilon) => {
-            // Slip is written in directions that turn with the surface: with them all that has been slipped so far turns.
-            let swung = last.map_or(0.0, |l| turn * l.slip[0].hypot(l.slip[1]));
-            let due = |moved: f64| bounds[0] * smooth(epsilon, moved / dt);
-            let (least, most) = (due((moved - swung).max(0.0)), due(moved + swung));
+            let due = |bound: f64, moved: f64| bound * smooth(epsilon, moved / dt);
+            let least = due(bounds[0], (moved - swung).max(0.0));
+            let most = due(bounds[1], moved + swung);
             let off = (carried - most).max(least - carried).max(0.0);
             // A belt moves beneath a point that does not.
             if !pair.belt {
