@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
-use crate::contact::projection::{beyond, evaluate, facet_distance, project};
-use crate::contact::search::Tree;
+use crate::contact::projection::{FACET_NODES, beyond, evaluate, facet_distance, project};
+use crate::contact::search::{Box3, Tree};
 use crate::contact::surface::{Facet, Skin};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
@@ -74,16 +74,14 @@ fn grid(kind: ElementKind) -> &'static [[f64; 2]] {
     }
 }
 
-fn gather(facet: &Facet, x: &[Vec3]) -> Vec<Vec3> {
-    facet.nodes.iter().map(|&n| x[n]).collect()
-}
-
 /// One side, to be asked for the gap of a place on the other.
 pub(super) struct Side<'a> {
     facets: Vec<&'a Facet>,
     /// Heights of the cells beneath, where they are known.
     sizes: Vec<f64>,
     tree: Tree,
+    /// Boxes around the facets, bulges included.
+    boxes: Vec<Box3>,
     margin: f64,
     /// Depth that contact points know of `[m]`.
     deep: f64,
@@ -102,7 +100,9 @@ impl<'a> Side<'a> {
         // Curved facets leave the boxes of their nodes by a part of their size.
         let curved = facets.iter().filter(|f| f.kind.order() > 1);
         let longest = curved.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
+        let around = |f: &&Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
         Side {
+            boxes: facets.iter().map(around).collect(),
             margin: 0.25 * longest.fold(0.0, f64::max),
             facets,
             sizes,
@@ -124,19 +124,26 @@ impl<'a> Side<'a> {
     /// them.
     fn gap(&self, place: &Place, found: &mut Vec<usize>) -> Option<(usize, f64)> {
         self.tree.near(place.x, self.margin, found);
+        // Most of what is near is farther than what is met first.
+        let least = |f: usize| self.boxes[f].distance2(place.x);
+        found.sort_unstable_by(|&a, &b| least(a).total_cmp(&least(b)).then(a.cmp(&b)));
         // Outside an edge the nearest facet may have no foot, and the next one that has is no measure.
         let mut aside: Option<(f64, usize)> = None;
         let mut best: Option<(f64, usize, Option<f64>)> = None;
         for &f in found.iter() {
+            if best.is_some_and(|b| least(f) > b.0 * b.0) {
+                break;
+            }
             let facet = self.facets[f];
-            let nodes = gather(facet, self.x);
-            let Some(p) = project(facet.kind, &nodes, place.x) else {
+            let mut nodes = [[0.0; 3]; FACET_NODES];
+            let nodes = facet.gather(self.x, &mut nodes);
+            let Some(p) = project(facet.kind, nodes, place.x) else {
                 continue;
             };
             if dot(p.normal, place.normal) >= 0.0 {
                 continue;
             }
-            let over = beyond(facet.kind, &nodes, &p);
+            let over = beyond(facet.kind, nodes, &p);
             let away = facet_distance(place.x, &p, over);
             let gap = dot(sub(place.x, p.x), p.normal);
             if over.distance > EDGE * distance(nodes[0], nodes[1]) {
@@ -178,7 +185,8 @@ fn places<'a>(
 
 /// A place on a facet.
 fn place(facet: &Facet, x: &[Vec3], reference: &[Vec3], xi: [f64; 2]) -> Place {
-    let p = evaluate(facet.kind, &gather(facet, x), xi);
+    let mut nodes = [[0.0; 3]; FACET_NODES];
+    let p = evaluate(facet.kind, facet.gather(x, &mut nodes), xi);
     let from = facet.nodes.iter().zip(&p.n);
     Place {
         x: p.x,
@@ -318,7 +326,8 @@ fn corners(facets: &[Facet], x: &[Vec3], reference: &[Vec3]) -> Vec<Place> {
     let mut normals: BTreeMap<usize, Vec3> = BTreeMap::new();
     for facet in facets {
         let [s, t, _] = facet.kind.centre();
-        let normal = evaluate(facet.kind, &gather(facet, x), [s, t]).normal;
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let normal = evaluate(facet.kind, facet.gather(x, &mut nodes), [s, t]).normal;
         for &n in &facet.nodes {
             let sum = normals.entry(n).or_default();
             *sum = add_scaled(*sum, 1.0, normal);
