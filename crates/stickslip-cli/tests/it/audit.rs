@@ -11,7 +11,7 @@ use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
 /// Series and numbers of small problems that take a fraction of a second each, all families among them.
-const NUMBERS: [(u64, u64); 16] = [
+const NUMBERS: [(u64, u64); 18] = [
     (1, 3),
     (1, 8),
     (1, 14),
@@ -32,6 +32,10 @@ const NUMBERS: [(u64, u64); 16] = [
     (19, 462),
     // Points touch and part in large increments of sliding.
     (19, 490),
+    // A node of a mortar gets something opposite.
+    (20, 82),
+    // Friction that is not against slip: the paper's kinematics on triangles.
+    (20, 365),
 ];
 
 /// Runs a problem file; the folder of its results and the exit code.

@@ -111,6 +111,10 @@ fn shortened(name: &str) -> &'static [&'static str] {
     match name {
         // The ways back and forth are the way out again, twice as long.
         "fretting-sphere" => &["step.2.increments.fixed=8", "step.3.increments.fixed=8"],
+        "press-and-slide" => &[
+            "body.lower.generate.box.cells=[8,8,8]",
+            "body.upper.generate.box.cells=[7,7,7]",
+        ],
         _ => &[],
     }
 }

@@ -17,7 +17,7 @@ const GIVEN: f64 = 1e-2;
 
 impl Interface {
     /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
-    /// limit, in the tangent plane and not along its slip; one that sticks carries no more than its limit.
+    /// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
     pub(super) fn judge_friction(&self, stage: &Stage) -> Cone {
         let law = self.laws.friction_law();
         let mut cone = Cone::default();
@@ -58,8 +58,16 @@ impl Interface {
             };
             wrong = wrong.max(dot(shear, e.frames.normal).abs());
             let given = (size + norm(before.shear)) * self.compliance(i, e);
-            if slips && norm(moved) > unsure + given {
-                wrong = wrong.max(dot(shear, moved) / norm(moved));
+            let unsure = unsure + given;
+            if slips && norm(moved) > unsure {
+                let against = -dot(shear, moved) / norm(moved);
+                wrong = wrong.max(-against);
+                if self.kinematics.as_dyn().triangles() {
+                    // With edges of a facet as directions friction need not be against slip. What is unsure may turn slip by this angle.
+                    let angle = (against / size).clamp(-1.0, 1.0).acos();
+                    let turned = (unsure / norm(moved)).asin();
+                    wrong = wrong.max(size * (1.0 - (angle - turned).max(0.0).cos()));
+                }
             }
             cone.worst = cone.worst.max(wrong);
         }

@@ -12,7 +12,7 @@ use crate::registry::Samples;
 /// - the `a_t, a_τ` are orthogonal projections (covariant), not convective coordinates, although (29) calls them so;
 /// - with edges at an angle β ≠ 90° they are used as force components (contravariant): sticking has stiffness `ω(1 ± cos β)` in
 ///   different directions and friction is not opposite to slip (at β = 60°, slip at 60° meets friction at 41°), though
-///   its size is right;
+///   its size is right: the quality figure `friction-law` says so;
 /// - it is not objective: a point glued to a facet that shears has a spurious slip of first order.
 ///
 /// Facets must be lines or triangles. No parameters.

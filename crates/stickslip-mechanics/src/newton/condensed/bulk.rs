@@ -134,6 +134,7 @@ impl Bulk for CondensedBulk<'_> {
         let asked = settings.linear_tolerance;
         let finest = match 3 * contact.blocks.len() {
             0..=TINY => FINEST_TINY,
+            SMALL.. if asked > FINEST_SMALL && tolerance >= asked => UNSETTLED,
             SMALL.. if asked > FINEST_SMALL => FINEST,
             _ => FINEST_SMALL.min(asked),
         };
@@ -162,5 +163,7 @@ impl Bulk for CondensedBulk<'_> {
 /// The finest relative residual of a linear solution: where most of what is solved are products, three digits an iteration are as many as those in
 /// single precision give; where fewer rows are, and where next to nothing is solved.
 const FINEST: f64 = 1e-3;
+/// The same while points change status: what it is solved for is not the last word.
+const UNSETTLED: f64 = 1e-2;
 const FINEST_SMALL: f64 = 1e-5;
 const FINEST_TINY: f64 = 1e-13;
