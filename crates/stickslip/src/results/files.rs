@@ -137,19 +137,22 @@ impl ResultFiles {
             .collect();
         let path = self.folder.directory.join(&name);
         let folder = self.folder.directory.join(INTERFACES);
+        let file = path.clone();
+        let write = move || {
+            mesh.write(&path, &fields)?;
+            if !tables.is_empty() {
+                std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+            }
+            for (name, table) in &tables {
+                csv::write(&folder.join(format!("{name}.csv")), table)?;
+            }
+            Ok(())
+        };
+        let thread = std::thread::Builder::new().spawn(write);
         self.writing = Some(Writing {
             time: view.frame.state.t,
             name,
-            thread: std::thread::spawn(move || {
-                mesh.write(&path, &fields)?;
-                if !tables.is_empty() {
-                    std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
-                }
-                for (name, table) in &tables {
-                    csv::write(&folder.join(format!("{name}.csv")), table)?;
-                }
-                Ok(())
-            }),
+            thread: thread.map_err(|e| Error::io(&file, e))?,
         });
         Ok(())
     }
