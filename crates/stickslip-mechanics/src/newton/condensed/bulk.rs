@@ -160,10 +160,11 @@ impl Bulk for CondensedBulk<'_> {
     }
 }
 
-/// The finest relative residual of a linear solution: where most of what is solved are products, three digits an iteration are as many as those in
-/// single precision give; where fewer rows are, and where next to nothing is solved.
+/// The finest relative residual of a linear solution where most of what is solved are products: three digits an iteration are as many as those in
+/// single precision give where interfaces are stiff.
 const FINEST: f64 = 1e-3;
 /// The same while points change status: what it is solved for is not the last word.
 const UNSETTLED: f64 = 1e-2;
+/// Where fewer rows are, and where next to nothing is solved.
 const FINEST_SMALL: f64 = 1e-5;
 const FINEST_TINY: f64 = 1e-13;
