@@ -173,7 +173,7 @@ fn dissipation(results: &Results, pair: &Pair, play: f64, report: &mut Report) {
             Some(Before::Start) => {}
         }
         let now = at(state);
-        let force = state.grid.vector("CFORCE");
+        let force = pair.gathered(state.grid.vector("CFORCE"));
         for node in &nodes {
             let point = now[*node];
             if point.status != 2.0 || point.pressure <= 0.0 {

@@ -303,12 +303,13 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
             count += 1.0;
             // The slip of a mortar point is a mean over the faces around it: only the mean over all is that of the places.
             if !pair.mortar {
-                report.note(
-                    "slip",
-                    &pair.name,
-                    off[0].hypot(off[1]) / sizes.slip,
-                    state.t,
-                );
+                // What was slipped before goes along where a point is carried by an obstacle that turns.
+                let so_far = then[*node].slip;
+                let moved = |n: usize| sub(x1[n], x0[n]);
+                let swing = pair.swing(*node, &x1, &moved, [old.t, state.t]);
+                let swung = so_far[0].hypot(so_far[1]) * swing;
+                let off = (off[0].hypot(off[1]) - swung).max(0.0);
+                report.note("slip", &pair.name, off / sizes.slip, state.t);
             }
             // The mean of a mortar point is not that of the places where what lies opposite has corners within its faces, or its weights have both signs:
             // there friction is held against the slip that is written, which in motion says nothing of how it ends.

@@ -8,7 +8,7 @@ use crate::case::{Case, Space, interpolate, kind, number, rows, text_of, vector}
 use crate::element::Kind;
 use crate::loads::{place, sense, stretch};
 use crate::mesh::{Facet, Mesh};
-use crate::vec3::{Vec3, add, dot, norm, scale, sub, tangential, turned, unit};
+use crate::vec3::{Vec3, add, along, cross, dot, norm, scale, sub, tangential, turned, unit};
 
 /// A rigid shape with its motion.
 #[derive(Debug, Clone)]
@@ -131,6 +131,18 @@ impl Obstacle {
         })
     }
 
+    /// The angle by which what is now at `x` and has moved by `u` since `from` was turned about the axis together with the obstacle: no further than
+    /// that, and not the other way.
+    pub fn followed(&self, (x, u): (Vec3, Vec3), from: f64, to: f64) -> f64 {
+        let ([centre, axis], before, shift) = self.frame(from);
+        let (_, angle, now) = self.frame(to);
+        let turn = angle - before;
+        let start = tangential(sub(sub(x, u), add(centre, shift)), axis);
+        let end = tangential(sub(x, add(centre, now)), axis);
+        let own = dot(axis, cross(start, end)).atan2(dot(start, end));
+        own.clamp(turn.min(0.0), turn.max(0.0))
+    }
+
     /// How far what is now at `x` moves from one time to another.
     pub fn carried(&self, x: Vec3, from: f64, to: f64) -> Vec3 {
         sub(self.outward(self.inward(x, from), to), x)
@@ -233,6 +245,37 @@ fn edges(facet: &Facet) -> Vec<[usize; 2]> {
             .map_or(vec![[a, b]], |m| vec![[a, *m], [*m, b]])
     };
     (0..corners.len()).flat_map(halves).collect()
+}
+
+/// The straight lines and plane triangles that stand for a facet where contact knows no others: a quadrilateral is divided along its first diagonal, of what is
+/// quadratic the corners are cut off at the middles of the edges beside them.
+fn pieces(facet: &Facet) -> Vec<Facet> {
+    let (kind, pieces): (Kind, &[&[usize]]) = match facet.kind {
+        Kind::Line(3) => (Kind::Line(2), &[&[0, 2], &[2, 1]]),
+        Kind::Triangle(6) => (
+            Kind::Triangle(3),
+            &[&[0, 3, 5], &[1, 4, 3], &[2, 5, 4], &[3, 4, 5]],
+        ),
+        Kind::Quad(4) => (Kind::Triangle(3), &[&[0, 1, 2], &[0, 2, 3]]),
+        Kind::Quad(8) => (
+            Kind::Triangle(3),
+            &[
+                &[0, 4, 7],
+                &[1, 5, 4],
+                &[2, 6, 5],
+                &[3, 7, 6],
+                &[4, 5, 6],
+                &[4, 6, 7],
+            ],
+        ),
+        _ => return vec![facet.clone()],
+    };
+    let piece = |local: &&[usize]| Facet {
+        kind,
+        nodes: local.iter().map(|i| facet.nodes[*i]).collect(),
+        ..facet.clone()
+    };
+    pieces.iter().map(piece).collect()
 }
 
 /// Whether the surface ends at a node, by the facets around it: at an edge that only one of them has, or of lines at a node that only one has.
@@ -393,12 +436,18 @@ impl Pair {
         let kinematics = kind(table, "kinematics")
             .map_or("convective", |k| k.0)
             .to_string();
-        let primary = Side::named(case, mesh, text_of(table, keys[1])?)?;
         let discretisation = kind(table, "discretisation");
-        let triangles = text_of(table, "facets") == Some("triangles");
+        let plane = kinematics == "pop-1995" || text_of(table, "facets") == Some("triangles");
         let mortar = match discretisation {
             Some((word, _)) => word == "mortar",
-            None => kinematics != "pop-1995" && !triangles,
+            None => !plane,
+        };
+        let primary = match Side::named(case, mesh, text_of(table, keys[1])?)? {
+            Side::Body { points, facets } if plane => Side::Body {
+                points,
+                facets: facets.iter().flat_map(pieces).collect(),
+            },
+            side => side,
         };
         let flag =
             |table: &Table, key: &str| table.get(key).and_then(toml::Value::as_bool) == Some(true);
@@ -436,6 +485,36 @@ impl Pair {
     pub fn mean(&self, node: usize, of: impl Fn(usize) -> Option<f64>) -> Option<f64> {
         match self.means.get(&node) {
             Some(&[a, b]) => Some((of(node)? - 0.2 * (of(a)? + of(b)?)) / 0.6),
+            None => of(node),
+        }
+    }
+
+    /// The forces of points, of the forces that they put on nodes: what [`Pair::mean`] does to gaps the other way round.
+    pub fn gathered(&self, mut nodes: Vec<Vec3>) -> Vec<Vec3> {
+        for (middle, corners) in &self.means {
+            let whole = nodes[*middle];
+            for corner in corners {
+                nodes[*corner] = along(nodes[*corner], 0.2, whole);
+            }
+            nodes[*middle] = scale(0.6, whole);
+        }
+        nodes
+    }
+
+    /// By how much of it the slip so far of a point is turned together with an obstacle while nodes move by `u` to where they are.
+    pub fn swing(
+        &self,
+        node: usize,
+        x: &[Vec3],
+        u: &dyn Fn(usize) -> Vec3,
+        times: [f64; 2],
+    ) -> f64 {
+        let Side::Rigid(obstacle) = &self.primary else {
+            return 0.0;
+        };
+        let of = |n: usize| obstacle.followed((x[n], u(n)), times[0], times[1]).abs();
+        match self.means.get(&node) {
+            Some(&[a, b]) => (of(node) + 0.2 * (of(a) + of(b))) / 0.6,
             None => of(node),
         }
     }
@@ -569,5 +648,79 @@ mod tests {
         let all: Vec<&Facet> = faces.iter().collect();
         assert!(!on_border(&all, 4));
         assert!(on_border(&all[..2], 1));
+    }
+
+    /// Four corners that are not in one plane: above the middle of the first diagonal the surface of two triangles is that diagonal, whatever the other two do.
+    #[test]
+    fn plane_pieces_meet_along_the_first_diagonal() {
+        let facet = |kind, n: usize| Facet {
+            kind,
+            nodes: (10..10 + n).collect(),
+            cell: 0,
+            body: 0,
+        };
+        let nodes = |f: &Facet| f.nodes.clone();
+        let whole = facet(Kind::Quad(4), 4);
+        let two: Vec<_> = pieces(&whole).iter().map(nodes).collect();
+        assert_eq!(two, [[10, 11, 12], [10, 12, 13]]);
+        // The area of what is quadratic, with straight sides, is that of its pieces, each the right way round.
+        let corners = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 2.0],
+            [0.0, 2.0],
+            [1.0, 0.0],
+            [2.0, 1.0],
+            [1.0, 2.0],
+            [0.0, 1.0],
+        ];
+        let area = |f: &Facet| {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[f.nodes[k] - 10]);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        };
+        let areas: Vec<f64> = pieces(&facet(Kind::Quad(8), 8)).iter().map(area).collect();
+        assert_eq!(areas.len(), 6);
+        assert!(areas.iter().all(|a| *a > 0.0) && areas.iter().sum::<f64>() == 4.0);
+        assert_eq!(pieces(&facet(Kind::Triangle(6), 6)).len(), 4);
+        assert_eq!(pieces(&facet(Kind::Line(2), 2)).len(), 1);
+    }
+
+    /// Forces of points 3 on a middle and 1 and 2 on its corners, as nodes get them, are gathered again.
+    #[test]
+    fn forces_of_points_are_found_in_those_of_nodes() {
+        let pair = Pair {
+            means: BTreeMap::from([(2, [0, 1])]),
+            ..Pair::bare("joint")
+        };
+        let up = |z: f64| [0.0, 0.0, z];
+        let spread = vec![
+            up(1.0 - 0.2 * 3.0 / 0.6),
+            up(2.0 - 0.2 * 3.0 / 0.6),
+            up(3.0 / 0.6),
+        ];
+        let found = pair.gathered(spread);
+        for (found, due) in found.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((found[2] - due).abs() < 1e-15, "{found:?}");
+        }
+    }
+
+    /// On a plate that turns by 0.2 a point that turned by 0.1 with it has followed by that much, one that went the other way not at all.
+    #[test]
+    fn a_point_follows_an_obstacle_as_far_as_it_goes_along() {
+        let table = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmotion.rotation = { centre = [1, 0, 0], axis = [0, 0, 1], angle = [[0, 0], [1, 0.2]] }";
+        let pair = Pair {
+            primary: Side::Rigid(Obstacle {
+                table: table.parse().expect("a table"),
+                flat: false,
+            }),
+            ..Pair::bare("joint")
+        };
+        let swing = |angle: f64| {
+            let x = [1.0 + 2.0 * angle.cos(), 2.0 * angle.sin(), 0.0];
+            pair.swing(0, &[x], &|_| sub(x, [3.0, 0.0, 0.0]), [0.0, 1.0])
+        };
+        for (angle, due) in [(0.1, 0.1), (-0.1, 0.0), (0.5, 0.2)] {
+            assert!((swing(angle) - due).abs() < 1e-12, "{angle}");
+        }
     }
 }
