@@ -39,11 +39,16 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
     let mut balance = attempt.evaluate(&mut out, true)?;
     let mut control = StepControl::default();
     let mut residuals = Vec::new();
+    // With what multipliers miss: a failure may be theirs alone.
+    let mut reported = Vec::new();
     for iteration in 0..=settings.max_iterations {
         if (attempt.interrupted)() {
             return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
         }
         residuals.push(balance.relative());
+        let before = balance.norm.max(out.multiplier_residual);
+        let residual = balance.compared(before);
+        reported.push(residual);
         let target = balance.target(settings.tolerance);
         if balance.norm <= target && out.multiplier_residual <= target {
             return Ok(converged(attempt, balance, out, (iteration, round)));
@@ -52,8 +57,6 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
             break;
         }
         let krylov = solve(attempt, &mut out, &balance, &mut linear, iteration == 0)?;
-        let before = balance.norm.max(out.multiplier_residual);
-        let reported = balance.compared(before);
         let demand = control.demand(&residuals, before);
         let taken = step_length::take(attempt, &mut out, &linear.du, &demand)?;
         balance = taken.balance;
@@ -61,13 +64,13 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
             strategy: attempt.strategy,
             iteration,
             round,
-            residual: reported,
+            residual,
             step: taken.length,
             krylov,
             tally: attempt.system.tally(),
         });
     }
-    Err(not_converged(attempt, &residuals))
+    Err(not_converged(attempt, &reported))
 }
 
 /// Asks the interfaces for what the bulk needs of them.

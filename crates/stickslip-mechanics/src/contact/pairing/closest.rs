@@ -56,6 +56,7 @@ pub struct Previous {
 }
 
 /// A point over one of its candidates.
+#[derive(Clone, Copy)]
 struct Look {
     p: FacetPoint,
     /// A length of the facet, for tolerances.
@@ -89,7 +90,7 @@ impl Choice<'_> {
         let mut seed = self.look(first, near);
         let mut nearest = seed.as_ref().map_or(f64::INFINITY, |look| look.away);
         let mut best: Option<(usize, Look)> = None;
-        let mut kept: Option<FacetPoint> = None;
+        let mut kept: Option<Look> = None;
         for &f in self.candidates {
             let look = if f == first {
                 seed.take()
@@ -106,7 +107,7 @@ impl Choice<'_> {
             };
             nearest = nearest.min(look.away);
             if previous.facet == Some(f) && look.carried && look.beyond <= KEPT * look.size {
-                kept = Some(look.p);
+                kept = Some(look);
             }
             let better = match &best {
                 None => true,
@@ -122,14 +123,19 @@ impl Choice<'_> {
             // The point goes over the ridge when its foot does.
             (Some((_, look)), Some(k), Some(f))
                 if look.carried
-                    && (dot(look.p.normal, k.normal) > 1.0 - FLAT
-                        || self.behind(&k) && self.behind(&look.p)) =>
+                    && (dot(look.p.normal, k.p.normal) > 1.0 - FLAT
+                        || self.presses(&k) && self.presses(&look)) =>
             {
-                Ok((f, k))
+                Ok((f, k.p))
             }
             (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
             _ => Err(nearest),
         }
+    }
+
+    /// Whether the point lies on the inner side of its projection's plane, or on it: a point that is held by next to no force may be either.
+    fn presses(&self, look: &Look) -> bool {
+        dot(sub(self.position, look.p.x), look.p.normal) <= TIE * look.size
     }
 
     /// Whether the point lies on the inner side of its projection's plane.
@@ -217,5 +223,55 @@ impl Choice<'_> {
             .iter()
             .find(|d| d.abs() > tie)
             .is_some_and(|d| *d < 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::ElementKind;
+
+    /// A point that a thousandth of a billionth of a facet of play lets lie above or below a ridge stays on the facet on which it is held: Newton's method went to
+    /// and fro between the two, whose normals differ.
+    #[test]
+    fn a_point_on_a_ridge_stays_on_its_facet_whichever_side_rounding_puts_it() {
+        let x = [[1.0, -0.02, 0.0], [0.0; 3], [-1.0, -0.02, 0.0]];
+        let line = |nodes: [usize; 2]| Facet {
+            kind: ElementKind::Line2,
+            nodes: nodes.to_vec(),
+            continues: vec![true; 2],
+            modulus: 1.0,
+            cell: 1,
+        };
+        let facets = [line([0, 1]), line([1, 2])];
+        let around = |f: &Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
+        let boxes = [around(&facets[0]), around(&facets[1])];
+        let on = |position: Vec3, previous: usize| {
+            let choice = Choice {
+                facets: &facets,
+                boxes: &boxes,
+                candidates: &[0, 1],
+                margin: 1.0,
+                x: &x,
+                reference: &x,
+                position,
+                outward: [0.0, -1.0, 0.0],
+                edge_tolerance: 1e-3,
+            };
+            let previous = Previous {
+                facet: Some(previous),
+                near: None,
+            };
+            choice.closest(previous).expect("a facet").0
+        };
+        for height in [-1e-10, -1e-14, 0.0, 1e-14, 1e-10] {
+            for aside in [-1e-9, 0.0, 1e-9] {
+                let position = [aside, height, 0.0];
+                assert_eq!([on(position, 0), on(position, 1)], [0, 1], "{position:?}");
+            }
+        }
+        // It goes over where its foot does, and well above the ridge the nearest facet is its own.
+        assert_eq!(on([-1e-2, -1e-3, 0.0], 0), 1);
+        assert_eq!(on([-1e-3, 1e-2, 0.0], 0), 1);
     }
 }
