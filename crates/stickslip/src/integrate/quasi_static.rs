@@ -61,18 +61,16 @@ pub(crate) fn pairs<'a>(a: &'a [f64], b: &'a [f64]) -> impl Iterator<Item = (f64
 }
 
 impl Frame {
-    /// Where a quasi-static increment is expected to end: the last one goes on.
+    /// Where a quasi-static increment is expected to end: the last one goes on. Straight on: where points cross facets a parabola led multigrid to pairs that
+    /// it had not been set up for.
     fn extrapolated(&self, trial: Trial) -> State {
         let mut at = State {
             t: trial.to,
             u: self.state.u.clone(),
             ..State::default()
         };
-        if let Some((before, u)) = &self.previous {
-            let ratio = (trial.to - trial.from) / before;
-            for (a, (now, then)) in at.u.iter_mut().zip(self.state.u.iter().zip(u)) {
-                *a = now + ratio * (now - then);
-            }
+        if let Some(ahead) = self.course.straight(&at.u, trial.to - trial.from) {
+            at.u.iter_mut().zip(ahead).for_each(|(u, d)| *u += d);
         }
         at
     }

@@ -30,7 +30,7 @@ impl Frame {
                 }
             }
         }
-        self.previous = None;
+        self.course.forget();
         self.released.clear();
         let links = &model.links;
         let released = &mut self.released;

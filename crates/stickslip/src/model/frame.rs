@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::course::Course;
 use super::ledger::EnergyLedger;
 use crate::system::State;
 
@@ -24,8 +25,8 @@ pub struct Frame {
     pub starts: BTreeMap<String, Vec<f64>>,
     /// Forces of supports and equations that let go when the step began, by dof `[N]`: they fade over the step.
     pub released: Vec<(usize, f64)>,
-    /// The length of the increment before `[s]` and the displacements at its start: the direction in which the next is expected to go.
-    pub previous: Option<(f64, Vec<f64>)>,
+    /// Displacements over the last increments of a quasi-static step `[m]`.
+    pub course: Course,
     /// What an implicit step knows beside the state.
     pub motion: Motion,
     /// Energies: what there is, and where it came from and went.
@@ -52,7 +53,7 @@ crate::keep!(Frame {
     coupled,
     starts,
     released,
-    previous,
+    course,
     motion,
     ledger
 });

@@ -2,6 +2,7 @@
 
 pub(crate) mod conditions;
 pub(crate) mod contact;
+pub(crate) mod course;
 pub(crate) mod definition;
 pub(crate) mod drivers;
 pub(crate) mod frame;
@@ -13,6 +14,7 @@ pub(crate) mod setup;
 pub(crate) mod unheld;
 
 pub use contact::Contact;
+pub use course::Course;
 pub use definition::{
     Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid,
     Solution, Step, Support,

@@ -37,8 +37,8 @@ impl Simulation {
             // In motion that has been done when it was weighed.
             if model.steps[frame.step].dynamic.is_none() {
                 contact.commit(&accepted.stage(&frame.state, *trial));
+                (frame.course).go_on(trial.to - trial.from, frame.state.u.clone());
             }
-            frame.previous = Some((trial.to - trial.from, frame.state.u.clone()));
             return self.report(pending, observers);
         };
         let before = self.pending.is_empty().then(|| {
@@ -225,7 +225,7 @@ impl Simulation {
 
     /// What the last increment did is no guide for the next.
     pub(crate) fn forget_direction(&mut self) {
-        self.frame.previous = None;
+        self.frame.course.forget();
         self.solver.condenser.forget_direction();
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::model::course::Course;
 use crate::newton::condensed::{Amplitudes, Condensation, Library, LoadPatterns, ReducedSystem};
 use crate::system::State;
 
@@ -43,8 +44,8 @@ pub(crate) struct Condensed {
     pub state: State,
     /// Forces under which the candidates are where they are.
     pub(super) carried: Vec<f64>,
-    /// The increment before: its length, displacements of the candidates and forces.
-    pub(super) previous: Option<(f64, Vec<f64>, Vec<f64>)>,
+    /// Displacements of the candidates over the last increments, and the forces behind them.
+    pub(super) course: Course,
     /// What the last attempt found.
     pub(super) found: Option<(Amplitudes, Vec<f64>)>,
 }
@@ -106,7 +107,7 @@ impl Condenser {
     /// What the last increment did is no guide for the next.
     pub fn forget_direction(&mut self) {
         if let Some(condensed) = &mut self.at_rest {
-            condensed.previous = None;
+            condensed.course.forget();
         }
     }
 }

@@ -171,7 +171,7 @@ impl Solver {
     ) {
         frame.state.u = u;
         model.links.impose(&mut frame.state.u);
-        frame.previous = None;
+        frame.course.forget();
         self.condenser.forget_direction();
         self.choose_candidates(model, frame, contact);
         self.condenser.drop_at_rest();

@@ -9,6 +9,7 @@ use super::inertia::{Inertia, InertiaRecipe};
 use super::solver::Solver;
 use crate::linear::BlockCsr;
 use crate::model::contact::Contact;
+use crate::model::course::Course;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::Frame;
 use crate::newton::condensed::{LoadPatterns, PatternsRecipe, ReducedRecipe, ReducedSystem};
@@ -43,7 +44,7 @@ struct AtRest {
     patterns: PatternsRecipe,
     state: State,
     carried: Vec<f64>,
-    previous: Option<(f64, Vec<f64>, Vec<f64>)>,
+    course: Course,
 }
 
 /// Bodies that were condensed with the matrix of an increment in motion.
@@ -84,7 +85,7 @@ crate::keep!(AtRest {
     patterns,
     state,
     carried,
-    previous
+    course
 });
 crate::keep!(InMotion { key, bodies });
 crate::keep!(Bodies {
@@ -129,7 +130,7 @@ impl Solver {
                 patterns: c.patterns.recipe(),
                 state: c.state.clone(),
                 carried: c.carried.clone(),
-                previous: c.previous.clone(),
+                course: c.course.clone(),
             }),
             // Those of a matrix that is gone are not asked for again.
             moving: moving
@@ -219,7 +220,7 @@ impl Solver {
             kept,
             state: at_rest.state,
             carried: at_rest.carried,
-            previous: at_rest.previous,
+            course: at_rest.course,
             found: None,
         })
     }

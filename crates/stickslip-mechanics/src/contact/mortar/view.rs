@@ -50,14 +50,37 @@ pub(super) fn gather(nodes: &[usize], x: &[Vec3]) -> [Vec3; FACE_NODES] {
     out
 }
 
-/// A place on a face or facet.
-pub(super) fn place(kind: ElementKind, x: &[Vec3], xi: Point) -> Place {
+/// Shape functions of a bilinear quadrilateral and their derivatives, in line: most faces are such ones.
+fn bilinear([s, t]: Point) -> ([f64; FACE_NODES], [Point; FACE_NODES]) {
+    let mut n = [0.0; FACE_NODES];
+    let mut d = [[0.0; 2]; FACE_NODES];
+    let ends = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    for ((n, d), [a, b]) in n.iter_mut().zip(&mut d).zip(ends) {
+        let (along, across) = (1.0 + a * s, 1.0 + b * t);
+        *n = 0.25 * along * across;
+        *d = [0.25 * a * across, 0.25 * b * along];
+    }
+    (n, d)
+}
+
+/// Shape functions of a face or facet and their derivatives.
+fn shapes(kind: ElementKind, xi: Point) -> ([f64; FACE_NODES], [Point; FACE_NODES]) {
+    if kind == ElementKind::Quad4 {
+        return bilinear(xi);
+    }
     let count = kind.node_count();
     let at = [xi[0], xi[1], 0.0];
     let mut n = [0.0; FACE_NODES];
     let mut d = [[0.0; 3]; FACE_NODES];
     kind.reference().values(at, &mut n[..count]);
     kind.reference().gradients(at, &mut d[..count]);
+    (n, d.map(|[s, t, _]| [s, t]))
+}
+
+/// A place on a face or facet.
+pub(super) fn place(kind: ElementKind, x: &[Vec3], xi: Point) -> Place {
+    let count = kind.node_count();
+    let (n, d) = shapes(kind, xi);
     let mut p = Place {
         n,
         x: [0.0; 3],

@@ -47,7 +47,7 @@ impl Solver {
             patterns,
             state: from,
             carried,
-            previous,
+            course,
             found,
             ..
         } = condensed;
@@ -60,15 +60,13 @@ impl Solver {
             ..State::default()
         };
         let mut guess = carried.clone();
-        if let Some((before, u, s)) = previous {
-            // the last increment goes on
-            let ratio = (trial.to - trial.from) / *before;
-            for ((&dof, then), (g, s)) in
-                condensation.dofs.iter().zip(u).zip(guess.iter_mut().zip(s))
-            {
-                at.u[dof] += ratio * (from.u[dof] - *then);
-                *g += ratio * (*g - *s);
+        let now = both(condensation.gather(&from.u), &guess);
+        if let Some(ahead) = course.ahead(&now, trial.to - trial.from) {
+            let (moved, more) = ahead.split_at(guess.len());
+            for (&dof, moved) in condensation.dofs.iter().zip(moved) {
+                at.u[dof] += moved;
             }
+            guess.iter_mut().zip(more).for_each(|(g, more)| *g += more);
         }
         let base = vec![0.0; condensation.size()];
         let mut bulk =
@@ -103,12 +101,12 @@ impl Solver {
             condensation,
             state,
             carried,
-            previous,
+            course,
             ..
         } = condensed;
-        let before = condensation.gather(&state.u);
-        let length = trial.to - trial.from;
-        *previous = Some((length, before, std::mem::replace(carried, now)));
+        let before = both(condensation.gather(&state.u), carried);
+        course.go_on(trial.to - trial.from, before);
+        *carried = now;
         state.clone_from(&accepted.state);
         accepted.external = Vec::new();
         let contact = std::mem::take(&mut accepted.contact);
@@ -206,6 +204,12 @@ impl Solver {
         self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
         Ok(())
     }
+}
+
+/// Displacements of the candidates and the forces behind them, one after the other: they go on together, as one follows from the other.
+fn both(mut displacements: Vec<f64>, forces: &[f64]) -> Vec<f64> {
+    displacements.extend_from_slice(forces);
+    displacements
 }
 
 impl Condensed {

@@ -7,6 +7,7 @@ use std::time::Instant;
 use crate::linear::BlockCsr;
 use crate::math::Vec3;
 use crate::model::contact::Contact;
+use crate::model::course::Course;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::Frame;
 use crate::model::scene::Scene;
@@ -35,7 +36,7 @@ impl Solver {
             && condensed.condensation.held == held
             && condensed.kept == kept
         {
-            condensed.previous = None;
+            condensed.course.forget();
             return;
         }
         let made = self.condensation(model, frame, contact, &held, Which::Stiffness);
@@ -61,7 +62,7 @@ impl Solver {
             patterns: LoadPatterns::default(),
             state: frame.state.clone(),
             carried,
-            previous: None,
+            course: Course::default(),
             found: None,
         });
     }
