@@ -650,7 +650,7 @@ mod tests {
         assert!(on_border(&all[..2], 1));
     }
 
-    /// Four corners that are not in one plane: above the middle of the first diagonal the surface of two triangles is that diagonal, whatever the other two do.
+    /// A quadrilateral is divided along its first diagonal; what is quadratic loses nothing of its area.
     #[test]
     fn plane_pieces_meet_along_the_first_diagonal() {
         let facet = |kind, n: usize| Facet {
