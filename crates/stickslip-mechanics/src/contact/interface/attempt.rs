@@ -80,6 +80,9 @@ impl From<&PointHistory> for Multiplier {
 /// Changes of status, or reversals of slip, of a point that chatters.
 const CHATTERS: usize = 3;
 
+/// How often a point may come back to a facet that it has left.
+const RETURNS: usize = 3;
+
 /// Status changes of a point over the iterations of an attempt.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Flips {
@@ -94,6 +97,9 @@ pub(super) struct Flips {
     pub left: usize,
     /// It has been put back onto the primary.
     pub returned: bool,
+    /// The facets it has been over, latest first, and how often it has come back to one of them.
+    facets: [Option<usize>; 3],
+    returns: usize,
 }
 
 impl Flips {
@@ -117,6 +123,21 @@ impl Flips {
         };
         self.reversals += usize::from(dot(self.shear, shear) < 0.0);
         self.shear = shear;
+    }
+
+    /// Takes note of the facet of an evaluation, tentative ones too: steps that are cut short lie on one side of an edge and those that are not on the other.
+    pub fn meets(&mut self, facet: Option<usize>) {
+        if facet.is_none() || self.facets[0] == facet {
+            return;
+        }
+        self.returns += usize::from(self.facets.contains(&facet));
+        self.facets.rotate_right(1);
+        self.facets[0] = facet;
+    }
+
+    /// Whether it keeps going to and fro between facets.
+    pub fn goes_to_and_fro(&self) -> bool {
+        self.returns >= RETURNS
     }
 
     /// Whether the point keeps changing.
@@ -153,7 +174,9 @@ crate::keep!(Flips {
     last,
     over,
     left,
-    returned
+    returned,
+    facets,
+    returns
 });
 
 #[cfg(test)]

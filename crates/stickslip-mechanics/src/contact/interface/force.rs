@@ -42,6 +42,9 @@ impl Force for Interface {
             initial: false,
         };
         let evaluations = self.evaluate_all(stage, wants);
+        for (flips, e) in self.attempt.flips.iter_mut().zip(&evaluations.points) {
+            flips.meets(e.facet);
+        }
         self.add_pairs(&evaluations, out);
         scatter(&evaluations, out);
         self.add_curvature(&evaluations, out);

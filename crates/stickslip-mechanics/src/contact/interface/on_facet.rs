@@ -122,7 +122,8 @@ impl Interface {
                 let foot = Anchor::at(anchor, f, &facets[f], &cache.before, before);
                 foot.map(|foot| foot.xi)
             });
-            let previous = Previous { facet, near };
+            let held = self.attempt.flips[i].goes_to_and_fro();
+            let previous = Previous { facet, near, held };
             self.closest(i, (&cache.x, &cache.boxes), &cache.search, previous)
         };
         match found {

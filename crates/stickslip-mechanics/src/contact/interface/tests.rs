@@ -137,6 +137,23 @@ fn a_course_shows_changes_only() {
     assert_eq!(last, [Status::Open, Status::Stick, Status::Open]);
 }
 
+/// A point that slides over one facet after the other does not go to and fro, one that comes back to a facet again and again does.
+#[test]
+fn a_point_that_comes_back_goes_to_and_fro() {
+    let visits = |facets: &[usize]| {
+        let mut flips = Flips::default();
+        for &f in facets {
+            flips.meets(Some(f));
+            flips.meets(None);
+        }
+        flips.goes_to_and_fro()
+    };
+    assert!(!visits(&[1, 2, 3, 4, 5, 6, 7]));
+    assert!(!visits(&[1, 2, 2, 1, 1, 2]));
+    assert!(visits(&[1, 2, 1, 2, 1]));
+    assert!(visits(&[1, 2, 3, 1, 2, 3]));
+}
+
 #[test]
 fn facets_that_are_skipped_would_not_have_been_chosen() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
@@ -166,7 +183,7 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                     };
                     let previous = Previous {
                         facet: previous,
-                        near: None,
+                        ..Previous::default()
                     };
                     let quick = interface.closest(i, (&x, &boxes), &search, previous);
                     let full = interface.closest(i, (&x, &without), &search, previous);

@@ -10,6 +10,13 @@ use crate::math::{Vec3, add, cross, dot, norm, scale, sub};
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
 const KEPT: f64 = 1e-3;
 
+/// How far beyond a facet, relative to its size, a point that goes to and fro in a valley may be and stay on it. Where facets turn by an angle from each
+/// to the next, the smooth surface that they stand for lies up to an eighth of it, times their size, away from them; so far the next facet is missed.
+const HELD: f64 = 0.125;
+
+/// Cosine of the angle up to which two facets stand for a smooth surface, and not for a corner.
+const SMOOTH: f64 = 0.95;
+
 /// Distances from facets, relative to their size, and cosines that are equal but for rounding.
 const TIE: f64 = 1e-9;
 
@@ -53,6 +60,8 @@ pub struct Previous {
     pub facet: Option<usize>,
     /// The coordinates of the projection on it; `None` where they are no guide.
     pub near: Option<[f64; 2]>,
+    /// The point has gone to and fro between facets.
+    pub held: bool,
 }
 
 /// A point over one of its candidates.
@@ -106,7 +115,8 @@ impl Choice<'_> {
                 continue;
             };
             nearest = nearest.min(look.away);
-            if previous.facet == Some(f) && look.carried && look.beyond <= KEPT * look.size {
+            let reach = if previous.held { HELD } else { KEPT };
+            if previous.facet == Some(f) && look.carried && look.beyond <= reach * look.size {
                 kept = Some(look);
             }
             let better = match &best {
@@ -120,11 +130,10 @@ impl Choice<'_> {
         match (best, kept, previous.facet) {
             // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro. Under a ridge it does, and
             // nearest changes where the feet on both facets still lie within them: a point that is held there would have an equilibrium on neither.
-            // The point goes over the ridge when its foot does.
+            // The point goes over the ridge when its foot does. In a valley each facet pushes it onto the other: if that takes it farther than it may go, it has
+            // an equilibrium on neither, and stays on the one that it has come back to.
             (Some((_, look)), Some(k), Some(f))
-                if look.carried
-                    && (dot(look.p.normal, k.p.normal) > 1.0 - FLAT
-                        || self.presses(&k) && self.presses(&look)) =>
+                if look.carried && self.stays(&k, &look, previous.held) =>
             {
                 Ok((f, k.p))
             }
@@ -133,14 +142,27 @@ impl Choice<'_> {
         }
     }
 
-    /// Whether the point lies on the inner side of its projection's plane, or on it: a point that is held by next to no force may be either.
-    fn presses(&self, look: &Look) -> bool {
-        dot(sub(self.position, look.p.x), look.p.normal) <= TIE * look.size
+    /// Whether a point that may stay where it was does, though another facet is nearest.
+    fn stays(&self, k: &Look, nearest: &Look, held: bool) -> bool {
+        let cosine = dot(nearest.p.normal, k.p.normal);
+        // A point that is held by next to no force may be on either side of a facet, one that goes to and fro a little above it.
+        let (cosine_least, above) = match held {
+            true => (SMOOTH, KEPT),
+            false => (-1.0, TIE),
+        };
+        let presses = |look: &Look| self.height(&look.p) <= above * look.size;
+        let flat = cosine > 1.0 - FLAT && k.beyond <= KEPT * k.size;
+        flat || cosine > cosine_least && presses(k) && presses(nearest)
+    }
+
+    /// Height of the point above the plane of its projection.
+    fn height(&self, p: &FacetPoint) -> f64 {
+        dot(sub(self.position, p.x), p.normal)
     }
 
     /// Whether the point lies on the inner side of its projection's plane.
     fn behind(&self, p: &FacetPoint) -> bool {
-        dot(sub(self.position, p.x), p.normal) < 0.0
+        self.height(p) < 0.0
     }
 
     fn box_distance2(&self, f: usize) -> f64 {
@@ -231,39 +253,75 @@ mod tests {
     use super::*;
     use crate::shape::ElementKind;
 
-    /// A point that a thousandth of a billionth of a facet of play lets lie above or below a ridge stays on the facet on which it is held: Newton's method went to
-    /// and fro between the two, whose normals differ.
-    #[test]
-    fn a_point_on_a_ridge_stays_on_its_facet_whichever_side_rounding_puts_it() {
-        let x = [[1.0, -0.02, 0.0], [0.0; 3], [-1.0, -0.02, 0.0]];
-        let line = |nodes: [usize; 2]| Facet {
+    fn line(nodes: [usize; 2]) -> Facet {
+        Facet {
             kind: ElementKind::Line2,
             nodes: nodes.to_vec(),
             continues: vec![true; 2],
             modulus: 1.0,
             cell: 1,
-        };
+        }
+    }
+
+    /// The facet of two, from the first to the second node and on to the third, that a point above them belongs to.
+    fn chosen(x: &[Vec3; 3], position: Vec3, previous: usize, held: bool) -> usize {
         let facets = [line([0, 1]), line([1, 2])];
         let around = |f: &Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
         let boxes = [around(&facets[0]), around(&facets[1])];
-        let on = |position: Vec3, previous: usize| {
-            let choice = Choice {
-                facets: &facets,
-                boxes: &boxes,
-                candidates: &[0, 1],
-                margin: 1.0,
-                x: &x,
-                reference: &x,
-                position,
-                outward: [0.0, -1.0, 0.0],
-                edge_tolerance: 1e-3,
-            };
-            let previous = Previous {
-                facet: Some(previous),
-                near: None,
-            };
-            choice.closest(previous).expect("a facet").0
+        let choice = Choice {
+            facets: &facets,
+            boxes: &boxes,
+            candidates: &[0, 1],
+            margin: 1.0,
+            x,
+            reference: x,
+            position,
+            outward: [0.0, -1.0, 0.0],
+            edge_tolerance: 1e-3,
         };
+        let previous = Previous {
+            facet: Some(previous),
+            held,
+            ..Previous::default()
+        };
+        choice.closest(previous).expect("a facet").0
+    }
+
+    /// In a valley, where a point goes over to the next facet and is pushed back by it, it stays on the one it is on once it is held there: as far beyond as the
+    /// facets differ from a smooth surface, and not where they make a corner.
+    #[test]
+    fn a_point_that_goes_to_and_fro_in_a_valley_is_held_by_the_facet_it_is_on() {
+        let valley = [[1.0, 0.02, 0.0], [0.0; 3], [-1.0, 0.02, 0.0]];
+        // On the plane of the first facet, this far beyond its end, or next to it.
+        let beyond = |x: &[Vec3; 3], s: f64, height: f64| [-s * x[0][0], height - s * x[0][1], 0.0];
+        for height in [0.0, 1e-6] {
+            let at = |s: f64| beyond(&valley, s, height);
+            assert_eq!(
+                [
+                    chosen(&valley, at(0.05), 0, false),
+                    chosen(&valley, at(0.05), 0, true)
+                ],
+                [1, 0]
+            );
+            assert_eq!(chosen(&valley, at(0.05), 1, true), 1, "its own");
+            assert_eq!(chosen(&valley, at(0.2), 0, true), 1, "too far");
+        }
+        let high = beyond(&valley, 0.05, 0.1);
+        assert_eq!(
+            chosen(&valley, high, 0, true),
+            1,
+            "nowhere near the surface"
+        );
+        let corner = [[1.0, 0.5, 0.0], [0.0; 3], [-1.0, 0.5, 0.0]];
+        assert_eq!(chosen(&corner, beyond(&corner, 0.05, 0.0), 0, true), 1);
+    }
+
+    /// A point that a thousandth of a billionth of a facet of play lets lie above or below a ridge stays on the facet on which it is held: Newton's method went to
+    /// and fro between the two, whose normals differ.
+    #[test]
+    fn a_point_on_a_ridge_stays_on_its_facet_whichever_side_rounding_puts_it() {
+        let x = [[1.0, -0.02, 0.0], [0.0; 3], [-1.0, -0.02, 0.0]];
+        let on = |position: Vec3, previous: usize| chosen(&x, position, previous, false);
         for height in [-1e-10, -1e-14, 0.0, 1e-14, 1e-10] {
             for aside in [-1e-9, 0.0, 1e-9] {
                 let position = [aside, height, 0.0];
