@@ -7,6 +7,10 @@ use super::sides::Sides;
 use super::view::Sample;
 use crate::math::add_scaled;
 
+/// Gap relative to the size of a face beyond which all that a part of it has opposite is far: nodes at the rim of what is covered are held by gaps next to it that
+/// are small, not by such ones.
+const FAR: f64 = 0.05;
+
 /// Sums over the quadrature points.
 pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut FaceIntegral) {
     let n = face.nodes.len();
@@ -67,6 +71,27 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
             }
         }
     }
+    let size = match face.kind.dim() {
+        1 => face.area,
+        _ => face.area.sqrt(),
+    };
+    if let Some(floor) = floor(samples, FAR * size) {
+        for (gap, area) in out.gap.iter_mut().zip(out.area) {
+            *gap = gap.max(floor * area);
+        }
+    }
+}
+
+/// The gap below which no mean over the part of a face is believed, where that is above `far`: a node that a sliver far from it reaches takes the field over the
+/// sliver to itself, and would meet what is nowhere near. What lies farther off than it varies over the part, and than a part of the face, stays open.
+fn floor(samples: &[Sample], far: f64) -> Option<f64> {
+    let ends = samples
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], s| {
+            [least.min(s.gap), most.max(s.gap)]
+        });
+    let floor = 2.0 * ends[0] - ends[1];
+    (floor > far && floor.is_finite()).then_some(floor)
 }
 
 /// The functions of the multipliers on the part of a face that has the primary opposite, in those of positive integral: `m` are the integrals of
@@ -104,6 +129,30 @@ fn functions(m: &Matrix, n: usize, compliant: Option<f64>) -> Matrix {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A sliver whose gaps lie far above what they vary by is open, whatever a node far from it makes of them; what may touch is left as it is.
+    #[test]
+    fn gaps_have_a_floor_where_all_of_them_are_far() {
+        let sample = |gap: f64| Sample {
+            w: 1.0,
+            n: [0.0; FACE_NODES],
+            positive: [0.0; FACE_NODES],
+            piece: 0,
+            opposite: [0.0; FACE_NODES],
+            place: [0.0; 2],
+            gap,
+            direction: [0.0; 3],
+        };
+        let of = |gaps: &[f64]| {
+            let samples: Vec<Sample> = gaps.iter().map(|g| sample(*g)).collect();
+            floor(&samples, 0.5)
+        };
+        assert_eq!(of(&[6.0, 7.0, 6.5]), Some(5.0));
+        assert_eq!(of(&[1.0, 3.0]), None);
+        assert_eq!(of(&[0.4, 0.401]), None, "next to it");
+        assert_eq!(of(&[-1e-3, 1.0]), None);
+        assert_eq!(of(&[]), None);
+    }
 
     /// A line that is covered from its first end to the share `c`: the mean of a field by the function of the other end is its value at the edge of what is
     /// covered, and at the node where all is.
