@@ -1,5 +1,7 @@
 //! Where the surfaces really are: depth of points of either side in the other, gaps, ties and slip, by own projections.
 
+use std::collections::BTreeMap;
+
 use crate::bulk::Bulk;
 use crate::case::kind;
 use crate::contact::{Scale, at, points};
@@ -242,6 +244,8 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
     let enforcement = results.case.of("interface", &pair.name);
     let enforcement = enforcement.and_then(|t| kind(t, "enforcement"));
     let penalised = enforcement.is_some_and(|(name, _)| name == "penalty");
+    // Work of friction, and what it would be against slip, by node.
+    let mut works: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for (i, state) in results.states.iter().enumerate() {
         let Some(Before::Written(old)) = results.before(i) else {
             continue;
@@ -312,7 +316,8 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
                 report.note("slip", &pair.name, off / sizes.slip, state.t);
             }
             // The mean of a mortar point is not that of the places where what lies opposite has corners within its faces, or its weights have both signs:
-            // there friction is held against the slip that is written, which in motion says nothing of how it ends.
+            // there friction is held against the slip that is written. In motion that says nothing of how an increment ends: what is asked is that friction
+            // takes the work of one against slip from all of them.
             let written = pair.mortar && (quadratic || !dynamic);
             let own = if written { said } else { own };
             let (length, carried) = (own[0].hypot(own[1]), now[*node].carried());
@@ -346,6 +351,12 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
                     }
                 };
                 let end = |k: usize| pair.mean(*node, |n| Some(swept(n)?[k]));
+                if written && dynamic {
+                    let sum = works.entry(*node).or_default();
+                    let along = shear[0] * own[0] + shear[1] * own[1];
+                    *sum = [sum[0] + along, sum[1] + own[0].hypot(own[1]) * carried];
+                    continue;
+                }
                 let end = match written {
                     true => own,
                     false => end(0).zip(end(1)).map_or(own, |(a, b)| left([a, b])),
@@ -359,6 +370,10 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
             let off = mean[0].hypot(mean[1]) / count;
             report.note("slip", &pair.name, off / sizes.slip, state.t);
         }
+    }
+    let end = results.states.last().map_or(0.0, |state| state.t);
+    for [work, most] in works.into_values().filter(|[_, most]| *most > 0.0) {
+        report.note("direction", &pair.name, 1.0 + work / most, end);
     }
 }
 

@@ -11,7 +11,7 @@ use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
 /// Series and numbers of small problems that take a fraction of a second each, all families among them.
-const NUMBERS: [(u64, u64); 18] = [
+const NUMBERS: [(u64, u64); 20] = [
     (1, 3),
     (1, 8),
     (1, 14),
@@ -36,6 +36,10 @@ const NUMBERS: [(u64, u64); 18] = [
     (20, 82),
     // Friction that is not against slip: the paper's kinematics on triangles.
     (20, 365),
+    // A node that slides through the valleys between facets.
+    (22, 52),
+    // Slivers of faces on the flanks of two balls, far above each other.
+    (21, 132),
 ];
 
 /// Runs a problem file; the folder of its results and the exit code.

@@ -6,7 +6,7 @@ use super::evaluation::Evaluation;
 use super::history::Cone;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
-use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
+use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
 use crate::system::Stage;
 
 /// Part of the increment before its end over which the velocity of an obstacle is taken.
@@ -58,14 +58,25 @@ impl Interface {
             };
             wrong = wrong.max(dot(shear, e.frames.normal).abs());
             let given = (size + norm(before.shear)) * self.compliance(i, e);
-            let unsure = unsure + given;
+            let (apart, unsure) = (unsure, unsure + given);
             if slips && norm(moved) > unsure {
                 let against = -dot(shear, moved) / norm(moved);
                 wrong = wrong.max(-against);
-                if self.kinematics.as_dyn().triangles() {
-                    // With edges of a facet as directions friction need not be against slip. What is unsure may turn slip by this angle.
-                    let angle = (against / size).clamp(-1.0, 1.0).acos();
-                    let turned = (unsure / norm(moved)).asin();
+            }
+            if slips && self.kinematics.as_dyn().triangles() {
+                // With edges of a facet as directions friction need not be against slip, which is what the spring of stick has not taken up. What is unsure
+                // may turn it by this angle.
+                let spring = match self.laws.slip.as_dyn().sticks() {
+                    true => scale(1.0 / e.tangential_stiffness, sub(shear, before.shear)),
+                    false => [0.0; 3],
+                };
+                let slid = add(moved, spring);
+                let unsure = apart + (size + norm(before.shear)) * GIVEN / self.points[i].stiffness;
+                if norm(slid) > unsure {
+                    let angle = (-dot(shear, slid) / (size * norm(slid)))
+                        .clamp(-1.0, 1.0)
+                        .acos();
+                    let turned = (unsure / norm(slid)).asin();
                     wrong = wrong.max(size * (1.0 - (angle - turned).max(0.0).cos()));
                 }
             }
