@@ -11,7 +11,7 @@ use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
 /// Series and numbers of small problems that take a fraction of a second each, all families among them.
-const NUMBERS: [(u64, u64); 20] = [
+const NUMBERS: [(u64, u64); 22] = [
     (1, 3),
     (1, 8),
     (1, 14),
@@ -40,6 +40,10 @@ const NUMBERS: [(u64, u64); 20] = [
     (22, 52),
     // Slivers of faces on the flanks of two balls, far above each other.
     (21, 132),
+    // An obstacle that turns far in an increment: slip is along an arc.
+    (23, 123),
+    // A body that rubs between two others is followed, and where it goes is slip.
+    (23, 165),
 ];
 
 /// Runs a problem file; the folder of its results and the exit code.

@@ -413,7 +413,8 @@ impl Simulation {
     ) -> Result<bool, Error> {
         let followed = &mut self.summary.followed;
         let anchored = self.solver.floating.is_anchored();
-        if !self.solver.floating.wants_restart(followed) {
+        let (floating, known) = (&mut self.solver.floating, (&self.model, &self.contact));
+        if !floating.wants_restart(known, followed) {
             if anchored {
                 (self.solver).note_released(&self.model, &self.frame, accepted);
                 self.tell_notes(observers)?;

@@ -4,7 +4,8 @@ use super::accepted::Accepted;
 use super::rigid_part::rigid_part;
 use crate::body::Anchors;
 use crate::math::{add_scaled, norm};
-use crate::model::definition::Step;
+use crate::model::contact::Contact;
+use crate::model::definition::{Model, Step};
 use crate::model::drivers::named;
 use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
@@ -200,15 +201,21 @@ impl Floating {
     }
 
     /// Whether an increment is to be computed again, as the bodies went so far that it should start where they have come. If not, the increment stands, and
-    /// the anchors have done their part; `followed` counts such increments.
-    pub fn wants_restart(&mut self, followed: &mut usize) -> bool {
+    /// the anchors have done their part; `followed` counts such increments. Where a body rubs on something as the increment begins its way is slip, and is not
+    /// to be made before.
+    pub fn wants_restart(
+        &mut self,
+        (model, contact): (&Model, &Contact),
+        followed: &mut usize,
+    ) -> bool {
+        let rubs = self.rubs(model, contact);
         let floating = self;
         let Some(anchors) = &mut floating.anchors else {
             floating.moved = 0;
             floating.origin = None;
             return false;
         };
-        if anchors.travel() > LONG && floating.moved < MOST_MOVED {
+        if anchors.travel() > LONG && floating.moved < MOST_MOVED && !rubs {
             return true;
         }
         floating.moved = 0;
@@ -221,6 +228,16 @@ impl Floating {
             false => floating.anchors = None,
         }
         false
+    }
+
+    /// Whether one of the bodies rubs on something at the last accepted state.
+    fn rubs(&self, model: &Model, contact: &Contact) -> bool {
+        let rubbing = contact.interfaces.iter().filter(|i| i.rubs());
+        let mut nodes = rubbing.flat_map(|i| &i.nodes);
+        nodes.any(|n| {
+            let mut bodies = self.bodies().iter();
+            bodies.any(|free| model.bodies[free.body].points.contains(n))
+        })
     }
 
     /// A floating body that has gone further since the increment began than there is reason to.

@@ -60,6 +60,12 @@ impl Interface {
         committed.into_iter().any(|h| h.status != Status::Open)
     }
 
+    /// Whether any point is in contact at the last accepted state, and remembers what it was on: by friction or glue.
+    pub fn rubs(&self) -> bool {
+        let remembers = self.laws.tied || self.laws.friction_law().frictional();
+        remembers && self.touched()
+    }
+
     /// How far the obstacle moves between two times where points of the secondary are `[m]`; zero without one.
     pub fn obstacle_way(&self, from: f64, to: f64) -> f64 {
         let Primary::Rigid(_, motion) = &self.primary else {
