@@ -231,6 +231,9 @@ fn tied(results: &Results, pair: &Pair, report: &mut Report) {
     }
 }
 
+/// Pieces of the way of an obstacle in an increment.
+const ARC: u32 = 16;
+
 /// How far a point moves over what it is on, and which way.
 fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, report: &mut Report) {
     if pair.belt || sizes.slip == 0.0 {
@@ -241,9 +244,13 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
     let quadratic = results.mesh.cells.iter().any(|(kind, _)| kind.quadratic());
     let springs = bulk.map(|b| spring::of_stick(&results.case, &results.mesh, pair, b));
     let springs = springs.unwrap_or_default();
-    let enforcement = results.case.of("interface", &pair.name);
-    let enforcement = enforcement.and_then(|t| kind(t, "enforcement"));
-    let penalised = enforcement.is_some_and(|(name, _)| name == "penalty");
+    let interface = results.case.of("interface", &pair.name);
+    let is = |key: &str, wanted: &str| {
+        let chosen = interface.and_then(|t| kind(t, key));
+        chosen.is_some_and(|(name, _)| name == wanted)
+    };
+    let penalised = is("enforcement", "penalty");
+    let printed = is("kinematics", "pop-1995");
     // Work of friction, and what it would be against slip, by node.
     let mut works: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for (i, state) in results.states.iter().enumerate() {
@@ -262,10 +269,17 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
         let over = |node: usize, moved: &dyn Fn(usize) -> Vec3| {
             let (carried, normal) = match &pair.primary {
                 Side::Rigid(obstacle) => {
-                    let foot = obstacle.foot(x1[node], state.t)?;
-                    // What is under the point at the end has come this way.
-                    let back = obstacle.carried(foot.place, state.t, old.t);
-                    (scale(-1.0, back), foot.normal)
+                    // What is under the point has come this way, which is an arc where the obstacle turns: piece by piece, as the point goes.
+                    let step = 1.0 / f64::from(ARC);
+                    let mut way = [0.0; 3];
+                    for k in 0..ARC {
+                        let s = f64::from(k) * step;
+                        let t = [s, s + step].map(|s| old.t + s * (state.t - old.t));
+                        let here = along(x1[node], s + step - 1.0, moved(node));
+                        let place = obstacle.foot(here, t[1])?.place;
+                        way = along(way, -1.0, obstacle.carried(place, t[1], t[0]));
+                    }
+                    (way, obstacle.foot(x1[node], state.t)?.normal)
                 }
                 Side::Body { facets, .. } => {
                     let foot = foot(&results.mesh, facets, &x0, x0[node])?;
@@ -305,8 +319,10 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
             let off = [own[0] - said[0], own[1] - said[1]];
             mean = [mean[0] + off[0], mean[1] + off[1]];
             count += 1.0;
-            // The slip of a mortar point is a mean over the faces around it: only the mean over all is that of the places.
-            if !pair.mortar {
+            // The slip of a mortar point is a mean over the faces around it: only the mean over all is that of the places. The paper's own in space is along edges of
+            // facets, and not objective.
+            let objective = dim == 2 || !printed;
+            if !pair.mortar && objective {
                 // What was slipped before goes along where a point is carried by an obstacle that turns.
                 let so_far = then[*node].slip;
                 let moved = |n: usize| sub(x1[n], x0[n]);
