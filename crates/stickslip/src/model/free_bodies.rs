@@ -1,5 +1,6 @@
 //! Bodies that supports, springs and couplings leave free to move.
 
+use super::contact::Contact;
 use super::definition::Model;
 use super::scene::Scene;
 use crate::body::{RigidMode, rigid_modes};
@@ -14,6 +15,15 @@ pub(crate) struct FreeBody {
     pub motions: Vec<(String, Vec<f64>)>,
     /// An orthonormal basis of the directions in which it can move without turning.
     pub slides: Vec<Vec3>,
+}
+
+impl FreeBody {
+    /// Whether it rubs on something, or is glued to it, at the last accepted state.
+    pub fn rubs(&self, model: &Model, contact: &Contact) -> bool {
+        let points = &model.bodies[self.body].points;
+        let mut rubbing = contact.interfaces.iter().filter(|i| i.rubs());
+        rubbing.any(|i| i.nodes.iter().any(|n| points.contains(n)))
+    }
 }
 
 impl Scene<'_> {

@@ -50,7 +50,8 @@ impl Clusters<'_> {
     }
 }
 
-/// Moves the bodies in `free`, the others at rest, from the last state with the loads `external`, in an increment that begins.
+/// Moves the bodies in `free`, the others at rest, from the last state with the loads `external`, in an increment that begins. What rubs on something stays: its way
+/// would be slip.
 pub(crate) fn close(
     model: &Model,
     frame: &Frame,
@@ -63,7 +64,7 @@ pub(crate) fn close(
         of: vec![count; count + 1],
         free,
     };
-    for f in free {
+    for f in free.iter().filter(|f| !f.rubs(model, contact)) {
         clusters.of[f.body] = f.body;
     }
     let pushes = pushes(model, external);

@@ -208,7 +208,7 @@ impl Floating {
         (model, contact): (&Model, &Contact),
         followed: &mut usize,
     ) -> bool {
-        let rubs = self.rubs(model, contact);
+        let rubs = self.bodies().iter().any(|free| free.rubs(model, contact));
         let floating = self;
         let Some(anchors) = &mut floating.anchors else {
             floating.moved = 0;
@@ -228,16 +228,6 @@ impl Floating {
             false => floating.anchors = None,
         }
         false
-    }
-
-    /// Whether one of the bodies rubs on something at the last accepted state.
-    fn rubs(&self, model: &Model, contact: &Contact) -> bool {
-        let rubbing = contact.interfaces.iter().filter(|i| i.rubs());
-        let mut nodes = rubbing.flat_map(|i| &i.nodes);
-        nodes.any(|n| {
-            let mut bodies = self.bodies().iter();
-            bodies.any(|free| model.bodies[free.body].points.contains(n))
-        })
     }
 
     /// A floating body that has gone further since the increment began than there is reason to.

@@ -659,3 +659,39 @@ fn a_block_in_space_is_held_by_a_cone_of_friction() {
     let found: f64 = found.and_then(|s| s.parse().ok()).expect("the friction");
     assert!((0.395..=0.4001).contains(&found), "{said}");
 }
+
+/// A block that two walls squeeze is pushed down until it slides, and comes to rest on a floor: whatever the way, all of it is friction on the walls. Where it is
+/// long, the block has to be followed; moved to the floor at once it would have left out the work of the way.
+#[test]
+fn what_slides_off_between_walls_rubs_all_the_way() {
+    let work = |way: f64| {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ generate.rectangle = {{ from = [-1, 0], to = [1, 1], cells = [6, 3] }}, material = "m" }}
+material.m.isotropic = {{ young = 1e3, poisson = 0.3 }}
+obstacle.left.plane = {{ point = [-1, 0], normal = [1, 0] }}
+obstacle.right = {{ plane = {{ point = [1, 0], normal = [-1, 0] }}, motion.translation = [[0, 0, 0], [1, -0.02, 0]] }}
+obstacle.floor.plane = {{ point = [0, {floor:?}], normal = [0, 1] }}
+interface.left = {{ secondary = "block.left", primary = "left", friction.coulomb.mu = 0.3 }}
+interface.right = {{ secondary = "block.right", primary = "right", friction.coulomb.mu = 0.3 }}
+interface.floor = {{ secondary = "block.bottom", primary = "floor", friction.coulomb.mu = 0.3 }}
+load.down = {{ set = "block.top", traction.value = [0, -10], amplitude = "down" }}
+amplitude.down.table = [[0, 0], [1, 0], [2, 1]]
+step = [{{ increments.fixed = 2 }}, {{ increments = {{ initial = 0.25, largest = 0.25 }} }}]
+"#,
+            floor = -way
+        );
+        let outcome = run(&format!("{way:e}"), &text);
+        assert!(outcome.summary.completed);
+        outcome.last("ALLFD")
+    };
+    let ways = [0.3, 1.0, 3.0];
+    let works = ways.map(work);
+    // The walls hold with the same force wherever the block is.
+    let slope = (works[1] - works[0]) / (ways[1] - ways[0]);
+    let far = works[1] + slope * (ways[2] - ways[1]);
+    assert!(slope > 7.0, "{works:?}");
+    assert!((works[2] / far - 1.0).abs() < 1e-3, "{works:?}, {far}");
+}
