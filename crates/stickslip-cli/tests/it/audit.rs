@@ -10,7 +10,7 @@ use stickslip_audit::draw::{self, FAMILIES};
 use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
-/// Series and numbers of small problems that take a fraction of a second each, all families among them.
+/// Series and numbers of small problems, all families among them. Each takes a fraction of a second, but for the last, which takes some.
 const NUMBERS: [(u64, u64); 22] = [
     (1, 3),
     (1, 8),

@@ -145,14 +145,13 @@ impl Choice<'_> {
     /// Whether a point that may stay where it was does, though another facet is nearest.
     fn stays(&self, k: &Look, nearest: &Look, held: bool) -> bool {
         let cosine = dot(nearest.p.normal, k.p.normal);
-        // A point that is held by next to no force may be on either side of a facet, one that goes to and fro a little above it.
-        let (cosine_least, above) = match held {
-            true => (SMOOTH, KEPT),
-            false => (-1.0, TIE),
+        let near = k.beyond <= KEPT * k.size;
+        let within = |above: f64| {
+            let mut both = [k, nearest].into_iter();
+            both.all(|look| self.height(&look.p) <= above * look.size)
         };
-        let presses = |look: &Look| self.height(&look.p) <= above * look.size;
-        let flat = cosine > 1.0 - FLAT && k.beyond <= KEPT * k.size;
-        flat || cosine > cosine_least && presses(k) && presses(nearest)
+        // A point that is held by next to no force may be on either side of a facet, one that goes to and fro a little above it.
+        near && (cosine > 1.0 - FLAT || within(TIE)) || held && cosine > SMOOTH && within(KEPT)
     }
 
     /// Height of the point above the plane of its projection.
@@ -314,6 +313,12 @@ mod tests {
         );
         let corner = [[1.0, 0.5, 0.0], [0.0; 3], [-1.0, 0.5, 0.0]];
         assert_eq!(chosen(&corner, beyond(&corner, 0.05, 0.0), 0, true), 1);
+        // What goes to and fro loses nothing of what holds the others.
+        let next_to = beyond(&corner, 5e-4, 0.0);
+        assert_eq!(
+            [false, true].map(|held| chosen(&corner, next_to, 0, held)),
+            [0, 0]
+        );
     }
 
     /// A point that a thousandth of a billionth of a facet of play lets lie above or below a ridge stays on the facet on which it is held: Newton's method went to
