@@ -11,7 +11,7 @@ use stickslip_audit::figure::Report;
 use stickslip_audit::verdict::Verdict;
 
 /// Series and numbers of small problems, all families among them. Each takes a fraction of a second, but for the last, which takes some.
-const NUMBERS: [(u64, u64); 22] = [
+const NUMBERS: [(u64, u64); 23] = [
     (1, 3),
     (1, 8),
     (1, 14),
@@ -44,6 +44,8 @@ const NUMBERS: [(u64, u64); 22] = [
     (23, 123),
     // A body that rubs between two others is followed, and where it goes is slip.
     (23, 165),
+    // Light nodes of a body that is thrown swing while they rub.
+    (24, 227),
 ];
 
 /// Runs a problem file; the folder of its results and the exit code.

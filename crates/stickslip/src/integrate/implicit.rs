@@ -29,6 +29,7 @@ pub(super) const BACKWARD: Alphas = Alphas {
 };
 
 /// Makes increments of a step in motion, each an equilibrium at the stage of a scheme.
+#[derive(Clone)]
 pub(crate) struct Implicit {
     /// How the step is integrated.
     pub dynamic: Dynamic,
@@ -78,10 +79,11 @@ impl Integrator for Implicit {
         // A trial increment of Euler's method finds forces, and hands nothing on.
         let impulse =
             self.alphas != BACKWARD && is_impulse((model, &self.dynamic), contact, inertia, times);
-        let weights = self.weights(impulse);
+        let scheme = self.meeting(impulse);
+        let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
         interfaces.for_each(|i| i.directives.impulses = impulse);
-        let dt = inertia.ready(&solver.stiffness, self.alphas, length, weights[1]);
+        let dt = inertia.ready(&solver.stiffness, scheme.alphas, length, weights[1]);
         let plain = inertia.plain(&fixed, &model.links);
         let mut from = frame.state.clone();
         if impulse && !frame.contact.is_empty() {
@@ -89,19 +91,14 @@ impl Integrator for Implicit {
             from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
         }
         let increment = Increment {
-            alphas: self.alphas,
+            alphas: scheme.alphas,
             dt,
             from: &from,
             plain: &plain,
         };
         let task = (&constraints, external.as_slice());
-        let guess = self.guess(model, frame, solver, (&increment, weights), task);
-        // What friction sees of the velocity is that of a motion in which contact has its part.
-        let seen = Increment {
-            from: &frame.state,
-            ..increment
-        };
-        let (gain, shift) = seen.rate();
+        let guess = scheme.guess(model, frame, solver, (&increment, weights), task);
+        let (gain, shift) = increment.rate();
         let rate = Rate {
             gain: &gain,
             shift: &shift,
@@ -113,7 +110,7 @@ impl Integrator for Implicit {
         };
         let task = (constraints, rate);
         let (converged, internal) =
-            self.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
+            scheme.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
         let inertia = in_motion(&solver.inertia);
         (at.v, at.a) = increment.motion(&at.u);
         for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
@@ -129,22 +126,16 @@ impl Integrator for Implicit {
             state: at,
         };
         check_candidates(contact)?;
-        let (easy, travel) = self.judge(model, frame, inertia, dt, &solved)?;
-        self.locate(model, frame, contact, trial)?;
+        let (easy, travel) = scheme.judge(model, frame, inertia, dt, &solved)?;
+        scheme.locate(model, frame, contact, trial)?;
         let mut solved = solved;
-        let Alphas { beta, gamma, .. } = self.alphas;
-        let mut kick = Vec::new();
-        if impulse {
-            kick = kicked(model, inertia, &fixed, &solved.contact)?;
-            let part = (1.0 - 0.5 * gamma / beta) * dt;
-            let velocities = solved.state.v.iter_mut().zip(&kick);
-            velocities.for_each(|(v, k)| *v -= part * k);
-        }
         let weight = (weights[1], impulse);
-        let mut flow = self.flow(frame, inertia, (&fixed, &from.a, weight), &solved);
+        let mut flow = scheme.flow(frame, inertia, (&fixed, &from.a, weight), &solved);
         if impulse {
+            let kick = kicked(model, inertia, &fixed, &solved.contact)?;
+            let part = 0.5 / scheme.alphas.beta - 1.0;
             let accelerations = solved.state.a.iter_mut().zip(&kick);
-            accelerations.for_each(|(a, k)| *a += (0.5 / beta - 1.0) * k);
+            accelerations.for_each(|(a, k)| *a += part * k);
             let at = solved.state.clone();
             let stage = Stage {
                 from: &frame.state,
@@ -173,6 +164,15 @@ impl Integrator for Implicit {
 }
 
 impl Implicit {
+    /// The scheme of an increment: that of masses that meet has `β = γ/2`, see [`super::impulse`].
+    fn meeting(&self, impulse: bool) -> Implicit {
+        let mut scheme = self.clone();
+        if impulse {
+            scheme.alphas.beta = 0.5 * scheme.alphas.gamma;
+        }
+        scheme
+    }
+
     /// The weights that the forces of the interfaces at the start and at the end have in the balance at the stage. Of an impulse see [`super::impulse`].
     fn weights(&self, impulse: bool) -> [f64; 2] {
         let Alphas {

@@ -9,8 +9,10 @@
 //! ```
 //!
 //! with accelerations `a` that contact has no part in, whose balance is that of the stage. With `A = a₁ + a_c/(2β)` displacements follow Newmark's
-//! relation, velocities do but for `(1 - γ/(2β)) dt a_c`, and the balance is as it was but for the weight `(1 - α_m)/(2β)` of `R₁`. What does no work on
-//! surfaces that stay closed takes energy from those that meet.
+//! relation, velocities do but for `(1 - γ/(2β)) dt a_c`, and the balance is as it was but for the weight `(1 - α_m)/(2β)` of `R₁`. Friction that is held
+//! against a velocity without that part may push along the one with it. So it is none: `β = γ/2`, for generalised-alpha the least with which the scheme is
+//! stable at any increment ([`chung_hulbert_1993`](crate::references::chung_hulbert_1993)). What does no work on surfaces that stay closed takes energy from
+//! those that meet.
 //!
 //! How fast a mass rebounds from there is left to chance: to where in the increment it has met the other one. So velocities are projected, in the norm of
 //! the mass, on those with which pressed points stay where they are: the law of impact of
