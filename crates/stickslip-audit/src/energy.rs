@@ -5,6 +5,7 @@ use crate::bulk::Bulk;
 use crate::contact::{Point, at, points};
 use crate::external::External;
 use crate::figure::Report;
+use crate::law::laws;
 use crate::results::{Before, Results};
 use crate::side::Pair;
 use crate::vec3::{Vec3, dot, norm};
@@ -138,12 +139,17 @@ fn kinetic(results: &Results, bulk: &Bulk, report: &mut Report) {
 }
 
 /// Work of friction per area over an increment at a point that slips at its end, at least and at most: along its way the shear is between that at the end and what
-/// its limit was at the start, which is nothing where it was open and else goes with the pressure. Nobody knows from the files when it began to slide.
-fn taken(before: &Point, now: &Point) -> [f64; 2] {
-    let along = |k: usize| now.shear[k] * (now.slip[k] - before.slip[k]);
-    let end = (-along(0) - along(1)).max(0.0);
+/// its limit was at the start, which is nothing where it was open and else goes with the pressure. Nobody knows from the files when it began to slide. Under a
+/// `smooth` rule a point slips with any shear, that at the start also.
+fn taken(before: &Point, now: &Point, smooth: bool) -> [f64; 2] {
+    let along = |shear: [f64; 2]| {
+        let way = [0, 1].map(|k| now.slip[k] - before.slip[k]);
+        (-shear[0] * way[0] - shear[1] * way[1]).max(0.0)
+    };
+    let end = along(now.shear);
     let start = match before.status {
         0.0 => 0.0,
+        _ if smooth => along(before.shear),
         _ => end * before.pressure.max(0.0) / now.pressure,
     };
     [end.min(start), end.max(start)]
@@ -174,14 +180,17 @@ fn dissipation(results: &Results, pair: &Pair, play: f64, report: &mut Report) {
         }
         let now = at(state);
         let force = pair.gathered(state.grid.vector("CFORCE"));
+        let laws = laws(&results.case, &pair.name, results.case.step_at(state.t));
+        let smooth = laws.is_some_and(|l| l.epsilon.is_some());
         for node in &nodes {
             let point = now[*node];
-            if point.status != 2.0 || point.pressure <= 0.0 {
+            let slips = point.status == 2.0 || smooth;
+            if !slips || point.pressure <= 0.0 {
                 continue;
             }
             let size = point.pressure.hypot(point.carried());
             let area = norm(force[*node]) / size;
-            for (own, taken) in own.iter_mut().zip(taken(&last[*node], &point)) {
+            for (own, taken) in own.iter_mut().zip(taken(&last[*node], &point, smooth)) {
                 *own += area * taken;
             }
         }
