@@ -41,8 +41,9 @@ const DRIFT: f64 = 0.03;
 /// The same where the iteration has become slow.
 const SMALL_DRIFT: f64 = 1e-3;
 
-/// By which factor stiffnesses that are no gap stiffnesses may change before the hierarchy is made anew.
-const CHANGE: f64 = 4.0;
+/// Part of the stiffnesses that are no gap stiffnesses that may change before the hierarchy is made anew. What single points do, one that opens or comes to lie
+/// on another facet, costs single iterations, and a hierarchy as many as a whole solution.
+const CHANGE: f64 = 0.1;
 
 /// Resistance to a rigid motion, relative to the diagonals, below which a body counts as floating.
 const FLOATING: f64 = 1e-8;
@@ -65,8 +66,8 @@ struct Made {
     fixed: Vec<bool>,
     gaps: GapVariables,
     levels: Multigrid,
-    /// Contact that is part of the matrix: its points and the trace of its stiffness.
-    assembled: Vec<(Vec<usize>, f64)>,
+    /// Contact that is part of the matrix: the trace of its stiffness by point.
+    assembled: BTreeMap<usize, f64>,
     /// Nothing has changed but what [`Multigrid::update`] takes.
     fresh: bool,
     /// The last solution took too many iterations.
@@ -561,21 +562,28 @@ fn group(block: &ContactBlock, dim: usize) -> (Vec<usize>, Vec<f64>) {
     (points, dense)
 }
 
-fn traces(assembled: &Groups) -> Vec<(Vec<usize>, f64)> {
-    let trace = |(points, dense): &(Vec<usize>, Vec<f64>)| {
+/// Traces of stiffnesses by point.
+fn traces(assembled: &Groups) -> BTreeMap<usize, f64> {
+    let mut out = BTreeMap::new();
+    for (points, dense) in assembled {
         let width = dense.len().isqrt();
-        (points.clone(), dense.iter().step_by(width + 1).sum())
-    };
-    assembled.iter().map(trace).collect()
+        let dim = width / points.len();
+        for (k, diagonal) in dense.iter().step_by(width + 1).enumerate() {
+            *out.entry(points[k / dim]).or_insert(0.0) += diagonal;
+        }
+    }
+    out
 }
 
 /// Whether stiffnesses are not nearly those of before.
-fn changed(before: &[(Vec<usize>, f64)], now: &Groups) -> bool {
+fn changed(before: &BTreeMap<usize, f64>, now: &Groups) -> bool {
     let now = traces(now);
-    before.len() != now.len()
-        || before.iter().zip(&now).any(|(before, now)| {
-            before.0 != now.0 || now.1 > CHANGE * before.1 || before.1 > CHANGE * now.1
-        })
+    let at = |all: &BTreeMap<usize, f64>, point| all.get(&point).copied().unwrap_or(0.0);
+    let gone = before.keys().filter(|point| !now.contains_key(point));
+    let apart = |point: &usize| (at(&now, *point) - at(before, *point)).abs();
+    let apart: f64 = now.keys().chain(gone).map(apart).sum();
+    let whole: f64 = now.values().chain(before.values()).sum();
+    apart > CHANGE * whole
 }
 
 /// The matrix in gap variables.
@@ -607,4 +615,38 @@ fn floats(operator: Operator, points: &BodyPoints) -> bool {
         }
         cost.iter().zip(&scale).any(|(c, s)| c.abs() < FLOATING * s)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of twenty points in a row, each on two of the other side with these parts of a stiffness.
+    fn row(first: usize, part: f64, stiffness: f64) -> Groups {
+        let group = |k: usize| {
+            let points = vec![k, 100 + k + first, 101 + k + first];
+            let diagonal = [stiffness, part * stiffness, (1.0 - part) * stiffness];
+            let mut dense = vec![0.0; 9];
+            (0..3).for_each(|i| dense[4 * i] = diagonal[i]);
+            (points, dense)
+        };
+        (0..20).map(group).collect()
+    }
+
+    #[test]
+    fn a_hierarchy_outlives_what_single_points_do() {
+        let before = traces(&row(0, 0.5, 1.0));
+        assert_eq!(before.values().sum::<f64>(), 40.0);
+        assert!(!changed(&before, &row(0, 0.45, 1.1)));
+        let mut parted = row(0, 0.5, 1.0);
+        parted.remove(7);
+        parted[3].0[2] = 200;
+        assert!(!changed(&before, &parted));
+        // Most points parted, the stiffness rose, or the surface went on by several facets.
+        assert!(changed(&before, &parted.split_off(15)));
+        assert!(changed(&before, &row(0, 0.5, 1.5)));
+        assert!(changed(&before, &row(10, 0.5, 1.0)));
+        assert!(changed(&traces(&Groups::new()), &row(0, 0.5, 1.0)));
+        assert!(!changed(&traces(&Groups::new()), &Groups::new()));
+    }
 }
