@@ -21,6 +21,7 @@ mod active;
 mod bulk;
 mod condensation;
 mod file;
+mod gap_space;
 mod identity;
 mod library;
 mod load_patterns;

@@ -84,6 +84,19 @@ impl Preconditioner {
         })
     }
 
+    /// Whether it is of the same points, whatever their rows are now.
+    pub fn is_of(&self, rows: &[Rows], count: usize) -> bool {
+        let all = || self.rows.iter().zip(rows);
+        self.springs.is_empty()
+            && (self.count, self.rows.len()) == (count, rows.len())
+            && all().all(|(a, b)| a.is_of(b))
+    }
+
+    /// Solves for the forces along the rows, in place.
+    pub fn solve(&self, q: &mut [f64]) {
+        self.lu.solve(q);
+    }
+
     /// Solves in place.
     pub fn apply(&self, tangent: &Tangent, v: &mut [f64], precision: Precision) {
         let (y, beta) = v.split_at_mut(tangent.active.len());

@@ -2,6 +2,7 @@
 
 use super::active::{Active, Placed};
 use super::condensation::Condensation;
+use super::gap_space;
 use super::preconditioner::{Factored, Preconditioner, SMALL};
 use super::tangent::{Precision, Spring, Tangent};
 use crate::linear::{GmresSettings, gmres};
@@ -14,7 +15,7 @@ use crate::system::{ContactBlock, StepFailure};
 /// Solves `(I + K W) y = …` for the forces at the dofs that interfaces touch.
 ///
 /// GMRES with the exact tangent is preconditioned by an exact factor of the tangent of some iteration before, without the curvature of the
-/// gaps: of a matrix with a row for every gap and slip, which is small.
+/// gaps: of a matrix with a row for every gap and slip, which is small. Where nothing curves that matrix is the system itself (see [`gap_space`]).
 #[derive(Debug, Default)]
 pub struct ReducedSystem {
     active: Option<Active>,
@@ -204,14 +205,15 @@ impl ReducedSystem {
             springs: &springs,
         };
         // K (W b) and what the springs make of b
-        let rhs = tangent.right_hand_side(&tangent.displacement_under(b), b);
+        let u = tangent.displacement_under(b);
+        let rhs = tangent.right_hand_side(&u, b);
         // The residual of this system is that of the forces themselves, which are much smaller where interfaces are stiff.
         let tolerance = (tolerance * norm(b) / norm(&rhs).max(f64::MIN_POSITIVE))
             .clamp(TOLERANCES.0, TOLERANCES.1);
         let (y, iterations) = solve_preconditioned(
             &tangent,
             &mut self.preconditioner,
-            &rhs,
+            (&u, &rhs),
             tolerance,
             (settings, statistics),
         )?;
@@ -247,7 +249,7 @@ fn springs(condensation: &Condensation) -> Vec<Spring<'_>> {
 fn solve_preconditioned(
     tangent: &Tangent,
     kept: &mut Option<Preconditioner>,
-    rhs: &[f64],
+    (u, rhs): (&[f64], &[f64]),
     tolerance: f64,
     (settings, statistics): (&Settings, &mut Statistics),
 ) -> Result<(Vec<f64>, usize), StepFailure> {
@@ -276,14 +278,19 @@ fn solve_preconditioned(
                 kept.insert(Preconditioner::of(tangent)?)
             }
         };
-        let mut y = vec![0.0; rhs.len()];
-        let report = gmres(
-            &mut |v, out| tangent.apply(v, out, attempt.precision),
-            &mut |v| preconditioner.apply(tangent, v, coarse),
-            rhs,
-            &mut y,
-            attempt.gmres(tolerance, patience),
-        );
+        let asked = attempt.gmres(tolerance, patience);
+        let in_gaps = gap_space::solve((tangent, preconditioner), u, attempt.precision, asked);
+        let (y, report) = in_gaps.unwrap_or_else(|| {
+            let mut y = vec![0.0; rhs.len()];
+            let report = gmres(
+                &mut |v, out| tangent.apply(v, out, attempt.precision),
+                &mut |v| preconditioner.apply(tangent, v, coarse),
+                rhs,
+                &mut y,
+                asked,
+            );
+            (y, report)
+        });
         statistics.krylov += report.iterations;
         spent += report.iterations;
         if !report.relative_residual.is_finite() {

@@ -41,6 +41,12 @@ impl Rows {
         (all, count)
     }
 
+    /// Whether they are of the same point: they start with the same dof and are as many.
+    pub fn is_of(&self, other: &Rows) -> bool {
+        self.at.first() == other.at.first()
+            && (self.first, self.count()) == (other.first, other.count())
+    }
+
     /// Number of rows.
     pub fn count(&self) -> usize {
         self.gradients.len() / self.at.len()

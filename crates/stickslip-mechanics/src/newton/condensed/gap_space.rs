@@ -1,0 +1,59 @@
+//! The linear system of one iteration in the forces along gaps and slips, where these do not curve.
+//!
+//! With `K = Bᵀ C` for the tangent of the interfaces forces at the dofs are `Bᵀ q`, and `(I + K W) y = -K W b` is
+//!
+//! ```text
+//! (I + C W Bᵀ) q = -C W b
+//! ```
+//!
+//! whose matrix is that of the preconditioner: a Krylov step takes one product with the compliance, where one in the forces at the dofs takes another to come
+//! from there to the gaps.
+
+use super::preconditioner::Preconditioner;
+use super::rows::Rows;
+use super::tangent::{Precision, Tangent};
+use crate::linear::{GmresReport, GmresSettings, gmres};
+
+/// Finds the forces at the active dofs from the displacements `u` that they have without; `None` where gaps curve, bodies float, or the factor is of other
+/// points.
+pub(super) fn solve(
+    (tangent, preconditioner): (&Tangent, &Preconditioner),
+    u: &[f64],
+    precision: Precision,
+    settings: GmresSettings,
+) -> Option<(Vec<f64>, GmresReport)> {
+    if !straight(tangent) {
+        return None;
+    }
+    let (rows, count) = Rows::of(tangent.blocks);
+    if !preconditioner.is_of(&rows, count) {
+        return None;
+    }
+    // -Bᵀ q
+    let against = |q: &[f64]| {
+        let mut y = vec![0.0; tangent.active.len()];
+        rows.iter().for_each(|rows| rows.subtract_forces(q, &mut y));
+        y
+    };
+    let mut known = vec![0.0; count];
+    rows.iter()
+        .for_each(|rows| rows.apply_changes(u, &mut known));
+    let mut q = vec![0.0; count];
+    let report = gmres(
+        &mut |v, out| {
+            let u = tangent.apply_compliance(&against(v), precision);
+            rows.iter().for_each(|rows| rows.apply_changes(&u, out));
+            out.iter_mut().zip(v).for_each(|(out, v)| *out = v - *out);
+        },
+        &mut |v| preconditioner.solve(v),
+        &known,
+        &mut q,
+        settings,
+    );
+    Some((against(&q), report))
+}
+
+/// Whether there is nothing in the tangent but gaps and slips that do not curve.
+fn straight(tangent: &Tangent) -> bool {
+    tangent.springs.is_empty() && tangent.blocks.iter().all(|b| b.block.hessian.is_empty())
+}
