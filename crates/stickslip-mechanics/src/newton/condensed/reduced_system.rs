@@ -15,7 +15,7 @@ use crate::system::{ContactBlock, StepFailure};
 /// Solves `(I + K W) y = …` for the forces at the dofs that interfaces touch.
 ///
 /// GMRES with the exact tangent is preconditioned by an exact factor of the tangent of some iteration before, without the curvature of the
-/// gaps: of a matrix with a row for every gap and slip, which is small. Where nothing curves that matrix is the system itself (see [`gap_space`]).
+/// gaps: of a matrix with a row for every gap and slip, which is small. Where nothing curves that matrix is the system itself (`gap_space`).
 #[derive(Debug, Default)]
 pub struct ReducedSystem {
     active: Option<Active>,
