@@ -142,41 +142,41 @@ fn locate(corners: &[Point], p: Point) -> Option<([f64; 4], f64)> {
         let l = [area(p, b, c) / whole, area(p, c, a) / whole];
         return Some(([l[0], l[1], 1.0 - l[0] - l[1], 0.0], whole));
     }
-    let weights = |[s, t]: Point| {
-        [
-            0.25 * (1.0 - s) * (1.0 - t),
-            0.25 * (1.0 + s) * (1.0 - t),
-            0.25 * (1.0 + s) * (1.0 + t),
-            0.25 * (1.0 - s) * (1.0 + t),
-        ]
+    let &[a, b, c, d] = corners else {
+        return None;
     };
-    let mut xi = [0.0; 2];
+    let sum = |f: [f64; 4]| {
+        [0, 1].map(|i| 0.25 * (f[0] * a[i] + f[1] * b[i] + f[2] * c[i] + f[3] * d[i]))
+    };
+    let middle = sum([1.0, 1.0, 1.0, 1.0]);
+    let along = sum([-1.0, 1.0, 1.0, -1.0]);
+    let across = sum([-1.0, -1.0, 1.0, 1.0]);
+    let twist = sum([1.0, -1.0, 1.0, -1.0]);
+    let [mut s, mut t] = [0.0; 2];
     for _ in 0..ITERATIONS {
-        let [s, t] = xi;
-        let n = weights(xi);
-        let ds = [t - 1.0, 1.0 - t, 1.0 + t, -1.0 - t].map(|d| 0.25 * d);
-        let dt = [s - 1.0, -1.0 - s, 1.0 + s, 1.0 - s].map(|d| 0.25 * d);
-        let (mut r, mut a, mut b) = (p, [0.0; 2], [0.0; 2]);
-        for (k, c) in corners.iter().enumerate() {
-            for i in 0..2 {
-                r[i] -= n[k] * c[i];
-                a[i] += ds[k] * c[i];
-                b[i] += dt[k] * c[i];
-            }
-        }
-        let det = a[0] * b[1] - a[1] * b[0];
+        let u = [0, 1].map(|i| along[i] + t * twist[i]);
+        let v = [0, 1].map(|i| across[i] + s * twist[i]);
+        let r = [0, 1].map(|i| p[i] - middle[i] - s * along[i] - t * v[i]);
+        let det = u[0] * v[1] - u[1] * v[0];
         let step = [
-            (b[1] * r[0] - b[0] * r[1]) / det,
-            (a[0] * r[1] - a[1] * r[0]) / det,
+            (v[1] * r[0] - v[0] * r[1]) / det,
+            (u[0] * r[1] - u[1] * r[0]) / det,
         ];
         let longest = step[0].abs().max(step[1].abs());
         if !longest.is_finite() || longest > FAR {
             return None;
         }
         if longest < SETTLED {
-            return (det > 0.0).then_some((n, det));
+            let weights = [
+                0.25 * (1.0 - s) * (1.0 - t),
+                0.25 * (1.0 + s) * (1.0 - t),
+                0.25 * (1.0 + s) * (1.0 + t),
+                0.25 * (1.0 - s) * (1.0 + t),
+            ];
+            return (det > 0.0).then_some((weights, det));
         }
-        xi = [xi[0] + step[0], xi[1] + step[1]];
+        s += step[0];
+        t += step[1];
     }
     None
 }

@@ -97,15 +97,65 @@ pub(super) fn place(kind: ElementKind, x: &[Vec3], xi: Point) -> Place {
     p
 }
 
-/// Where a ray from `from` along `n` meets a facet: the facet there and the signed distance.
-fn hit(kind: ElementKind, x: &[Vec3], from: Vec3, n: Vec3, xi: &mut Point) -> Option<(Place, f64)> {
-    let affine = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
+/// Position and base vectors of a facet at a place: of a bilinear one, which most are, from the coefficients of its polynomial.
+struct Patch<'a> {
+    kind: ElementKind,
+    nodes: &'a [Vec3],
+    bilinear: Option<[Vec3; 4]>,
+}
+
+impl<'a> Patch<'a> {
+    fn new(kind: ElementKind, nodes: &'a [Vec3]) -> Self {
+        let bilinear = match (kind, nodes) {
+            (ElementKind::Quad4, &[a, b, c, d]) => {
+                let sum = |f: [f64; 4]| {
+                    std::array::from_fn(|i| {
+                        0.25 * (f[0] * a[i] + f[1] * b[i] + f[2] * c[i] + f[3] * d[i])
+                    })
+                };
+                Some([
+                    sum([1.0, 1.0, 1.0, 1.0]),
+                    sum([-1.0, 1.0, 1.0, -1.0]),
+                    sum([-1.0, -1.0, 1.0, 1.0]),
+                    sum([1.0, -1.0, 1.0, -1.0]),
+                ])
+            }
+            _ => None,
+        };
+        Patch {
+            kind,
+            nodes,
+            bilinear,
+        }
+    }
+
+    fn at(&self, xi: Point) -> (Vec3, [Vec3; 2]) {
+        match &self.bilinear {
+            Some([middle, along, across, twist]) => {
+                let a = [
+                    add_scaled(*along, xi[1], *twist),
+                    add_scaled(*across, xi[0], *twist),
+                ];
+                let x = add_scaled(*middle, xi[0], *along);
+                (add_scaled(x, xi[1], a[1]), a)
+            }
+            None => {
+                let p = place(self.kind, self.nodes, xi);
+                (p.x, p.a)
+            }
+        }
+    }
+}
+
+/// Where a ray from `from` along `n` meets a facet: the base vectors there and the signed distance.
+fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2], f64)> {
+    let affine = matches!(patch.kind, ElementKind::Line2 | ElementKind::Tri3);
     for _ in 0..ITERATIONS {
-        let p = place(kind, x, *xi);
+        let (x, a) = patch.at(*xi);
         // a1 Δξ + a2 Δη - n s = from - x
-        let matrix: Mat3 = std::array::from_fn(|i| [p.a[0][i], p.a[1][i], -n[i]]);
+        let matrix: Mat3 = std::array::from_fn(|i| [a[0][i], a[1][i], -n[i]]);
         let (inverse, _) = inverse(&matrix)?;
-        let step = mat_vec(&inverse, sub(from, p.x));
+        let step = mat_vec(&inverse, sub(from, x));
         let longest = step[0].abs().max(step[1].abs());
         if !longest.is_finite() || longest > FAR {
             return None;
@@ -113,9 +163,8 @@ fn hit(kind: ElementKind, x: &[Vec3], from: Vec3, n: Vec3, xi: &mut Point) -> Op
         xi[0] += step[0];
         xi[1] += step[1];
         if affine || longest < SETTLED {
-            let p = place(kind, x, *xi);
-            let away = sub(p.x, from);
-            return Some((p, dot(away, n)));
+            let (x, a) = patch.at(*xi);
+            return Some((a, dot(sub(x, from), n)));
         }
     }
     None
@@ -162,10 +211,10 @@ impl View<'_> {
         }
         let normal = self.normal(&n);
         let (piece, facet_kind, facet) = facet;
-        let Some((p, gap)) = hit(facet_kind, facet, from, normal, start) else {
+        let Some((a, gap)) = hit(&Patch::new(facet_kind, facet), from, normal, start) else {
             return;
         };
-        let Some(m) = normalize(cross(p.a[0], p.a[1])) else {
+        let Some(m) = normalize(cross(a[0], a[1])) else {
             return;
         };
         let facing = -dot(normal, m);
@@ -179,7 +228,7 @@ impl View<'_> {
             n,
             positive: positives,
             piece,
-            opposite: p.n,
+            opposite: shapes(facet_kind, *start).0,
             place: *start,
             gap,
             direction: m.map(|m| m / facing),
