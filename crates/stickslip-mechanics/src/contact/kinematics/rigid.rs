@@ -13,9 +13,10 @@ pub fn tangents(n: Vec3, dim: usize) -> [Vec3; 2] {
     if dim == 2 {
         return [[n[1], -n[0], 0.0], [0.0, 0.0, 1.0]];
     }
-    let axis = (0..3).fold(0, |b, i| if n[i].abs() < n[b].abs() { i } else { b });
+    // The axis after the one nearest to the normal: the least aligned one is another after the smallest turn of a surface that faces an axis.
+    let nearest = (0..3).fold(0, |b, i| if n[i].abs() > n[b].abs() { i } else { b });
     let mut e = [0.0; 3];
-    e[axis] = 1.0;
+    e[(nearest + 1) % 3] = 1.0;
     let t = normalize(add_scaled(e, -dot(e, n), n)).unwrap_or(e);
     [t, cross(n, t)]
 }

@@ -1,10 +1,13 @@
 //! The identities of a contact element (VERIFICATION B3), for every kinematics and facet kind.
 
+use super::rigid::tangents;
 use super::*;
 use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::projection::project;
 use crate::contact::surface::ContactPoint;
-use crate::math::{Vec3, add, add_scaled, cross, dot, mat_vec, norm, rotation, scale, sub};
+use crate::math::{
+    Vec3, add, add_scaled, cross, dot, mat_vec, norm, normalize, rotation, scale, sub,
+};
 use crate::registry::Family;
 use crate::shape::ElementKind;
 
@@ -560,6 +563,29 @@ fn slip_over_what_is_pushed_is_the_arc() {
                 for (e, before) in s.frame.iter().zip(s.frame_before) {
                     let carried = mat_vec(&rotation([0.0, 0.0, 1.0], angle), before);
                     assert!(norm(sub(carried, *e)) < 1e-14, "{angle}");
+                }
+            }
+        }
+    }
+}
+
+/// A surface that faces an axis, and is tilted a little one way or another: the directions of slip stay where they are. A solver that keeps a factor of
+/// systems in their components would have the factor of another one.
+#[test]
+fn directions_of_slip_do_not_jump_where_a_surface_faces_an_axis() {
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let tilted = |by: [f64; 2]| {
+                let mut n = [0.0; 3];
+                n[axis] = side;
+                n[(axis + 1) % 3] = by[0];
+                n[(axis + 2) % 3] = by[1];
+                tangents(normalize(n).unwrap(), 3)
+            };
+            let straight = tilted([0.0; 2]);
+            for by in [[1e-3, 0.0], [0.0, 1e-3], [-1e-3, 1e-4], [1e-4, -1e-3]] {
+                for (t, s) in tilted(by).into_iter().zip(straight) {
+                    assert!(norm(sub(t, s)) < 2e-3, "axis {axis}, side {side}, {by:?}");
                 }
             }
         }
