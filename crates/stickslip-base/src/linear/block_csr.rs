@@ -22,6 +22,11 @@ pub struct BlockCsr {
 }
 
 impl BlockCsr {
+    /// What its values take `[bytes]`; the pattern is shared.
+    pub fn bytes(&self) -> u64 {
+        size_of_val(self.values.as_slice()) as u64
+    }
+
     /// A zero matrix in which every group of points that `visit` hands out is coupled, and every point to itself.
     ///
     /// # Panics

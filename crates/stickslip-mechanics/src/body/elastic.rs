@@ -11,7 +11,7 @@ use super::scheme::stiffness_rule;
 use super::waves::in_order;
 use super::{Formulation, Space};
 use crate::error::Diagnostic;
-use crate::linear::BlockCsr;
+use crate::linear::{BlockCsr, Digest};
 use crate::material::{Stiffness, constrained_modulus, plane_stress};
 use crate::mesh::{Block, Mesh};
 use crate::system::{Fields, State};
@@ -239,6 +239,18 @@ impl Elastic {
             for cell in block.connectivity.chunks_exact(block.kind.node_count()) {
                 visit(cell);
             }
+        }
+    }
+
+    /// Mixes all that decides what the stiffness is, but for the places of the points.
+    pub fn mix(&self, digest: &mut Digest) {
+        let made_of = (self.space, self.formulation, &self.acting);
+        digest.bytes(format!("{made_of:?}").as_bytes());
+        for part in &self.parts {
+            let block = &self.mesh.blocks[part.block];
+            digest.bytes(block.kind.name().as_bytes());
+            digest.word(block.connectivity.len() as u64);
+            (block.connectivity.iter()).for_each(|&point| digest.word(point as u64));
         }
     }
 

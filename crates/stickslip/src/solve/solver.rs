@@ -8,18 +8,18 @@ use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::{Inertia, times};
 use super::work::Seen;
-use crate::linear::BlockCsr;
+use crate::linear::{BlockCsr, Digest};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
-use crate::model::definition::{Model, Solution, Step};
-use crate::newton::condensed::Library;
+use crate::model::definition::{Body, Model, Solution, Step};
+use crate::newton::condensed::{Identity, Library};
 use crate::newton::{Converged, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
 pub(crate) struct Solver {
     /// Stiffness of bodies and springs.
-    pub stiffness: BlockCsr,
+    pub stiffness: Arc<BlockCsr>,
     /// Its diagonal.
     pub diagonal: Vec<f64>,
     /// Newton's method, with its counts.
@@ -54,25 +54,9 @@ pub(crate) struct Log {
 }
 
 impl Solver {
-    /// Assembles the stiffness of a model, but for an analysis of explicit steps alone.
+    /// With the stiffness of the model, but for an analysis of explicit steps alone.
     pub fn new(model: &Model, library: Arc<Library>) -> Self {
-        // An explicit analysis needs no matrix of the bodies.
-        let assembled = !model.steps.iter().all(Step::is_explicit);
-        let mut stiffness =
-            BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
-                for body in model.elastic().filter(|_| assembled) {
-                    body.elastic.couplings(visit);
-                }
-                for link in model.links.all() {
-                    visit(&[link.hidden, link.hidden + 1]);
-                }
-            });
-        for body in model.elastic().filter(|_| assembled) {
-            body.elastic.stiffness(&mut stiffness);
-        }
-        for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
-            model.links.add_spring(&mut stiffness, dof, k);
-        }
+        let stiffness = library.stiffness(identity(model), || assembled(model));
         Solver {
             diagonal: stiffness.diagonal(),
             stiffness,
@@ -110,7 +94,7 @@ impl Solver {
         let fixed = task.constraints.fixed.clone();
         let (matrix, key, external, origin) = match task.load {
             Load::External(external) => {
-                let matrix = (&self.stiffness, self.diagonal.as_slice());
+                let matrix = (&*self.stiffness, self.diagonal.as_slice());
                 (matrix, 0, external, None)
             }
             Load::Known(origin) => {
@@ -138,4 +122,40 @@ impl Solver {
     pub fn strain_energy(&self, u: &[f64]) -> f64 {
         0.5 * dot(u, &times(&self.stiffness, u))
     }
+}
+
+/// The bodies whose matrix is needed: an explicit analysis needs none.
+fn stiff(model: &Model) -> impl Iterator<Item = &Body> {
+    let needed = !model.steps.iter().all(Step::is_explicit);
+    model.elastic().filter(move |_| needed)
+}
+
+/// A digest of all that [`assembled`] makes a matrix of.
+fn identity(model: &Model) -> Identity {
+    let mut digest = Digest::of(model.dofs.points as u64);
+    digest.floats(model.mesh.points.as_flattened());
+    stiff(model).for_each(|body| body.elastic.mix(&mut digest));
+    for link in model.links.all() {
+        digest.bytes(format!("{link:?}").as_bytes());
+    }
+    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+        digest.word(dof as u64);
+        digest.floats(&[k]);
+    }
+    Identity::of(&digest)
+}
+
+/// The stiffness of bodies, rigid links and springs.
+fn assembled(model: &Model) -> BlockCsr {
+    let mut stiffness = BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
+        stiff(model).for_each(|body| body.elastic.couplings(visit));
+        for link in model.links.all() {
+            visit(&[link.hidden, link.hidden + 1]);
+        }
+    });
+    stiff(model).for_each(|body| body.elastic.stiffness(&mut stiffness));
+    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+        model.links.add_spring(&mut stiffness, dof, k);
+    }
+    stiffness
 }

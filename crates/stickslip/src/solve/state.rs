@@ -190,7 +190,7 @@ impl Solver {
     /// The stiffness, or the matrix of an increment in motion as long as it is kept.
     fn matrix_of(&self, key: u64) -> Option<&BlockCsr> {
         match key {
-            0 => Some(&self.stiffness),
+            0 => Some(&*self.stiffness),
             key => self.inertia.as_ref()?.matrix_of(key),
         }
     }

@@ -83,6 +83,11 @@ impl Part<'_> {
 }
 
 impl Identity {
+    /// Of what was mixed into a digest.
+    pub fn of(digest: &Digest) -> Self {
+        Identity(digest.finish())
+    }
+
     /// The digest itself.
     pub fn words(self) -> [u64; 2] {
         self.0

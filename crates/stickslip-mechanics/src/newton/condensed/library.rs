@@ -5,7 +5,7 @@ use super::file;
 use super::identity::{Identity, Part};
 use super::substructure::Substructure;
 use crate::error::Error;
-use crate::linear::Fronts;
+use crate::linear::{BlockCsr, Fronts};
 use crate::machine::total_memory;
 
 /// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
@@ -22,6 +22,7 @@ pub struct Library {
 struct Shelves {
     substructures: Shelf<Substructure>,
     analyses: Shelf<Fronts>,
+    stiffnesses: Shelf<BlockCsr>,
 }
 
 /// Where a substructure comes from.
@@ -38,8 +39,9 @@ pub enum Source {
 /// What a library has of a substructure, and what the user should know about its file.
 pub(super) type Found = (Option<(Arc<Substructure>, Source)>, Option<String>);
 
-/// Part of the memory limit that analyses may take.
+/// Part of the memory limit that analyses may take, and matrices.
 const ANALYSES: u64 = 8;
+const STIFFNESSES: u64 = 4;
 
 /// Bytes of a gibibyte.
 const GIB: u64 = 1 << 30;
@@ -138,6 +140,23 @@ impl Library {
         let entry = (identity, Arc::clone(fronts), fronts.bytes());
         self.shelves().analyses.keep(entry, self.limit / ANALYSES);
     }
+
+    /// The matrix with this identity: what was assembled before, or what `assemble` makes.
+    pub fn stiffness(
+        &self,
+        identity: Identity,
+        assemble: impl FnOnce() -> BlockCsr,
+    ) -> Arc<BlockCsr> {
+        if let Some(found) = self.shelves().stiffnesses.find(identity) {
+            return found;
+        }
+        let made = Arc::new(assemble());
+        let entry = (identity, Arc::clone(&made), made.bytes());
+        self.shelves()
+            .stiffnesses
+            .keep(entry, self.limit / STIFFNESSES);
+        made
+    }
 }
 
 /// Things with their identity and size, the least recently used one first.
@@ -176,7 +195,6 @@ impl<T> Shelf<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::BlockCsr;
 
     fn identity(fixed: usize) -> Identity {
         let matrix = BlockCsr::from_couplings(4, 2, &mut |_| ());
