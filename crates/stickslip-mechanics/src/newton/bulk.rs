@@ -31,6 +31,11 @@ pub trait Bulk {
     /// How many solutions with one matrix cost no more than another attempt of Newton's method, or than so many operations.
     fn affordable(&self, settings: &Settings, operations: f64) -> usize;
 
+    /// Whether a solution with this tangent costs much more where gaps and slips curve.
+    fn prefers_straight(&self, _contact: &Assembler) -> bool {
+        false
+    }
+
     /// Whether the solution needs to know which points meet which facets.
     fn wants_pairs(&self) -> bool {
         false

@@ -20,6 +20,12 @@ const FORCING: f64 = 0.1;
 /// The finest relative residual of a linear system: double precision gives no more.
 const FINEST: f64 = 1e-13;
 
+/// Part of the residual that an iteration in which no point changes status may leave: where it leaves more, the tangent lacks something.
+const SLOW: f64 = 0.1;
+
+/// Iterations after which the tangent is whole in any case.
+const PATIENT: usize = 4;
+
 /// Residuals that a failure quotes.
 const QUOTED: usize = 5;
 
@@ -27,6 +33,18 @@ const QUOTED: usize = 5;
 struct Linear {
     b: Vec<f64>,
     du: Vec<f64>,
+    curvature: Curvature,
+}
+
+/// Whether how gaps and slips curve is in the matrix. It weighs what pressure does beside moduli, mostly next to nothing, and makes linear systems
+/// dearer: with it a Krylov step takes two products with the compliance, without it one.
+#[derive(PartialEq)]
+enum Curvature {
+    /// Where it costs next to nothing, until Newton's method misses it.
+    Unasked,
+    Wanted,
+    /// Not any more: linear systems could not be solved with it.
+    Refused,
 }
 
 /// Iterates to equilibrium from where the attempt is; `round` is the multiplier update that it follows.
@@ -35,7 +53,11 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
     let mut out = assembler(attempt);
     let n = attempt.system.dofs.count();
     let (b, du) = (vec![0.0; n], vec![0.0; n]);
-    let mut linear = Linear { b, du };
+    let mut linear = Linear {
+        b,
+        du,
+        curvature: Curvature::Unasked,
+    };
     let mut balance = attempt.evaluate(&mut out, true)?;
     let mut control = StepControl::default();
     let mut residuals = Vec::new();
@@ -55,6 +77,12 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
         }
         if iteration == settings.max_iterations || chatters(attempt, &residuals) {
             break;
+        }
+        let slow = iteration > 0
+            && attempt.system.tally().changed == 0
+            && residual > SLOW * reported[iteration - 1];
+        if linear.curvature == Curvature::Unasked && (slow || iteration >= PATIENT) {
+            linear.curvature = Curvature::Wanted;
         }
         let krylov = solve(attempt, &mut out, &balance, &mut linear, iteration == 0)?;
         let demand = control.demand(&residuals, before);
@@ -79,9 +107,7 @@ fn assembler(attempt: &Attempt) -> Assembler {
     let mut out = Assembler::new(system.dofs.count());
     out.wants_surrogate = system.bulk.wants_surrogates();
     out.wants_pairs = system.bulk.wants_pairs();
-    // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel without it.
-    out.wants_curvature = system.patience() == 0;
-    out.holds_turns = !out.wants_curvature;
+    out.holds_turns = system.patience() > 0;
     out
 }
 
@@ -127,7 +153,7 @@ fn solve(
     attempt: &mut Attempt,
     out: &mut Assembler,
     balance: &Balance,
-    Linear { b, du }: &mut Linear,
+    Linear { b, du, curvature }: &mut Linear,
     first: bool,
 ) -> Result<usize, StepFailure> {
     let settings = attempt.settings;
@@ -148,12 +174,23 @@ fn solve(
         let target = balance.target(settings.tolerance);
         FORCING * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
     };
+    // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel of their own points alone.
+    if system.patience() == 0 {
+        let dear = system.bulk.prefers_straight(out);
+        match curvature {
+            Curvature::Unasked if dear => out.straighten(),
+            Curvature::Unasked | Curvature::Wanted => system.curve(out),
+            Curvature::Refused => out.straighten(),
+        }
+    }
     let wanted = wanted.clamp(FINEST, coarse.max(FINEST));
     let counts = &mut *attempt.statistics;
     let solved = (system.bulk).solve(out, b, wanted, du, (&settings, &mut *counts));
     let krylov = match solved {
         // Preconditioners know nothing of the curvature. Where it is so large that they fail, slower iterations are better than none.
-        Err(failure) if failure.cause == Cause::LinearSolver && out.drop_curvature() => {
+        Err(failure) if failure.cause == Cause::LinearSolver && *curvature == Curvature::Wanted => {
+            *curvature = Curvature::Refused;
+            out.straighten();
             (system.bulk).solve(out, b, wanted, du, (&settings, counts))?
         }
         solved => solved?,

@@ -1,7 +1,9 @@
 //! The equations: balance of the bulk and the interfaces, with prescribed displacements.
 
 use super::bulk::Bulk;
-use crate::system::{ActiveSet, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally};
+use crate::system::{
+    ActiveSet, Assembler, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally,
+};
 
 /// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
 pub struct System<'a> {
@@ -41,6 +43,11 @@ impl System<'_> {
         for force in &mut self.contact {
             force.update_internal(du, step);
         }
+    }
+
+    /// Adds the curvature of all interfaces to the tangent of the last evaluation.
+    pub(super) fn curve(&self, out: &mut Assembler) {
+        self.contact.iter().for_each(|force| force.curve(out));
     }
 
     /// The state of the last evaluation is the next iterate.

@@ -111,9 +111,6 @@ pub struct Assembler {
     /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
-    /// Whether the curvature of whole surfaces is wanted in the tangent: it speeds up the last iterations, and linear systems can be solved without.
-    /// Stays as it is from one evaluation to the next; `true` to begin with.
-    pub wants_curvature: bool,
     /// What the tangent does not know of, the turn of surfaces as a whole, is that of the last accepted state. For bodies that are followed: they roll, and
     /// Newton's method has to see all of what that does. `false` to begin with.
     pub holds_turns: bool,
@@ -145,7 +142,6 @@ impl Assembler {
             wants_tangent: false,
             wants_pairs: false,
             wants_surrogate: true,
-            wants_curvature: true,
             holds_turns: false,
             tentative: false,
             spare_blocks: Vec::new(),
@@ -165,12 +161,10 @@ impl Assembler {
         self.wants_tangent = wants_tangent;
     }
 
-    /// Takes away blocks that hold nothing but curvature, now and for all evaluations to come; `false` if there are none.
-    pub fn drop_curvature(&mut self) -> bool {
-        self.wants_curvature = false;
-        let before = self.blocks.len();
+    /// Takes how gaps and slips curve out of the tangent, and blocks that hold nothing else.
+    pub fn straighten(&mut self) {
+        self.blocks.iter_mut().for_each(|b| b.hessian.clear());
         self.blocks.retain(|b| b.rows.iter().any(|r| *r != 0.0));
-        self.blocks.len() < before
     }
 
     /// Adds the residual of one point.
@@ -260,5 +254,26 @@ mod tests {
             }
             assert_eq!(block.change[0], 0.5 * numbers(12, 2)[0]);
         }
+    }
+
+    #[test]
+    fn a_straight_tangent_has_rows_alone() {
+        let mut out = Assembler::new(8);
+        out.reset(true);
+        let (some, none) = ([1.0; 6], [0.0; 6]);
+        for rows in [&some, &none] {
+            let tangent = Tangent {
+                rows,
+                change: rows,
+                area: 1.0,
+                hessian: &[3.0; 4],
+                surrogate: &[],
+            };
+            out.add_tangent(&[1, 6], tangent);
+        }
+        out.straighten();
+        assert_eq!(out.blocks.len(), 1, "one held nothing but curvature");
+        assert!(out.blocks[0].hessian.is_empty());
+        assert_eq!(out.blocks[0].rows, some);
     }
 }

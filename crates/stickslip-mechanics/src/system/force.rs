@@ -84,6 +84,9 @@ pub trait Force: Send {
     /// Residual and tangent, from committed history.
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure>;
 
+    /// Adds to the tangent of the last evaluation what there is of it beside the gradients of gaps and slips: how these change themselves.
+    fn curve(&self, _out: &mut Assembler) {}
+
     /// The state of the last evaluation, a [tentative](Assembler::tentative) one with tangent, is the next iterate: as if it had been evaluated
     /// for good.
     fn settle(&mut self) {}

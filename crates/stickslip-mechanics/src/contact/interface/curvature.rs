@@ -204,7 +204,7 @@ impl Interface {
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return;
         };
-        if !out.wants_tangent || !out.wants_curvature || self.kinematics.as_dyn().frozen() {
+        if !out.wants_tangent || self.kinematics.as_dyn().frozen() {
             return;
         }
         let curvature = Curvature {

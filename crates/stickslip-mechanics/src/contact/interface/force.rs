@@ -47,7 +47,6 @@ impl Force for Interface {
         }
         self.add_pairs(&evaluations, out);
         scatter(&evaluations, out);
-        self.add_curvature(&evaluations, out);
         let pending = out.wants_tangent && out.tentative;
         self.attempt.tentative = pending;
         // The multiplier rows of the last iterate are needed until the step has been taken.
@@ -64,6 +63,10 @@ impl Force for Interface {
             self.record();
         }
         Ok(())
+    }
+
+    fn curve(&self, out: &mut Assembler) {
+        self.add_curvature(&self.cache.last, out);
     }
 
     fn settle(&mut self) {

@@ -97,6 +97,11 @@ impl Bulk for CondensedBulk<'_> {
         false
     }
 
+    /// Two products with the compliance a Krylov step in place of one; where the factor is made every time there are next to none.
+    fn prefers_straight(&self, contact: &Assembler) -> bool {
+        3 * contact.blocks.len() > TINY
+    }
+
     /// A solution is a product with a dense matrix.
     fn affordable(&self, _settings: &Settings, _operations: f64) -> usize {
         usize::MAX
