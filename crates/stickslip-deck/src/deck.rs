@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::card::Place;
 use crate::finding::Finding;
+use crate::numbering::Numbering;
 
 /// A deck that was read. Names are in capitals, as both programs take them, unless they were quoted.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +14,8 @@ pub struct Deck {
     pub files: Vec<PathBuf>,
     /// The text of `*HEADING`, its first line.
     pub title: Option<String>,
+    /// How numbers of instances of parts become numbers of the deck.
+    pub numbering: Numbering,
     /// Nodes by number.
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Elements by number.
@@ -63,6 +66,13 @@ pub struct Deck {
     pub notes: Vec<Finding>,
     /// Names that nothing uses.
     pub(crate) unused: Vec<(Place, String)>,
+}
+
+impl Deck {
+    /// A number of a node or element as the deck writes it: `PART-1-1.12` in an instance.
+    pub fn label(&self, number: u64) -> String {
+        self.numbering.label(number)
+    }
 }
 
 /// An element.

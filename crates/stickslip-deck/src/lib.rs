@@ -33,6 +33,8 @@ mod axes;
 mod card;
 mod deck;
 mod finding;
+mod motion;
+mod numbering;
 mod parse;
 mod print;
 pub mod source;
@@ -43,6 +45,7 @@ mod translate;
 
 pub use deck::*;
 pub use finding::{DeckError, Finding, Severity};
+pub use numbering::Numbering;
 pub use print::Printer;
 pub use status::Status;
 pub use translate::{Translation, read_mesh};

@@ -14,6 +14,7 @@ use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::results::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
+use crate::numbering::Numbering;
 use crate::translate::Translation;
 
 /// Writes the `.dat` file of a deck while it runs: what an increment prints is in the file when its fields are.
@@ -26,6 +27,7 @@ pub struct Printer {
     node_sets: BTreeMap<String, Vec<u64>>,
     element_sets: BTreeMap<String, Vec<u64>>,
     pairs: Vec<(String, String, String)>,
+    numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.
     times: BTreeMap<String, Vec<f64>>,
     /// Local axes of nodes and elements; rows are the axes.
@@ -111,6 +113,7 @@ impl Printer {
                 node_sets: translation.node_sets.clone(),
                 element_sets: translation.element_sets.clone(),
                 pairs: translation.pairs.clone(),
+                numbering: translation.numbering.clone(),
                 times: translation.times.clone(),
                 node_axes: translation.node_axes.clone(),
                 element_axes: translation.element_axes.clone(),
@@ -264,7 +267,7 @@ impl Printer {
                     v = axes.map(|axis| dot(axis, v));
                 }
                 if totals != Totals::Only {
-                    row(out, &format!("{node:>10}"), &v);
+                    row(out, &self.label(*node), &v);
                 }
             }
             if totals != Totals::No && key == "RF" {
@@ -308,7 +311,7 @@ impl Printer {
                     out.push_str(&title(what));
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
                         let axes = self.element_axes.get(id).filter(|_| !global);
-                        tensors(out, *id, cell, (key == "S", axes));
+                        tensors(out, &self.label(*id), cell, (key == "S", axes));
                     }
                 }
                 "ELSE" | "EVOL" => {
@@ -330,7 +333,7 @@ impl Printer {
                         };
                         sum += v;
                         if totals != Totals::Only {
-                            row(out, &format!("{id:>10}"), &[v]);
+                            row(out, &self.label(*id), &[v]);
                         }
                     }
                     if totals != Totals::No {
@@ -376,7 +379,7 @@ impl Printer {
                         false => "contact stress (slave node,press,tang1,tang2)",
                     }));
                     for interface in interfaces() {
-                        points_in_contact(analysis, interface, out, gaps);
+                        self.points_in_contact(analysis, interface, out, gaps);
                     }
                 }
                 "CNUM" => {
@@ -414,25 +417,36 @@ impl Printer {
             }
         }
     }
-}
 
-/// Gap and slip, or pressure and shear, of the points of an interface that are in contact.
-fn points_in_contact(analysis: &Analysis, interface: &Interface, out: &mut String, gaps: bool) {
-    let (names, columns) = interface.table(&analysis.frame.state.u);
-    let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
-    let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
-    let count = columns.first().map_or(0, Vec::len);
-    for i in (0..count).filter(|&i| value("CSTATUS", i) > 0.0) {
-        // Shear here is what acts on the slave; there it has the sign of the slip.
-        let values = match gaps {
-            true => [value("COPEN", i), value("CSLIP1", i), value("CSLIP2", i)],
-            false => [
-                value("CPRESS", i),
-                -value("CSHEAR1", i),
-                -value("CSHEAR2", i),
-            ],
-        };
-        row(out, &format!("{:>10}", value("node", i) as u64), &values);
+    /// Gap and slip, or pressure and shear, of the points of an interface that are in contact.
+    fn points_in_contact(
+        &self,
+        analysis: &Analysis,
+        interface: &Interface,
+        out: &mut String,
+        gaps: bool,
+    ) {
+        let (names, columns) = interface.table(&analysis.frame.state.u);
+        let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
+        let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
+        let count = columns.first().map_or(0, Vec::len);
+        for i in (0..count).filter(|&i| value("CSTATUS", i) > 0.0) {
+            // Shear here is what acts on the slave; there it has the sign of the slip.
+            let values = match gaps {
+                true => [value("COPEN", i), value("CSLIP1", i), value("CSLIP2", i)],
+                false => [
+                    value("CPRESS", i),
+                    -value("CSHEAR1", i),
+                    -value("CSHEAR2", i),
+                ],
+            };
+            row(out, &self.label(value("node", i) as u64), &values);
+        }
+    }
+
+    /// The number of a node or element, as the deck writes it, in its column.
+    fn label(&self, number: u64) -> String {
+        format!("{:>10}", self.numbering.label(number))
     }
 }
 
@@ -446,7 +460,7 @@ fn count_in_contact(analysis: &Analysis, interface: &Interface) -> usize {
 /// Stresses, or strains, of an element at its points.
 fn tensors(
     out: &mut String,
-    id: u64,
+    label: &str,
     cell: &CellState,
     (stress, axes): (bool, Option<&[Vec3; 3]>),
 ) {
@@ -456,7 +470,7 @@ fn tensors(
             true => tensor(&p.stress, 1.0, axes),
             false => tensor(&p.strain, 0.5, axes),
         };
-        row(out, &format!("{id:>10} {:>3}", i + 1), &v);
+        row(out, &format!("{label} {:>3}", i + 1), &v);
     }
 }
 

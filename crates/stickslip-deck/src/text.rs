@@ -8,10 +8,16 @@ pub(crate) fn squeeze(text: &str) -> String {
 
 /// A name of the user's: quotes keep blanks and case.
 pub(crate) fn label(text: &str) -> String {
-    match text.trim().strip_prefix('"') {
-        Some(quoted) => quoted.trim_end_matches('"').to_string(),
-        None => squeeze(text),
+    if !text.contains('"') {
+        return squeeze(text);
     }
+    // An instance and its set can be quoted each for itself.
+    let pieces = text.trim().split('"').enumerate();
+    let kept = pieces.map(|(i, piece)| match i % 2 {
+        0 => squeeze(piece),
+        _ => piece.to_string(),
+    });
+    kept.collect()
 }
 
 /// A number as Fortran reads it: `1.D5` is 1e5.

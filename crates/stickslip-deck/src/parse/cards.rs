@@ -9,6 +9,13 @@ type Read = fn(&mut Reader<'_>, &Card);
 /// Every card that is read, with what reads it.
 const CARDS: &[(&str, Read)] = &[
     ("HEADING", |r, c| r.heading(c)),
+    ("PART", |r, c| r.part(c)),
+    ("ENDPART", |r, c| r.end_part(c)),
+    ("ASSEMBLY", |r, c| r.assembly(c)),
+    ("ENDASSEMBLY", |r, c| r.end_assembly(c)),
+    ("INSTANCE", |r, c| r.instance(c)),
+    ("ENDINSTANCE", |r, c| r.end_instance(c)),
+    ("SYSTEM", |r, c| r.system(c)),
     ("NODE", |r, c| r.nodes(c)),
     ("ELEMENT", |r, c| r.elements(c)),
     ("NSET", |r, c| r.node_set(c)),
@@ -75,7 +82,13 @@ pub(super) const BENEATH: [&str; 6] = [
 ];
 
 /// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
-pub(super) const NAMES: [&str; 11] = [
+pub(super) const NAMES: [&str; 17] = [
+    "PART",
+    "ENDPART",
+    "ASSEMBLY",
+    "ENDASSEMBLY",
+    "INSTANCE",
+    "ENDINSTANCE",
     "NODE",
     "ELEMENT",
     "NSET",

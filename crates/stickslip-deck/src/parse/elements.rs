@@ -80,9 +80,10 @@ impl Reader<'_> {
                 let message = format!("elements of type {kind} ({}) are not supported", why.what);
                 self.error(card.place, message, why.help);
                 let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
+                let ids = ids.map(|n| self.deck.numbering.of(self.scope, n));
                 self.skipped.extend(ids);
-                self.skipped_sets
-                    .extend(card.get("ELSET").map(str::to_string));
+                let set = card.get("ELSET").map(|s| self.scoped(s));
+                self.skipped_sets.extend(set);
                 None
             }
         }
@@ -95,7 +96,11 @@ impl Reader<'_> {
         if let Some(n) = element.nodes.iter().find(absent) {
             self.error(
                 place,
-                format!("element {id} uses node {n}, which does not exist"),
+                format!(
+                    "element {} uses node {}, which does not exist",
+                    self.deck.label(id),
+                    self.deck.label(*n)
+                ),
                 "*NODE must stand before *ELEMENT",
             );
             return false;
@@ -103,8 +108,8 @@ impl Reader<'_> {
         if self.deck.elements.insert(id, element).is_some() {
             self.error(
                 place,
-                format!("element {id} is given twice"),
-                "numbers of elements are unique in the whole deck",
+                format!("element {} is given twice", self.deck.label(id)),
+                "numbers of elements are unique in the whole deck, or in an instance",
             );
         }
         true
@@ -121,7 +126,7 @@ impl Reader<'_> {
         let mut forgiven = false;
         let mut lines = card.data.iter();
         while let Some(data) = lines.next() {
-            let Some(id) = self.whole(data, 0) else {
+            let Some(id) = self.own_number(data) else {
                 continue;
             };
             let mut nodes = Vec::with_capacity(count);
@@ -143,6 +148,7 @@ impl Reader<'_> {
                 nodes.truncate(count);
             }
             if nodes.len() != count {
+                let id = self.deck.label(id);
                 let message = format!("element {id} has {} nodes; {kind} has {count}", nodes.len());
                 self.error(
                     data.place,
@@ -161,16 +167,14 @@ impl Reader<'_> {
             }
         }
         if let Some(name) = card.get("ELSET") {
-            add(
-                self.deck.element_sets.entry(name.to_string()).or_default(),
-                set,
-            );
+            let name = self.scoped(name);
+            add(self.deck.element_sets.entry(name).or_default(), set);
         }
     }
 
     pub(super) fn members(&mut self, data: &Data, from: usize, out: &mut Vec<u64>) {
         for i in from..data.fields.len() {
-            if let Some(n) = self.whole(data, i) {
+            if let Some(n) = self.number_at(data, i) {
                 out.push(n);
             }
         }
@@ -182,6 +186,7 @@ impl Reader<'_> {
         let known = bounding(kind).is_some()
             || abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());
         if !known {
+            let element = self.deck.label(element);
             let message = format!("element {element} ({kind}) has no face {face}");
             self.error(
                 place,

@@ -3,7 +3,8 @@
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
 use crate::deck::Target;
-use crate::text::{clip, label, number, squeeze, whole};
+use crate::numbering::Numbering;
+use crate::text::{clip, number, squeeze, whole};
 
 /// Nodes by number or set.
 pub(super) enum Nodes {
@@ -77,6 +78,16 @@ impl Reader<'_> {
         value
     }
 
+    /// A field as the number of a node or element, as the deck keeps it.
+    pub(super) fn number_at(&mut self, data: &Data, field: usize) -> Option<u64> {
+        let text = data.fields.get(field).map_or("", String::as_str);
+        match self.number_of(text) {
+            Some(n) => Some(n),
+            // It says what is wrong.
+            None => self.whole(data, field),
+        }
+    }
+
     /// The first data line.
     pub(super) fn line<'c>(&mut self, card: &'c Card) -> Option<&'c Data> {
         if card.data.is_empty() {
@@ -100,9 +111,9 @@ impl Reader<'_> {
             );
             return None;
         }
-        Some(match whole(text) {
+        Some(match self.number_of(text) {
             Some(node) => Target::One(node),
-            None => Target::Set(label(text)),
+            None => Target::Set(self.name(text)),
         })
     }
 
@@ -124,7 +135,7 @@ impl Reader<'_> {
 
     /// What is meant by a text that is the number of a node or, as a label, the name of a set.
     pub(super) fn named_nodes(&self, text: &str, name: String) -> Nodes {
-        match whole(text) {
+        match self.number_of(text) {
             Some(n) if self.deck.nodes.contains_key(&n) => Nodes::One(n),
             Some(n) => Nodes::Absent(n),
             None if self.deck.node_sets.contains_key(&name) => Nodes::Set(name),
@@ -132,29 +143,33 @@ impl Reader<'_> {
         }
     }
 
-    /// Elements by number or set.
+    /// Elements by number or set, from a field.
     pub(super) fn elements_of(&mut self, text: &str, place: Place) -> Vec<u64> {
-        match whole(text) {
+        let name = self.name(text);
+        self.elements_named(text, &name, place)
+    }
+
+    /// Elements by number, or by the name of a set as the deck keeps it.
+    pub(super) fn elements_named(&mut self, text: &str, name: &str, place: Place) -> Vec<u64> {
+        match self.number_of(text) {
             Some(n) if self.deck.elements.contains_key(&n) => vec![n],
             Some(n) if self.skipped.contains(&n) => Vec::new(),
             Some(n) => {
                 self.error(
                     place,
-                    format!("there is no element {n}"),
+                    format!("there is no element {}", self.deck.label(n)),
                     "elements must stand before what refers to them",
                 );
                 Vec::new()
             }
-            None => match self.deck.element_sets.get(&label(text)) {
+            None => match self.deck.element_sets.get(name) {
                 Some(set) => set.clone(),
-                None if self.skipped_sets.contains(&label(text)) => Vec::new(),
+                None if self.skipped_sets.contains(name) => Vec::new(),
                 None => {
-                    let help = listing("sets of elements", self.deck.element_sets.keys());
-                    self.error(
-                        place,
-                        format!("there is no set of elements {}", clip(text)),
-                        &help,
-                    );
+                    let known = self.deck.element_sets.keys();
+                    let (message, help) =
+                        absent(&self.deck.numbering, "set of elements", name, known);
+                    self.error(place, message, &help);
                     Vec::new()
                 }
             },
@@ -184,6 +199,50 @@ pub(super) fn keys(card: &Card) -> Vec<String> {
         .flat_map(|d| d.fields.iter().map(|f| squeeze(f)))
         .filter(|k| !k.is_empty())
         .collect()
+}
+
+/// What is said of a name that nothing has: the message, and a help.
+pub(super) fn absent<'n>(
+    numbering: &Numbering,
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n String>,
+) -> (String, String) {
+    let whose = |n: &str| numbering.within(n).map(|(i, _)| i);
+    if let Some((instance, _)) = name.split_once('.')
+        && !numbering.instances().is_empty()
+        && whose(name).is_none()
+    {
+        let message = format!(
+            "there is no {what} {}: no instance is called {}",
+            clip(name),
+            clip(instance)
+        );
+        return (
+            message,
+            nearest(instance, "instances", numbering.instances()),
+        );
+    }
+    let own = known.filter(|n| whose(n) == whose(name));
+    let message = format!("there is no {what} {}", clip(name));
+    (message, listing(&plural(what), own))
+}
+
+fn plural(what: &str) -> String {
+    match what.strip_prefix("set of ") {
+        Some(members) => format!("sets of {members}"),
+        None => format!("{what}s"),
+    }
+}
+
+/// The name that is most like this one, and all there are, for a help.
+pub(super) fn nearest<S: AsRef<str>>(name: &str, what: &str, known: &[S]) -> String {
+    let edits = |k: &S| strsim::levenshtein(&clip(name), &clip(k.as_ref()));
+    let all = listing(what, known.iter().take(20));
+    match known.iter().min_by_key(|k| edits(k)) {
+        Some(best) if edits(best) <= 3 => format!("did you mean {}? {all}", best.as_ref()),
+        _ => all,
+    }
 }
 
 /// What there is, for a help.

@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use crate::card::Card;
 use crate::deck::{Equation, Rigid, SpringSection, Term};
-use crate::text::{clip, whole};
+use crate::text::clip;
 
 impl Reader<'_> {
     pub(super) fn equation(&mut self, card: &Card) {
@@ -76,10 +76,12 @@ impl Reader<'_> {
         }
         let node = |r: &mut Self, name: &str| {
             let text = card.get(name)?;
-            let id = whole(text).or_else(|| match r.deck.node_sets.get(text).map(Vec::as_slice) {
-                Some([one]) => Some(*one),
+            let of_set = |set: &Vec<u64>| match set.as_slice() {
+                [one] => Some(*one),
                 _ => None,
-            });
+            };
+            let set = || r.deck.node_sets.get(&r.scoped(text)).and_then(of_set);
+            let id = r.number_of(text).or_else(set);
             if id.is_none_or(|n| !r.deck.nodes.contains_key(&n)) {
                 r.error(
                     card.place,
@@ -91,8 +93,8 @@ impl Reader<'_> {
         };
         let (reference, rotation) = (node(self, "REFNODE"), node(self, "ROTNODE"));
         let rigid = Rigid {
-            elements: card.get("ELSET").map(str::to_string),
-            nodes: card.get("NSET").map(str::to_string),
+            elements: card.get("ELSET").map(|s| self.scoped(s)),
+            nodes: card.get("NSET").map(|s| self.scoped(s)),
             reference,
             rotation,
             place: card.place,
@@ -101,11 +103,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn spring(&mut self, card: &Card) {
-        let Some(set) = self.required(card, "ELSET") else {
+        let Some(set) = self.required_name(card, "ELSET") else {
             return;
         };
         let kind = self
-            .elements_of(&set, card.place)
+            .elements_named(&set, &set, card.place)
             .first()
             .map(|e| self.deck.elements[e].kind.clone());
         // The first line has directions; for SPRINGA it is empty, and empty lines are not kept.
@@ -145,10 +147,10 @@ impl Reader<'_> {
     }
 
     pub(super) fn mass(&mut self, card: &Card) {
-        let Some(set) = self.required(card, "ELSET") else {
+        let Some(set) = self.required_name(card, "ELSET") else {
             return;
         };
-        self.elements_of(&set, card.place);
+        self.elements_named(&set, &set, card.place);
         let Some(line) = self.line(card) else { return };
         let mass = self.number(line, 0, 0.0);
         if mass < 0.0 {

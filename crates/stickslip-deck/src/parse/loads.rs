@@ -6,7 +6,7 @@ use super::fields::parameter;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
 use crate::deck::{Action, Boundary, Distributed, SurfaceParts, Target};
-use crate::text::{clip, label, number, squeeze, whole};
+use crate::text::{clip, number, squeeze, whole};
 
 impl Reader<'_> {
     /// `OP=NEW` takes away what was prescribed before. It counts on the first card of its kind in a step, as in CalculiX; Abaqus wants it
@@ -210,14 +210,11 @@ impl Reader<'_> {
             };
             let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
             // `*DLOAD` of a surface is what some pre-processors write.
-            if what == "P" && self.deck.surfaces.contains_key(&label(&first)) {
-                self.faces_once(&label(&first), data.place);
+            let name = self.name(&first);
+            if what == "P" && self.deck.surfaces.contains_key(&name) {
+                self.faces_once(&name, data.place);
                 let p = self.number(data, 2, 0.0);
-                self.distribute(
-                    &amplitude,
-                    Distributed::Surface(label(&first), p),
-                    data.place,
-                );
+                self.distribute(&amplitude, Distributed::Surface(name, p), data.place);
                 continue;
             }
             let elements = match first.is_empty() && matches!(what.as_str(), "GRAV" | "CENTRIF") {
@@ -227,7 +224,7 @@ impl Reader<'_> {
             if elements.is_empty() {
                 continue;
             }
-            self.once(1, &label(&first), data.place);
+            self.once(1, &name, data.place);
             let value = self.number(data, 2, 0.0);
             let count = match what.as_str() {
                 "GRAV" => 6,
@@ -249,7 +246,8 @@ impl Reader<'_> {
         what: &str,
         value: f64,
     ) -> Option<Distributed> {
-        let set = data.fields.first().map(|f| label(f)).unwrap_or_default();
+        let set = data.fields.first().map(|f| self.name(f));
+        let set = set.unwrap_or_default();
         match what {
             "GRAV" => {
                 let d = [3, 4, 5].map(|i| self.number(data, i, 0.0));
@@ -312,7 +310,8 @@ impl Reader<'_> {
         self.operation(card, Action::ClearDistributed);
         let amplitude = self.course(card);
         for data in &card.data {
-            let name = data.fields.first().map(|f| label(f)).unwrap_or_default();
+            let name = data.fields.first().map(|f| self.name(f));
+            let name = name.unwrap_or_default();
             let what = data.fields.get(1).map(|f| squeeze(f)).unwrap_or_default();
             if what != "P" {
                 self.error(
@@ -337,6 +336,7 @@ impl Reader<'_> {
         let mut seen = BTreeSet::new();
         let again = faces.iter().copied().find(|f| !seen.insert(*f));
         if let Some((element, Some(face))) = again {
+            let element = self.deck.label(element);
             let message = format!(
                 "face {face} of element {element} stands in the surface {name} more than once: it is loaded as often in CalculiX, and once in Abaqus"
             );

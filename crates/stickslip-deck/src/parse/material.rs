@@ -122,7 +122,7 @@ impl Reader<'_> {
 
     pub(super) fn solid_section(&mut self, card: &Card) {
         let (Some(set), Some(material)) = (
-            self.required(card, "ELSET"),
+            self.required_name(card, "ELSET"),
             self.required(card, "MATERIAL"),
         ) else {
             return;
@@ -132,7 +132,7 @@ impl Reader<'_> {
             .first()
             .map(|d: &Data| self.number(d, 0, 0.0))
             .filter(|t| *t > 0.0);
-        let orientation = card.get("ORIENTATION").map(str::to_string);
+        let orientation = card.get("ORIENTATION").map(|o| self.scoped(o));
         self.deck.sections.push(Section {
             set,
             material,

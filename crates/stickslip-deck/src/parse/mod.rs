@@ -4,6 +4,7 @@ mod cards;
 mod elements;
 mod fields;
 mod initial;
+mod instances;
 mod interaction;
 mod judge;
 mod links;
@@ -15,8 +16,10 @@ mod orientation;
 mod output;
 mod pairs;
 mod reader;
+mod scope;
 mod sets;
 mod step;
+mod structure;
 mod surfaces;
 mod times;
 mod unused;
@@ -54,10 +57,12 @@ impl Deck {
     /// Those of [`Deck::read`].
     pub fn from_source(source: &Source) -> Result<Deck, DeckError> {
         let mut reader = Reader::new(source);
+        reader.deck.numbering = instances::numbering(source);
         for (place, message) in &source.forgiven {
             reader.note(*place, message.clone());
         }
-        for card in &source.cards {
+        for (at, card) in source.cards.iter().enumerate() {
+            reader.structure.at = at;
             reader.card(card);
         }
         reader.finish()
@@ -67,7 +72,11 @@ impl Deck {
 impl Reader<'_> {
     fn finish(mut self) -> Result<Deck, DeckError> {
         let end = Place::default();
-        if self.stopped {
+        if !self.stopped {
+            self.close_all();
+        }
+        if self.stopped || self.structure.hollow {
+            self.sort_errors();
             return Err(DeckError {
                 findings: self.errors,
             });
@@ -137,12 +146,22 @@ impl Reader<'_> {
             return;
         };
         let sound = self.judge(card, row);
+        self.close_before(card);
+        if !self.in_its_place(card) {
+            return;
+        }
+        if self.structure.hollow && !structure::STRUCTURE.contains(&card.keyword.as_str()) {
+            return;
+        }
         if !cards::BENEATH.contains(&card.keyword.as_str()) {
             self.context = Context::None;
         }
         if !(sound || cards::NAMES.contains(&card.keyword.as_str())) {
             // What follows builds on what is not there.
             self.stopped = card.keyword == "RESTART";
+            return;
+        }
+        if self.record(card) {
             return;
         }
         match cards::reader_of(&card.keyword) {

@@ -1,8 +1,8 @@
 //! Names that may stand before what they name: they are looked up at the end.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::fields::listing;
+use super::fields::absent;
 use super::reader::Reader;
 use crate::card::Place;
 use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target};
@@ -16,6 +16,7 @@ struct Missing<'a> {
 impl Reader<'_> {
     /// Looks all names up.
     pub(super) fn check_names(&mut self) {
+        self.settle_orientations();
         let mut missing = Missing {
             deck: &self.deck,
             found: Vec::new(),
@@ -24,9 +25,18 @@ impl Reader<'_> {
         missing.surfaces();
         missing.sections();
         missing.actions();
+        let mut said = BTreeSet::new();
         for (place, message, help) in missing.found {
-            self.error(place, message, &help);
+            // What a part lacks its instances lack as well.
+            if said.insert((place, self.without_instances(&message))) {
+                self.error(place, message, &help);
+            }
         }
+        self.sort_errors();
+    }
+
+    /// In the order of the deck.
+    pub(super) fn sort_errors(&mut self) {
         self.errors.sort_by_key(|f| {
             self.source
                 .files
@@ -37,31 +47,68 @@ impl Reader<'_> {
     }
 }
 
+impl Reader<'_> {
+    /// Sections of an instance have the orientation of the instance, or one of the model.
+    fn settle_orientations(&mut self) {
+        let deck = &mut self.deck;
+        for o in deck
+            .sections
+            .iter_mut()
+            .filter_map(|s| s.orientation.as_mut())
+        {
+            let bare = deck.numbering.bare(o);
+            if !deck.orientations.contains_key(o) && deck.orientations.contains_key(bare) {
+                *o = bare.to_string();
+            }
+        }
+    }
+}
+
+/// Which nodes there are where one is missing.
+fn nodes_of(deck: &Deck, number: u64) -> String {
+    let instance = deck.numbering.parts(number).0;
+    let index = instance.and_then(|i| deck.numbering.find(i));
+    let span = deck.numbering.span(index, 0, u64::MAX);
+    let all = span.and_then(|(a, b)| {
+        let mut all = deck.nodes.range(a..=b).map(|(n, _)| *n);
+        let first = all.next()?;
+        Some((first, all.next_back().unwrap_or(first)))
+    });
+    match (instance, all) {
+        (Some(instance), Some((first, last))) => format!(
+            "the nodes of the instance {instance} run from {} to {}",
+            deck.label(first),
+            deck.label(last)
+        ),
+        (None, None) if !deck.numbering.instances().is_empty() => {
+            "outside of instances there are no nodes: write instance.number".into()
+        }
+        _ => "nodes are given by *NODE".into(),
+    }
+}
+
 impl Missing<'_> {
     /// A node, or a set of nodes.
     fn target(&mut self, target: &Target, place: Place) {
-        let (what, help) = match target {
-            Target::One(n) if !self.deck.nodes.contains_key(n) => {
-                (format!("node {n}"), "nodes are given by *NODE".into())
-            }
-            Target::Set(s) if !self.deck.node_sets.contains_key(s) => (
-                format!("set of nodes {s}"),
-                listing("sets of nodes", self.deck.node_sets.keys()),
+        let deck = self.deck;
+        let (message, help) = match target {
+            Target::One(n) if !deck.nodes.contains_key(n) => (
+                format!("there is no node {}", deck.label(*n)),
+                nodes_of(deck, *n),
             ),
+            Target::Set(s) if !deck.node_sets.contains_key(s) => {
+                absent(&deck.numbering, "set of nodes", s, deck.node_sets.keys())
+            }
             _ => return,
         };
-        self.found
-            .push((place, format!("there is no {what}"), help));
+        self.found.push((place, message, help));
     }
 
     /// Something with a name, of those that are known.
     fn named<T>(&mut self, what: &str, name: &str, place: Place, known: &BTreeMap<String, T>) {
         if !known.contains_key(name) {
-            self.found.push((
-                place,
-                format!("there is no {what} {name}"),
-                listing(&format!("known {what}s"), known.keys()),
-            ));
+            let (message, help) = absent(&self.deck.numbering, what, name, known.keys());
+            self.found.push((place, message, help));
         }
     }
 

@@ -7,7 +7,7 @@ use crate::deck::Orientation;
 
 impl Reader<'_> {
     pub(super) fn orientation(&mut self, card: &Card) {
-        let Some(name) = self.required(card, "NAME") else {
+        let Some(name) = self.required_name(card, "NAME") else {
             return;
         };
         let uniform = match card.get("SYSTEM").unwrap_or("RECTANGULAR") {
@@ -71,8 +71,10 @@ impl Reader<'_> {
             axes[i] = std::array::from_fn(|k| c * p[k] + s * q[k]);
             axes[j] = std::array::from_fn(|k| c * q[k] - s * p[k]);
         }
+        let motion = self.motion();
         let orientation = Orientation {
-            axes,
+            // Those of a part go with its instance.
+            axes: axes.map(|axis| motion.vector(axis)),
             uniform,
             place: card.place,
         };

@@ -55,12 +55,12 @@ impl Reader<'_> {
         (parameter, what): (&str, &str),
         known: impl Fn(&Deck, &str) -> bool,
     ) -> Option<String> {
-        let Some(set) = card.get(parameter) else {
+        let Some(set) = card.get(parameter).map(|s| self.scoped(s)) else {
             let message = format!("{} names no set: nothing is printed", card.written);
             self.note(card.place, message);
             return None;
         };
-        if !known(&self.deck, set) {
+        if !known(&self.deck, &set) {
             self.error(
                 card.place,
                 format!("there is no set of {what} {set}"),
@@ -68,7 +68,7 @@ impl Reader<'_> {
             );
             return None;
         }
-        Some(set.to_string())
+        Some(set)
     }
 
     pub(super) fn print(&mut self, card: &Card) {
@@ -93,8 +93,8 @@ impl Reader<'_> {
         let Some(when) = self.when(card) else { return };
         let keys = self.known_keys(card);
         let sums = match card.keyword.as_str() {
-            "NODEPRINT" => card.get("NSET").map(|s| (0, s.to_string())),
-            "ELPRINT" => card.get("ELSET").map(|s| (1, s.to_string())),
+            "NODEPRINT" => card.get("NSET").map(|s| (0, self.scoped(s))),
+            "ELPRINT" => card.get("ELSET").map(|s| (1, self.scoped(s))),
             _ => None,
         };
         if let (true, Some((kind, set))) = (totals != Totals::No, sums) {
@@ -127,7 +127,7 @@ impl Reader<'_> {
             _ => {
                 let pair = card.get("SLAVE").zip(card.get("MASTER"));
                 Some(Print::Contact {
-                    pair: pair.map(|(s, m)| (s.to_string(), m.to_string())),
+                    pair: pair.map(|(s, m)| (self.scoped(s), self.scoped(m))),
                     keys,
                     totals,
                     when,

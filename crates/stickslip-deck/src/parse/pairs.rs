@@ -4,7 +4,7 @@ use super::fields::parameter;
 use super::reader::Reader;
 use crate::card::{Card, Data};
 use crate::deck::{Adjust, Clearance, Pair, Tie};
-use crate::text::{clip, label, number};
+use crate::text::{clip, number};
 
 impl Reader<'_> {
     /// Slave and master, in the first data line.
@@ -12,7 +12,7 @@ impl Reader<'_> {
         let data = self.line(card)?;
         match data.fields.as_slice() {
             [slave, master, ..] if !slave.is_empty() && !master.is_empty() => {
-                Some((label(slave), label(master)))
+                Some((self.name(slave), self.name(master)))
             }
             _ => {
                 self.error(
@@ -55,7 +55,7 @@ impl Reader<'_> {
         };
         let adjust = card.get("ADJUST").map(|text| match number(text) {
             Some(distance) => Adjust::Within(distance),
-            None => Adjust::Set(text.to_string()),
+            None => Adjust::Set(self.scoped(text)),
         });
         if adjust == Some(Adjust::Set(String::new()))
             || matches!(adjust, Some(Adjust::Within(d)) if d < 0.0)
@@ -91,9 +91,10 @@ impl Reader<'_> {
     }
 
     pub(super) fn clearance(&mut self, card: &Card) {
-        let (Some(slave), Some(master)) =
-            (self.required(card, "SLAVE"), self.required(card, "MASTER"))
-        else {
+        let (Some(slave), Some(master)) = (
+            self.required_name(card, "SLAVE"),
+            self.required_name(card, "MASTER"),
+        ) else {
             return;
         };
         if self.required(card, "VALUE").is_none() {

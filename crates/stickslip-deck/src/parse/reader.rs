@@ -2,9 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::structure::Structure;
 use crate::card::Place;
 use crate::deck::{Action, Deck};
 use crate::finding::{Finding, Severity};
+use crate::motion::Motion;
 use crate::source::Source;
 
 /// What of a material or interaction the next cards are about.
@@ -43,6 +45,12 @@ pub(super) struct Reader<'a> {
     pub(super) noted: BTreeSet<(&'static str, String)>,
     /// Nodes and elements that sets name and that are not there: set, what, where.
     pub(super) absent: Vec<(String, String, Place)>,
+    /// Parts, and where in the assembly the reader stands.
+    pub(super) structure: Structure,
+    /// The instance that numbers and names are those of.
+    pub(super) scope: Option<usize>,
+    /// The `*SYSTEM` of the nodes that follow.
+    pub(super) system: Motion,
     /// The deck goes on from what is not there: the rest means nothing.
     pub(super) stopped: bool,
 }
@@ -71,6 +79,9 @@ impl<'a> Reader<'a> {
             bounding: Vec::new(),
             noted: Default::default(),
             absent: Vec::new(),
+            structure: Structure::default(),
+            scope: None,
+            system: Motion::NONE,
             stopped: false,
         }
     }
@@ -99,17 +110,30 @@ impl<'a> Reader<'a> {
     pub(super) fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
         if self.errors.len() < ENOUGH {
             let finding = self.finding(Severity::Error, place, message.into(), help);
+            if self.said(&finding, &self.errors) {
+                return;
+            }
             self.errors.push(finding);
         }
     }
 
     pub(super) fn warn(&mut self, place: Place, message: impl Into<String>, help: &str) {
         let finding = self.finding(Severity::Warning, place, message.into(), help);
-        self.deck.notes.push(finding);
+        if !self.said(&finding, &self.deck.notes) {
+            self.deck.notes.push(finding);
+        }
     }
 
     pub(super) fn note(&mut self, place: Place, message: impl Into<String>) {
         let finding = self.finding(Severity::Note, place, message.into(), "");
-        self.deck.notes.push(finding);
+        if !self.said(&finding, &self.deck.notes) {
+            self.deck.notes.push(finding);
+        }
+    }
+
+    /// Whether something has been said of a line of a part for an instance before.
+    fn said(&self, finding: &Finding, before: &[Finding]) -> bool {
+        let here = |f: &Finding| f.line == finding.line && f.file == finding.file;
+        self.structure.again && before.iter().any(here)
     }
 }

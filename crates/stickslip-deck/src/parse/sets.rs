@@ -29,19 +29,36 @@ impl Reader<'_> {
             );
             return Vec::new();
         }
+        let Some((from, to)) = self.deck.numbering.span(self.scope, from, to) else {
+            return Vec::new();
+        };
         let all = known(self).range(from..=to).map(|(n, _)| *n);
         all.filter(|n| (n - from).is_multiple_of(by)).collect()
     }
 
     pub(super) fn node_set(&mut self, card: &Card) {
-        let Some(name) = self.required(card, "NSET") else {
+        let Some(name) = self.required_name(card, "NSET") else {
             return;
         };
+        let Some(outer) = self.enter(card) else {
+            return;
+        };
+        let out = self.nodes_named(card, &name);
+        self.scope = outer;
+        let set = self.deck.node_sets.entry(name.clone()).or_default();
+        if let Some(n) = add(set, out) {
+            self.doubled[0].entry(name).or_insert(n);
+        }
+    }
+
+    /// The nodes that a `*NSET` lists.
+    fn nodes_named(&mut self, card: &Card, name: &str) -> Vec<u64> {
         let mut out = Vec::new();
         if let Some(set) = card.get("ELSET").map(str::to_string) {
             // Elements share nodes, which is not meant to count.
             let mut of_cells = BTreeSet::new();
-            for e in self.elements_of(&set, card.place) {
+            let of = self.scoped(&set);
+            for e in self.elements_named(&set, &of, card.place) {
                 of_cells.extend(self.deck.elements[&e].nodes.iter().copied());
             }
             out.extend(of_cells);
@@ -52,15 +69,15 @@ impl Reader<'_> {
                 continue;
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
-                match self.named_nodes(field, label(field)) {
+                match self.named_nodes(field, self.name(field)) {
                     Nodes::One(n) => out.push(n),
                     Nodes::Absent(n) => {
-                        let absent = (name.clone(), format!("node {n}"), data.place);
-                        self.absent.push(absent);
+                        let what = format!("node {}", self.deck.label(n));
+                        self.absent.push((name.to_string(), what, data.place));
                     }
                     Nodes::Set(part) => {
                         out.extend(&self.deck.node_sets[&part]);
-                        self.inherit(0, &part, &name);
+                        self.inherit(0, &part, name);
                     }
                     Nodes::NoSet => self.error(
                         data.place,
@@ -70,10 +87,7 @@ impl Reader<'_> {
                 }
             }
         }
-        let set = self.deck.node_sets.entry(name.clone()).or_default();
-        if let Some(n) = add(set, out) {
-            self.doubled[0].entry(name).or_insert(n);
-        }
+        out
     }
 
     /// A set of nodes (0) or elements (1) that is part of another makes it name twice what it names twice.
@@ -102,12 +116,15 @@ impl Reader<'_> {
     /// Nodes of sets that are not there: CalculiX leaves them out, which changes nothing where the set is only printed.
     pub(super) fn judge_absent(&mut self) {
         for (set, what, place) in std::mem::take(&mut self.absent) {
+            // In the instance that has it, it is named without the instance.
+            let bare = self.deck.numbering.bare(&set).to_string();
+            let is_set = |name: &str| name == set || name == bare || self.outside(name) == set;
             let (mut printed, mut used) = (false, false);
             for card in self.source.cards.iter().filter(|c| c.keyword != "NSET") {
                 let named = card
                     .parameters
                     .iter()
-                    .any(|p| p.value.as_deref() == Some(&set));
+                    .any(|p| p.value.as_deref().is_some_and(is_set));
                 match card.keyword.as_str() {
                     "NODEPRINT" | "NODEFILE" | "NODEOUTPUT" => printed |= named,
                     _ => used |= named,
@@ -119,7 +136,7 @@ impl Reader<'_> {
                 .iter()
                 .flat_map(|c| &c.data)
                 .flat_map(|d| &d.fields);
-            used |= fields.any(|f| label(f) == set);
+            used |= fields.any(|f| is_set(&label(f)));
             match printed && !used {
                 false => self.error(
                     place,
@@ -137,7 +154,10 @@ impl Reader<'_> {
     }
 
     pub(super) fn element_set(&mut self, card: &Card) {
-        let Some(name) = self.required(card, "ELSET") else {
+        let Some(name) = self.required_name(card, "ELSET") else {
+            return;
+        };
+        let Some(outer) = self.enter(card) else {
             return;
         };
         let mut out = Vec::new();
@@ -148,9 +168,10 @@ impl Reader<'_> {
             }
             for field in data.fields.iter().filter(|f| !f.is_empty()) {
                 out.extend(self.elements_of(field, data.place));
-                self.inherit(1, &label(field), &name);
+                self.inherit(1, &self.name(field), &name);
             }
         }
+        self.scope = outer;
         let set = self.deck.element_sets.entry(name.clone()).or_default();
         if let Some(n) = add(set, out) {
             self.doubled[1].entry(name).or_insert(n);

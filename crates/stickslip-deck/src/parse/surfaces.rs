@@ -4,7 +4,7 @@ use super::fields::Nodes;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
 use crate::deck::{Surface, SurfaceParts};
-use crate::text::{clip, label, squeeze};
+use crate::text::{clip, squeeze};
 
 impl Reader<'_> {
     /// `S3` or `P3` as 3.
@@ -58,11 +58,11 @@ impl Reader<'_> {
             let Some(field) = data.fields.first() else {
                 continue;
             };
-            match self.named_nodes(field, label(field)) {
+            match self.named_nodes(field, self.name(field)) {
                 Nodes::One(n) => nodes.push(n),
                 Nodes::Absent(n) => self.error(
                     data.place,
-                    format!("there is no node {n}"),
+                    format!("there is no node {}", self.deck.label(n)),
                     "*NODE must stand before what refers to it",
                 ),
                 Nodes::Set(name) => nodes.extend(&self.deck.node_sets[&name]),
@@ -77,7 +77,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn surface(&mut self, card: &Card) {
-        let Some(name) = self.required(card, "NAME") else {
+        let Some(name) = self.required_name(card, "NAME") else {
             return;
         };
         let outside = |d: &Data| d.fields.len() < 2;

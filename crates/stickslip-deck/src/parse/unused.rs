@@ -39,6 +39,13 @@ pub(super) fn unused(source: &Source) -> Vec<(Place, String)> {
             fields.filter(|f| f.starts_with(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))));
         mentioned.extend(names.map(|f| label(f)));
     }
+    // Of a name behind an instance or the assembly, what has been given.
+    let behind = |name: &String| -> Vec<String> {
+        let points = name.match_indices('.');
+        points.map(|(at, _)| name[at + 1..].to_string()).collect()
+    };
+    let more: Vec<String> = mentioned.iter().flat_map(behind).collect();
+    mentioned.extend(more);
     let mut out = Vec::new();
     for (what, keywords, parameter) in KINDS {
         let mut names: Vec<(Place, &str)> = Vec::new();

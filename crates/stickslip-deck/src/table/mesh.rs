@@ -4,10 +4,27 @@ use super::row::{
     Data, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
 };
 
-const INSTANCE: &str = "write a flat deck, without parts and instances";
+const IMPORT: &str =
+    "results of other runs are not read: give the part, and its nodes and elements, in this deck";
 
 pub(super) const ROWS: &[Row] = &[
     card("HEADING", Data::Any, &[]),
+    card("PART", Data::Nothing, &[read("NAME")]),
+    card("ENDPART", Data::Nothing, &[]),
+    card("ASSEMBLY", Data::Nothing, &[read("NAME")]),
+    card("ENDASSEMBLY", Data::Nothing, &[]),
+    card(
+        "INSTANCE",
+        Data::Any,
+        &[
+            read("NAME"),
+            read("PART"),
+            refused("LIBRARY", IMPORT),
+            refused("INSTANCE", IMPORT),
+        ],
+    ),
+    card("ENDINSTANCE", Data::Nothing, &[]),
+    card("SYSTEM", Data::Lines("x, y, z, x, y, z"), &[]),
     card(
         "NODE",
         // Directions of normals are for shells and beams.
@@ -41,7 +58,7 @@ pub(super) const ROWS: &[Row] = &[
             ),
             idle("UNSORTED", "sets keep the order of the deck"),
             idle("INTERNAL", "it hides the set in a viewer"),
-            refused("INSTANCE", INSTANCE),
+            read("INSTANCE"),
             INPUT,
         ],
     ),
@@ -53,7 +70,7 @@ pub(super) const ROWS: &[Row] = &[
             read("GENERATE"),
             idle("UNSORTED", "sets keep the order of the deck"),
             idle("INTERNAL", "it hides the set in a viewer"),
-            refused("INSTANCE", INSTANCE),
+            read("INSTANCE"),
             INPUT,
         ],
     ),

@@ -7,16 +7,9 @@ const HEAT: &str = "temperatures are not computed: take the thermal part out, or
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 const LAW: &str =
     "bodies are linear elastic (*ELASTIC): replace the material, or use another program";
-const PARTS: &str = "write a flat deck, without parts and assemblies (Abaqus/CAE: Model, Edit Attributes, `Do not use parts and assemblies in input files`)";
 const LINK: &str = "express it by *EQUATION, *TIE or *RIGID BODY";
 
 pub(super) const ROWS: &[Row] = &[
-    refused_card("PART", PARTS),
-    refused_card("ENDPART", PARTS),
-    refused_card("INSTANCE", PARTS),
-    refused_card("ENDINSTANCE", PARTS),
-    refused_card("ASSEMBLY", PARTS),
-    refused_card("ENDASSEMBLY", PARTS),
     refused_card("PLASTIC", LAW),
     refused_card("CYCLICHARDENING", LAW),
     refused_card("HYPERELASTIC", LAW),
@@ -131,7 +124,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("CONCRETE", LAW),
     refused_card("CLAYPLASTICITY", LAW),
     refused_card("POROUSELASTIC", LAW),
-    refused_card("SYSTEM", "give coordinates in the global system"),
     refused_card("NCOPY", "write the nodes out"),
     refused_card("NFILL", "write the nodes out"),
     refused_card("NGEN", "write the nodes out"),

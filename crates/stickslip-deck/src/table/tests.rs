@@ -14,13 +14,42 @@ const MODEL: &str = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\
     *ELEMENT, TYPE=MASS, ELSET=EM\n2, 1\n*ELEMENT, TYPE=SPRINGA, ELSET=ES\n3, 1, 2\n*SURFACE, NAME=S\nE, S1\n*SURFACE, NAME=T\nE, S2\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*TIME POINTS, NAME=P\n.5\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n\
     *MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.\n";
 
+/// A part and the beginning of an assembly.
+const ASSEMBLY: &str = "*PART, NAME=P\n*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n3, 1, 2, 3, 4\n\
+    *END PART\n*ASSEMBLY, NAME=B\n";
+
+/// The same with an instance.
+const ASSEMBLED: &str = "*PART, NAME=P\n*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n3, 1, 2, 3, 4\n\
+    *END PART\n*ASSEMBLY, NAME=B\n*INSTANCE, NAME=J, PART=P\n*END INSTANCE\n*END ASSEMBLY\n";
+
+/// What has to stand behind a card, so that nothing is left open.
+fn after(keyword: &str) -> &'static str {
+    match keyword {
+        "PART" => {
+            "*END PART\n*ASSEMBLY, NAME=B\n*INSTANCE, NAME=J, PART=X\n*END INSTANCE\n*END ASSEMBLY\n"
+        }
+        "ENDPART" => "*ASSEMBLY, NAME=B\n*INSTANCE, NAME=J, PART=X\n*END INSTANCE\n*END ASSEMBLY\n",
+        "ASSEMBLY" => "*END ASSEMBLY\n",
+        "INSTANCE" => "*END INSTANCE\n*END ASSEMBLY\n",
+        "ENDINSTANCE" => "*END ASSEMBLY\n",
+        _ => "",
+    }
+}
+
 /// The cards that have to stand before one, and the one itself with the parameters that it needs and data: what is read without complaint.
 fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
     match row.keyword {
+        "PART" => ("", "NAME=X", ""),
+        "ENDPART" => ("*PART, NAME=X\n", "", ""),
+        "ASSEMBLY" => ("", "NAME=X", ""),
+        "ENDASSEMBLY" => ("*ASSEMBLY, NAME=X\n", "", ""),
+        "INSTANCE" => (ASSEMBLY, "NAME=J, PART=P", "1., 2., 3.\n"),
+        "ENDINSTANCE" => ("*ASSEMBLY, NAME=X\n*INSTANCE, NAME=J\n", "", ""),
+        "SYSTEM" => ("", "", "0., 0., 0., 1., 1., 0.\n"),
         "NODE" => ("", "", "9, 0., 0., 0.\n"),
         "ELEMENT" => ("", "TYPE=C3D4", "9, 1, 2, 3, 4\n"),
-        "NSET" => ("", "NSET=X", "1, 3, 1\n"),
-        "ELSET" => ("", "ELSET=X", "1, 3, 1\n"),
+        "NSET" => (ASSEMBLED, "NSET=X", "1, 3, 1\n"),
+        "ELSET" => (ASSEMBLED, "ELSET=X", "1, 3, 1\n"),
         "SURFACE" => ("", "NAME=X", "E, S3\n"),
         "TRANSFORM" => ("", "NSET=N", "1., 0., 0., 0., 1., 0.\n"),
         "EQUATION" => ("", "", "2\n1, 1, 1., 2, 1, 1.\n"),
@@ -69,6 +98,7 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
 fn value(keyword: &str, parameter: &str) -> &'static str {
     match (keyword, parameter) {
         ("NSET", "ELSET") => "=E",
+        (_, "INSTANCE") => "=J",
         ("SOLIDSECTION", "ORIENTATION") => "=O",
         (_, "AMPLITUDE") if keyword == "STEP" => "=RAMP",
         (_, "AMPLITUDE") => "=A",
@@ -115,10 +145,11 @@ fn deck(row: &Row, more: &str, data: &str) -> String {
         }
     };
     format!(
-        "{MODEL}{before}*{}{}{}\n{data}",
+        "{MODEL}{before}*{}{}{}\n{data}{}",
         row.keyword,
         comma(needs),
-        comma(more)
+        comma(more),
+        after(row.keyword)
     )
 }
 

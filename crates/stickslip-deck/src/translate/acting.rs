@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::job::Job;
 use super::{courses, toml};
 use crate::card::Place;
-use crate::deck::Target;
+use crate::deck::{Deck, Target};
 
 /// A value that acts in some of the steps.
 #[derive(Debug, Clone)]
@@ -132,9 +132,9 @@ pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &Wh
     job.active.push(("loads", name, steps));
 }
 
-pub(super) fn label(target: &Target) -> String {
+pub(super) fn label(deck: &Deck, target: &Target) -> String {
     match target {
         Target::Set(name) => name.clone(),
-        Target::One(n) => format!("node-{n}"),
+        Target::One(n) => format!("node-{}", deck.label(*n)),
     }
 }

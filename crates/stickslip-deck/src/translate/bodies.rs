@@ -140,8 +140,11 @@ fn join(job: &mut Job, bounding: &BTreeSet<u64>) -> Option<Joined> {
             Some((s, _)) if s == t.space => {}
             Some((_, first)) => {
                 let message = format!(
-                    "element {id} ({}) lives in another space than element {first} ({})",
-                    e.kind, deck.elements[&first].kind
+                    "element {} ({}) lives in another space than element {} ({})",
+                    deck.label(*id),
+                    e.kind,
+                    deck.label(first),
+                    deck.elements[&first].kind
                 );
                 job.error(
                     e.place,
@@ -346,7 +349,18 @@ fn faces_of(
     out
 }
 
-/// A body is called like the set of just its elements, or by a number.
+/// The instance that a body is the whole of.
+fn instance(deck: &Deck, body: &Body) -> Option<String> {
+    let numbering = &deck.numbering;
+    let (name, _) = numbering.parts(*body.elements.first()?);
+    let (first, last) = numbering.span(Some(numbering.find(name?)?), 0, u64::MAX)?;
+    let mut all = deck.elements.range(first..=last);
+    let whole = body.elements.range(..first).next().is_none()
+        && all.all(|(id, _)| body.elements.contains(id));
+    whole.then(|| toml::name(name.unwrap_or_default()))
+}
+
+/// A body is called like its instance, or the set of just its elements, or by a number.
 fn names(job: &Job, bodies: &mut Bodies) {
     let deck = job.deck;
     let sectioned: Vec<&String> = deck.sections.iter().map(|s| &s.set).collect();
@@ -361,15 +375,15 @@ fn names(job: &Job, bodies: &mut Bodies) {
             .copied()
             .filter(|n| deck.element_sets.contains_key(*n));
         // Sets that a pre-processor made for itself are the last that one would name a body by.
-        let own = |n: &&String| !n.starts_with("INTERNAL") && !n.starts_with('_');
+        let own = |n: &&String| {
+            let bare = deck.numbering.bare(n);
+            !bare.starts_with("INTERNAL") && !bare.starts_with('_')
+        };
         let all = deck.element_sets.keys();
-        let found = known
-            .chain(all.clone())
-            .filter(own)
-            .chain(all)
-            .find(same)
-            .map(|n| toml::name(n));
-        body.name = found
+        let mut sets = known.chain(all.clone()).filter(own).chain(all);
+        let of_set = || sets.find(same).map(|n| toml::name(n));
+        body.name = instance(deck, body)
+            .or_else(of_set)
             .filter(|n| !taken.contains(n))
             .unwrap_or_else(|| format!("body-{}", i + 1));
         taken.insert(body.name.clone());
@@ -391,7 +405,7 @@ fn sections(job: &mut Job, bodies: &mut Bodies) {
         let place = deck.elements[e].place;
         job.error(
             place,
-            format!("element {e} has no section"),
+            format!("element {} has no section", deck.label(*e)),
             "give its set a *SOLID SECTION with a material",
         );
     }

@@ -40,8 +40,10 @@ fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
             None => found = Some((t.integration, *id)),
             Some((f, first)) if f != t.integration => {
                 let message = format!(
-                    "{} and {} (element {first}) are mixed in one body: all are taken as fully integrated",
-                    e.kind, deck.elements[&first].kind
+                    "{} and {} (element {}) are mixed in one body: all are taken as fully integrated",
+                    e.kind,
+                    deck.elements[&first].kind,
+                    deck.label(first)
                 );
                 job.warn(e.place, message, "use one type of element in a body");
                 return None;

@@ -40,7 +40,10 @@ fn parts(
                     Some(b) => by.entry(*b).or_default().push(*n),
                     None => job.error(
                         surface.place,
-                        format!("node {n} of the surface {name} belongs to no body"),
+                        format!(
+                            "node {} of the surface {name} belongs to no body",
+                            job.deck.label(*n)
+                        ),
                         "",
                     ),
                 }
@@ -209,6 +212,7 @@ fn meet(
         return false;
     };
     let count = ours.intersection(&theirs).count();
+    let first = job.deck.label(*first);
     job.error(
         place,
         format!(

@@ -8,6 +8,7 @@ use super::sets::Sets;
 use super::{supports, toml};
 use crate::axes;
 use crate::card::Place;
+use crate::numbering::Numbering;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let ground = ground(job, bodies);
@@ -20,10 +21,11 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 type Term = (u64, [f64; 3]);
 
 /// Terms as the problem writes them.
-fn terms(bodies: &Bodies, sets: &mut Sets, terms: &[Term]) -> String {
+fn terms(bodies: &Bodies, sets: &mut Sets, numbering: &Numbering, terms: &[Term]) -> String {
     let mut out = Vec::new();
     for (node, factors) in terms {
-        let set = sets.points(bodies, &format!("node-{node}"), &[*node]);
+        let label = toml::name(&format!("node-{}", numbering.label(*node)));
+        let set = sets.points(bodies, &label, &[*node]);
         for (c, f) in ["x", "y", "z"][..bodies.dim()].iter().zip(factors) {
             if *f != 0.0 {
                 out.push(format!(
@@ -73,7 +75,7 @@ fn on_bodies(
         if !bodies.of_node.contains_key(&n) {
             job.error(
                 place,
-                format!("node {n} belongs to no body"),
+                format!("node {} belongs to no body", job.deck.label(n)),
                 "only nodes of solid and plane elements move",
             );
             return false;
@@ -107,7 +109,7 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
                 break;
             }
             let name = job.fresh("coupling", &format!("equation-{}", i + 1));
-            let terms = terms(bodies, sets, &list);
+            let terms = terms(bodies, sets, &job.deck.numbering, &list);
             job.table("coupling", &name, e.place);
             job.out.line(&format!("equation = {{ terms = {terms} }}"));
         }
@@ -124,7 +126,10 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
             if moving.is_empty() || !on_bodies(job, bodies, moving.iter().copied(), e.place) {
                 continue;
             }
-            let name = job.fresh("coupling", &format!("spring-{id}"));
+            let name = job.fresh(
+                "coupling",
+                &toml::name(&format!("spring-{}", deck.label(*id))),
+            );
             let stiffness = toml::number(s.stiffness);
             let direction = |k: usize| {
                 s.directions
@@ -147,12 +152,13 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
                     };
                     format!(
                         "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &[(moving[0], line)])
+                        terms(bodies, sets, &deck.numbering, &[(moving[0], line)])
                     )
                 }
                 "SPRINGA" => {
-                    let a = sets.points(bodies, &format!("node-{}", e.nodes[0]), &e.nodes[..1]);
-                    let b = sets.points(bodies, &format!("node-{}", e.nodes[1]), &e.nodes[1..2]);
+                    let label = |n: u64| toml::name(&format!("node-{}", deck.label(n)));
+                    let a = sets.points(bodies, &label(e.nodes[0]), &e.nodes[..1]);
+                    let b = sets.points(bodies, &label(e.nodes[1]), &e.nodes[1..2]);
                     format!(
                         "axial-spring = {{ from = {}, to = {}, stiffness = {stiffness} }}",
                         toml::text(&a),
@@ -163,7 +169,7 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
                     let list = [(e.nodes[0], along(job, e.nodes[0], direction(0), 1.0))];
                     format!(
                         "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &list)
+                        terms(bodies, sets, &deck.numbering, &list)
                     )
                 }
                 "SPRING2" => {
@@ -175,13 +181,13 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
                         list.into_iter().filter(|t| moving.contains(&t.0)).collect();
                     format!(
                         "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &list)
+                        terms(bodies, sets, &deck.numbering, &list)
                     )
                 }
                 _ => {
                     job.error(
                         s.place,
-                        format!("element {id} ({}) is no spring", e.kind),
+                        format!("element {} ({}) is no spring", deck.label(*id), e.kind),
                         "*SPRING is for SPRINGA, SPRING1 and SPRING2",
                     );
                     continue;

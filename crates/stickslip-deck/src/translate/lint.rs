@@ -45,8 +45,9 @@ pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
         .collect();
     if let Some(first) = loose.first() {
         let message = format!(
-            "{} nodes are in no element, the first is {first}",
-            loose.len()
+            "{} nodes are in no element, the first is {}",
+            loose.len(),
+            deck.label(*first)
         );
         say(Severity::Note, Place::default(), message, "");
     }

@@ -50,7 +50,7 @@ fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
                             what: value + before.map_or(0.0, |b| b.what),
                             amplitude: amplitude.clone(),
                             place: *place,
-                            label: label(target),
+                            label: label(job.deck, target),
                             step: i,
                         };
                         state.insert((node, *component), given);
@@ -84,7 +84,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             match stand_in(job, bodies, node) {
                 Some(n) => at = n,
                 None => {
-                    job.error(place, format!("the force on node {node} acts on no body"), "the reference node of a rigid body is loaded where it coincides with a node of the body; otherwise load its nodes");
+                    job.error(place, format!("the force on node {} acts on no body", job.deck.label(node)), "the reference node of a rigid body is loaded where it coincides with a node of the body; otherwise load its nodes");
                     continue;
                 }
             }
@@ -257,10 +257,11 @@ fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut nodes: BTreeMap<(bool, u64), ([f64; 3], Place, String)> = BTreeMap::new();
     for i in &job.deck.initial {
         for node in job.nodes(&i.target) {
-            let entry =
-                nodes
-                    .entry((i.velocity, node))
-                    .or_insert(([0.0; 3], i.place, label(&i.target)));
+            let entry = nodes.entry((i.velocity, node)).or_insert((
+                [0.0; 3],
+                i.place,
+                label(job.deck, &i.target),
+            ));
             entry.0[i.component] = i.value;
         }
     }

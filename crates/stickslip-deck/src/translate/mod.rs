@@ -91,6 +91,7 @@ impl Deck {
             node_sets: printed(self, &self.node_sets),
             element_sets: printed(self, &self.element_sets),
             pairs: job.pairs,
+            numbering: self.numbering.clone(),
             path: path.to_path_buf(),
             places: job.places,
             files: self.files.clone(),

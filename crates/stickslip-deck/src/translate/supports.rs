@@ -46,7 +46,7 @@ type When = (Vec<bool>, Vec<bool>);
 fn apply(job: &Job, state: &mut State, b: &Boundary, step: usize) {
     let label = match &b.target {
         Target::Set(name) => name.clone(),
-        Target::One(n) => format!("node-{n}"),
+        Target::One(n) => format!("node-{}", job.deck.label(*n)),
     };
     for node in job.nodes(&b.target) {
         for &component in &b.components {
@@ -160,7 +160,11 @@ fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Op
             if v.value != 0.0 && !turns && wrong.insert(v.place) {
                 job.error(
                     v.place,
-                    format!("node {node} has no direction {}", component + 1),
+                    format!(
+                        "node {} has no direction {}",
+                        job.deck.label(node),
+                        component + 1
+                    ),
                     "only zero may be prescribed there",
                 );
             }
@@ -261,7 +265,10 @@ fn reference(
         if !all.any(|e| e.nodes.contains(&node)) {
             job.note(
                 first.place,
-                format!("node {node} is in no element: what is prescribed there has no effect"),
+                format!(
+                    "node {} is in no element: what is prescribed there has no effect",
+                    job.deck.label(node)
+                ),
             );
         }
         return;
@@ -285,7 +292,10 @@ fn reference(
     if !still {
         job.error(
             first.place,
-            format!("the reference node {node} of a rigid body is held in part"),
+            format!(
+                "the reference node {} of a rigid body is held in part",
+                job.deck.label(node)
+            ),
             "prescribe all its displacements and hold its rotations (directions 4 to 6, or those of its ROT NODE), or prescribe nodes of the body instead",
         );
         return;
@@ -330,12 +340,16 @@ fn local(
     let Some(axes) = axes::at_node(&transform, job.deck.nodes[&node]) else {
         job.error(
             first.place,
-            format!("the *TRANSFORM of node {node} has no axes there"),
+            format!(
+                "the *TRANSFORM of node {} has no axes there",
+                job.deck.label(node)
+            ),
             "its points must span a plane; a node cannot lie on the axis of a cylinder",
         );
         return;
     };
-    let set = sets.points(bodies, &format!("node-{node}"), &[node]);
+    let label = toml::name(&format!("node-{}", job.deck.label(node)));
+    let set = sets.points(bodies, &label, &[node]);
     for (axis, v) in axes.iter().zip(values) {
         let Some(v) = v else { continue };
         if v.fixed {

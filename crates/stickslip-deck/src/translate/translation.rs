@@ -11,6 +11,7 @@ use stickslip::problem::{Document, Meshes};
 use crate::card::Place;
 use crate::deck::Print;
 use crate::finding::{DeckError, Finding, Severity};
+use crate::numbering::Numbering;
 
 /// A deck as a stickslip problem.
 #[derive(Debug, Clone)]
@@ -33,6 +34,8 @@ pub struct Translation {
     pub element_sets: BTreeMap<String, Vec<u64>>,
     /// Interfaces by slave and master, in the order of the deck: `(name, slave, master)`.
     pub pairs: Vec<(String, String, String)>,
+    /// How numbers of the mesh are written in the deck.
+    pub numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.
     pub(crate) times: BTreeMap<String, Vec<f64>>,
     /// Local axes (rows) of nodes with a `*TRANSFORM`, and of elements with an `*ORIENTATION`.
@@ -75,15 +78,19 @@ impl Translation {
                     let after = text.split("cell ").nth(1)?;
                     after.split(' ').next()?.parse().ok()
                 };
-                let place = number(&e.message).and_then(|n| self.elements.get(&n));
-                let place = place.copied().unwrap_or_default();
+                let cell = number(&e.message).filter(|n| self.elements.contains_key(n));
+                let place = cell.map_or(Place::default(), |n| self.elements[&n]);
+                let message = cell.map_or(e.message.clone(), |n| {
+                    let written = format!("cell {}", self.numbering.label(n));
+                    e.message.replacen(&format!("cell {n}"), &written, 1)
+                });
                 let file = self.files.get(place.file).filter(|_| place.line > 0);
                 Ok(DeckError {
                     findings: vec![Finding {
                         severity: Severity::Error,
                         file: file.unwrap_or(&self.path).clone(),
                         line: place.line,
-                        message: e.message,
+                        message,
                         help: e.help,
                     }],
                 })

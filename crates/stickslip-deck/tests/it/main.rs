@@ -2,6 +2,8 @@
 
 mod cards;
 mod elements;
+mod instances;
+mod instances_wrong;
 mod loads;
 mod malformed;
 mod reading;

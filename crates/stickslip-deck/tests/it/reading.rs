@@ -243,7 +243,6 @@ fn keywords_that_do_not_matter_are_noted_and_others_refused() {
     );
     for (keyword, help) in [
         ("*PLASTIC", "linear elastic"),
-        ("*PART, NAME=P", "flat deck"),
         ("*HEAT TRANSFER", "temperatures"),
         ("*FRICTON", "did you mean *FRICTION?"),
         ("*WHATEVER THIS IS", "no keyword"),
