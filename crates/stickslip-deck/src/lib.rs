@@ -4,7 +4,8 @@
 //!
 //! - [`source`] joins the included files and cuts them into cards: a keyword with parameters and its data lines.
 //! - [`Deck::read`] gives every card its meaning. One table says of every keyword and parameter whether it is read, refused at its line, or left out
-//!   with a note, as it cannot change the answer; what is in no row is an error. All errors are reported at once.
+//!   with a note, as it cannot change the answer; what is in no row is an error. All errors are reported at once. Parts and instances become one flat
+//!   deck; [`Numbering`] tells whose a number is.
 //! - [`translate`](Deck::translate) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
 //! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
 //!   Abaqus's columns.

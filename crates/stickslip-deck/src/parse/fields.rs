@@ -223,8 +223,20 @@ pub(super) fn absent<'n>(
             nearest(instance, "instances", numbering.instances()),
         );
     }
-    let own = known.filter(|n| whose(n) == whose(name));
     let message = format!("there is no {what} {}", clip(name));
+    // Of an instance where none is said: most likely it has been forgotten.
+    let known: Vec<&String> = known.collect();
+    let alike = |n: &&&String| numbering.within(n).is_some_and(|(_, bare)| bare == name);
+    let inner: Vec<&str> = known
+        .iter()
+        .filter(alike)
+        .take(3)
+        .map(|n| n.as_str())
+        .collect();
+    if !inner.is_empty() {
+        return (message, format!("did you mean {}?", inner.join(" or ")));
+    }
+    let own = known.into_iter().filter(|n| whose(n) == whose(name));
     (message, listing(&plural(what), own))
 }
 

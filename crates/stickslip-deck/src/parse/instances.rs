@@ -16,7 +16,7 @@ use crate::text::{clip, squeeze, whole};
 use stickslip::io::abaqus::{self, Space};
 
 /// Most lines that are read for instances: a short deck must not ask for more than there is memory.
-const MOST_LINES: usize = 50_000_000;
+const MOST_LINES: usize = 20_000_000;
 
 /// The numbering of a deck: how many instances it has, and its largest number.
 pub(super) fn numbering(source: &Source) -> Numbering {
@@ -358,6 +358,8 @@ impl Reader<'_> {
             }
         }
         self.structure.again = false;
+        // Axes of the part are not those of what the instance adds.
+        self.system = Motion::NONE;
     }
 
     pub(super) fn end_instance(&mut self, card: &Card) {

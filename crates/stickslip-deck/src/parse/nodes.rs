@@ -29,6 +29,14 @@ impl Reader<'_> {
             };
             let x = [1, 2, 3].map(|i| self.number(data, i, 0.0));
             let x = self.motion().point(self.system.point(x));
+            if x.iter().any(|c| !c.is_finite()) {
+                self.error(
+                    data.place,
+                    "the node lies too far away to be moved or turned",
+                    "write the mesh near the origin, in units in which it is neither huge nor tiny",
+                );
+                continue;
+            }
             if let Some(before) = self.deck.nodes.insert(id, x)
                 && before != x
             {

@@ -115,7 +115,12 @@ impl Reader<'_> {
 
     /// Nodes of sets that are not there: CalculiX leaves them out, which changes nothing where the set is only printed.
     pub(super) fn judge_absent(&mut self) {
+        // What a part lacks its instances lack as well: it is said once.
+        let mut said = BTreeSet::new();
         for (set, what, place) in std::mem::take(&mut self.absent) {
+            if !said.insert((place, self.without_instances(&what))) {
+                continue;
+            }
             // In the instance that has it, it is named without the instance.
             let bare = self.deck.numbering.bare(&set).to_string();
             let is_set = |name: &str| name == set || name == bare || self.outside(name) == set;

@@ -21,31 +21,7 @@ pub(super) fn unused(source: &Source) -> Vec<(Place, String)> {
         ("surface interactions", &["SURFACEINTERACTION"], "NAME"),
         ("time points", &["TIMEPOINTS"], "NAME"),
     ];
-    let defines = |card: &Card, parameter: &str| {
-        matches!(
-            (card.keyword.as_str(), parameter),
-            ("NSET" | "NODE", "NSET") | ("ELSET" | "ELEMENT", "ELSET") | (_, "NAME")
-        )
-    };
-    let mut mentioned: BTreeSet<String> = BTreeSet::new();
-    for card in &source.cards {
-        let values = card.parameters.iter().filter(|p| !defines(card, &p.name));
-        mentioned.extend(values.filter_map(|p| p.value.clone()));
-        if matches!(card.keyword.as_str(), "NODE" | "ELEMENT" | "HEADING") {
-            continue;
-        }
-        let fields = card.data.iter().flat_map(|d| &d.fields);
-        let names =
-            fields.filter(|f| f.starts_with(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))));
-        mentioned.extend(names.map(|f| label(f)));
-    }
-    // Of a name behind an instance or the assembly, what has been given.
-    let behind = |name: &String| -> Vec<String> {
-        let points = name.match_indices('.');
-        points.map(|(at, _)| name[at + 1..].to_string()).collect()
-    };
-    let more: Vec<String> = mentioned.iter().flat_map(behind).collect();
-    mentioned.extend(more);
+    let mentioned = mentioned(source);
     let mut out = Vec::new();
     for (what, keywords, parameter) in KINDS {
         let mut names: Vec<(Place, &str)> = Vec::new();
@@ -74,4 +50,34 @@ pub(super) fn unused(source: &Source) -> Vec<(Place, String)> {
         ));
     }
     out
+}
+
+/// What cards mention, but where they define it.
+fn mentioned(source: &Source) -> BTreeSet<String> {
+    let defines = |card: &Card, parameter: &str| {
+        matches!(
+            (card.keyword.as_str(), parameter),
+            ("NSET" | "NODE", "NSET") | ("ELSET" | "ELEMENT", "ELSET") | (_, "NAME")
+        )
+    };
+    let mut mentioned: BTreeSet<String> = BTreeSet::new();
+    for card in &source.cards {
+        let values = card.parameters.iter().filter(|p| !defines(card, &p.name));
+        mentioned.extend(values.filter_map(|p| p.value.clone()));
+        if matches!(card.keyword.as_str(), "NODE" | "ELEMENT" | "HEADING") {
+            continue;
+        }
+        let fields = card.data.iter().flat_map(|d| &d.fields);
+        let names =
+            fields.filter(|f| f.starts_with(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))));
+        mentioned.extend(names.map(|f| label(f)));
+    }
+    // Of a name behind an instance or the assembly, what has been given.
+    let behind = |name: &String| -> Vec<String> {
+        let points = name.match_indices('.');
+        points.map(|(at, _)| name[at + 1..].to_string()).collect()
+    };
+    let more: Vec<String> = mentioned.iter().flat_map(behind).collect();
+    mentioned.extend(more);
+    mentioned
 }

@@ -298,6 +298,40 @@ fn local_axes_go_with_the_instance() {
 }
 
 #[test]
+fn sections_have_the_orientation_of_their_part_or_of_the_model() {
+    let text = |within: &str, outside: &str| {
+        format!(
+            "*Part, name=A\n{within}{}{PART}*Solid Section, elset=All, material=Steel, orientation=O\n*End Part\n*Assembly, name=S\n\
+             *Instance, name=A-1, part=A\n0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n*End Instance\n*End Assembly\n{outside}{STEEL}",
+            nodes()
+        )
+    };
+    let axes = "*Orientation, name=O\n1., 0., 0., 0., 1., 0.\n";
+    let axis = |d: &Deck| {
+        let name = d.sections[0].orientation.clone().expect("an orientation");
+        d.orientations[&name].axes[0]
+    };
+    near3(axis(&deck(&text(axes, ""))), [0.0, 1.0, 0.0], 1e-15);
+    near3(axis(&deck(&text("", axes))), [1.0, 0.0, 0.0], 1e-15);
+}
+
+#[test]
+fn nodes_of_a_set_that_is_only_printed_may_be_missing() {
+    let d = deck(&format!(
+        "*Part, name=A\n{}{PART}*Nset, nset=Far\n7, 99\n*Solid Section, elset=All, material=Steel\n*End Part\n*Assembly, name=S\n\
+         *Instance, name=A-1, part=A\n*End Instance\n*Instance, name=A-2, part=A\n9.\n*End Instance\n*End Assembly\n{STEEL}\
+         *Step\n*Static\n*Node Print, nset=A-2.Far\nU\n*Node Print, nset=A-1.Far\nU\n*End Step\n",
+        nodes()
+    ));
+    let said = d.notes.iter().map(|n| n.message.as_str());
+    let said: Vec<&str> = said.filter(|m| m.contains("99")).collect();
+    assert_eq!(
+        said,
+        ["there is no node A-1.99: it is left out of the set A-1.FAR, which is only printed"]
+    );
+}
+
+#[test]
 fn a_system_moves_the_nodes_behind_it() {
     // The origin at (1, 2, 3), x along y, y along -x.
     let d = tetrahedron("*System\n1., 2., 3., 1., 5., 3.\n-4., 2., 3.\n", "10.\n");

@@ -95,7 +95,7 @@ fn labels_and_sets_that_an_instance_does_not_have() {
         (
             "Wheel-1.Rim, 1",
             "there is no set of nodes WHEEL-1.RIM",
-            "no sets of nodes",
+            "sets of nodes: WHEEL-1.HUB",
         ),
         (
             "S.Rim, 1",
@@ -103,9 +103,19 @@ fn labels_and_sets_that_an_instance_does_not_have() {
             "no sets of nodes",
         ),
         ("1, 1", "there is no node 1", "write instance.number"),
+        (
+            "Hub, 1",
+            "there is no set of nodes HUB",
+            "did you mean WHEEL-1.HUB or WHEEL-2.HUB?",
+        ),
     ] {
         let more = "*Instance, name=Wheel-2, part=Wheel\n*End Instance\n";
-        let text = deck("", "", more, &format!("*Boundary\n{line}\n"));
+        let text = deck(
+            "*Nset, nset=Hub\n1\n",
+            "",
+            more,
+            &format!("*Boundary\n{line}\n"),
+        );
         says_only(&text, line, message, help);
     }
     let text = deck(
@@ -341,6 +351,17 @@ fn a_mistake_in_a_part_is_said_once() {
         &deck("*Element, type=C3D4\n2, 1, 2, 3, 44\n", "", more, ""),
         "2, 1, 2, 3, 44",
         "element WHEEL-1.2 uses node WHEEL-1.44, which does not exist",
+        "*NODE",
+    );
+    says_only(
+        &deck(
+            "*Nset, nset=X\n3, 66\n",
+            "",
+            more,
+            "*Boundary\nWheel-2.X, 1\n",
+        ),
+        "3, 66",
+        "there is no node WHEEL-1.66",
         "*NODE",
     );
     says_only(
