@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use stickslip::io::frd::Encoding;
+use stickslip::results::Quantity;
+
 use crate::card::Place;
 use crate::finding::Finding;
 use crate::numbering::Numbering;
@@ -12,6 +15,8 @@ use crate::numbering::Numbering;
 pub struct Deck {
     /// The file and those it includes.
     pub files: Vec<PathBuf>,
+    /// How the `.frd` file is written; `None` if nothing asks for one.
+    pub frd: Option<Encoding>,
     /// The text of `*HEADING`, its first line.
     pub title: Option<String>,
     /// How numbers of instances of parts become numbers of the deck.
@@ -406,6 +411,8 @@ pub struct Step {
     pub actions: Vec<Action>,
     /// What is printed.
     pub prints: Vec<Print>,
+    /// What is written to the `.frd` file.
+    pub filed: Vec<Filed>,
     /// Increments between outputs of fields; `None` if none are asked for.
     pub output_every: Option<usize>,
     /// `*TIME POINTS` of outputs.
@@ -528,6 +535,28 @@ pub enum When {
     Every(usize),
     /// At the times of `*TIME POINTS`.
     Times(String),
+}
+
+/// `*NODE FILE`, `*EL FILE`, `*CONTACT FILE`, and the same with `OUTPUT`: fields in the `.frd` file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Filed {
+    /// What has the fields.
+    pub of: FieldsOf,
+    /// Quantities.
+    pub quantities: Vec<Quantity>,
+    /// When.
+    pub when: When,
+}
+
+/// What fields are asked for of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FieldsOf {
+    /// `*NODE …`
+    Nodes,
+    /// `*EL …`, `*ELEMENT …`
+    Elements,
+    /// `*CONTACT …`
+    Contact,
 }
 
 /// `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT`.

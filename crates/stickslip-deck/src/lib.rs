@@ -7,6 +7,7 @@
 //!   with a note, as it cannot change the answer; what is in no row is an error. All errors are reported at once. Parts and instances become one flat
 //!   deck; [`Numbering`] tells whose a number is.
 //! - [`translate`](Deck::translate) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
+//! - [`Translation::frd`] says what `*NODE FILE`, `*EL FILE` and `*CONTACT FILE` ask for in the `.frd` file, which the library writes.
 //! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
 //!   Abaqus's columns.
 //!

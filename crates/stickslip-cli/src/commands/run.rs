@@ -6,7 +6,9 @@ use std::time::Instant;
 use stickslip::Error;
 use stickslip::friction::text;
 use stickslip::newton::condensed::Library;
-use stickslip::results::{Claim, Lent, Observer, ResultFiles, Source, checkpoints, digest_of};
+use stickslip::results::{
+    Claim, FrdPlan, Lent, Observer, ResultFiles, Source, checkpoints, digest_of,
+};
 use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
@@ -171,6 +173,7 @@ pub fn claim(input: &Input, stem: &str, source: Source) -> Claim {
             Some(_) => vec![format!("{stem}.dat"), format!("{stem}.sta")],
             None => Vec::new(),
         },
+        frd: (input.deck.as_ref()).map_or_else(FrdPlan::default, |deck| deck.frd(stem)),
         source: Some(source),
     }
 }

@@ -126,7 +126,7 @@ fn what_a_deck_prints_goes_on_where_it_was() {
     }
     let output = stickslip(&words);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let files = ["slide.dat", "slide.sta", "history.csv"];
+    let files = ["slide.dat", "slide.sta", "slide.frd", "history.csv"];
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap_or_default();
     let whole = files.map(read);
     let results = out.display().to_string();
@@ -137,4 +137,35 @@ fn what_a_deck_prints_goes_on_where_it_was() {
         assert!(read(name) == *before, "{name} differs");
     }
     assert_eq!(whole[0].matches("S T E P").count(), 2);
+    // The second step asks for nodes anew, and for the rest as before.
+    for name in ["DISP", "FORC", "STRESS", "TOSTRAIN", "CONTACT"] {
+        let line = format!("\n -4  {name:<8}");
+        assert_eq!(whole[2].matches(&line).count(), 10, "{name}");
+    }
+    assert!(whole[2].ends_with("\n -3\n 9999\n"));
+}
+
+#[test]
+fn a_problem_and_a_deck_write_frd_files_only_if_they_are_asked_to() {
+    let folder = folder("deck-frd");
+    let there = |out: &str, name: &str| folder.join(out).join(name).exists();
+    let run = |out: &str, set: &str| {
+        let (deck, out) = (deck("slide.inp"), folder.join(out));
+        let words: [&std::ffi::OsStr; 7] = [
+            "run".as_ref(),
+            "-q".as_ref(),
+            deck.as_os_str(),
+            "--set".as_ref(),
+            set.as_ref(),
+            "--output".as_ref(),
+            out.as_os_str(),
+        ];
+        let output = stickslip(&words);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    };
+    run("out", "output.frd=binary");
+    assert!(there("out", "slide.frd") && !there("out", "fields.frd"));
+    // What an older run left goes.
+    run("out", "output.frd=none");
+    assert!(!there("out", "slide.frd"));
 }

@@ -1,9 +1,12 @@
 //! What is printed and written, and when.
 
+use stickslip::io::frd::Encoding;
+use stickslip::results::Quantity;
+
 use super::fields::{keys, parameter};
 use super::reader::Reader;
 use crate::card::Card;
-use crate::deck::{Deck, Print, Totals, When};
+use crate::deck::{Deck, FieldsOf, Filed, Print, Totals, When};
 use crate::text::clip;
 
 impl Reader<'_> {
@@ -149,8 +152,89 @@ impl Reader<'_> {
             step.output_every = None;
         }
         let when = self.when(card);
+        self.file(card, when.clone());
         if let (Some(When::Every(n)), Some(step)) = (when, self.deck.steps.last_mut()) {
             step.output_every = Some(step.output_every.map_or(n, |e| e.min(n)));
         }
     }
+
+    /// What a card asks for in the `.frd` file. A card takes the place of those of its kind in earlier steps.
+    fn file(&mut self, card: &Card, when: Option<When>) {
+        let of = match card.keyword.as_str() {
+            "NODEFILE" | "NODEOUTPUT" => FieldsOf::Nodes,
+            "ELFILE" | "ELEMENTOUTPUT" => FieldsOf::Elements,
+            "CONTACTFILE" | "CONTACTOUTPUT" => FieldsOf::Contact,
+            _ => {
+                self.history = Some(card.has("HISTORY"));
+                return;
+            }
+        };
+        // Histories are of single nodes and elements, which are no fields.
+        if self.history == Some(true) {
+            return;
+        }
+        if self.asked.insert(format!("FILE {of:?}"))
+            && let Some(step) = self.deck.steps.last_mut()
+        {
+            step.filed.retain(|f| f.of != of);
+        }
+        let quantities = self.quantities(card, of);
+        if self.deck.frd.is_none() {
+            // In CalculiX cards with OUTPUT are for a binary file; in Abaqus, where they stand under *OUTPUT, they say nothing of it.
+            let binary = card.keyword.ends_with("OUTPUT") && self.history.is_none();
+            self.deck.frd = Some(match binary {
+                true => Encoding::Binary,
+                false => Encoding::Text,
+            });
+        }
+        if let (Some(when), Some(step)) = (when, self.deck.steps.last_mut()) {
+            step.filed.push(Filed {
+                of,
+                quantities,
+                when,
+            });
+        }
+    }
+
+    /// The quantities of a card that are written; notes on the others.
+    fn quantities(&mut self, card: &Card, of: FieldsOf) -> Vec<Quantity> {
+        let mut out = Vec::new();
+        let asked = keys(card);
+        for key in &asked {
+            match quantity(of, key) {
+                Some(quantity) => out.push(quantity),
+                None => {
+                    let message = format!(
+                        "{}: {} is left out: it is not written to the .frd file",
+                        card.written,
+                        clip(key)
+                    );
+                    self.note(card.place, message);
+                }
+            }
+        }
+        // A choice of Abaqus's own, such as VARIABLE=PRESELECT.
+        if asked.is_empty() && self.history.is_some() {
+            out.extend(match of {
+                FieldsOf::Nodes => vec![Quantity::Displacement, Quantity::Force],
+                FieldsOf::Elements => vec![Quantity::Stress, Quantity::Strain],
+                FieldsOf::Contact => vec![Quantity::Contact],
+            });
+        }
+        out
+    }
+}
+
+/// The block of the `.frd` file that has what a key asks for. Gap and pressure of contact are one block, as in CalculiX.
+fn quantity(of: FieldsOf, key: &str) -> Option<Quantity> {
+    Some(match (of, key) {
+        (FieldsOf::Nodes, "U") => Quantity::Displacement,
+        (FieldsOf::Nodes, "V") => Quantity::Velocity,
+        (FieldsOf::Nodes, "RF") => Quantity::Force,
+        (FieldsOf::Elements, "S") => Quantity::Stress,
+        (FieldsOf::Elements, "E" | "LE") => Quantity::Strain,
+        (FieldsOf::Elements, "ENER") => Quantity::Energy,
+        (FieldsOf::Contact, "CDIS" | "CDISP" | "CSTR" | "CSTRESS") => Quantity::Contact,
+        _ => return None,
+    })
 }

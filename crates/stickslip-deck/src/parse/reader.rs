@@ -34,6 +34,8 @@ pub(super) struct Reader<'a> {
     pub(super) touched: Vec<Action>,
     /// Kinds of output that the step has asked for.
     pub(super) asked: BTreeSet<String>,
+    /// The last `*OUTPUT`, under which cards of Abaqus stand, is `HISTORY`; `None` before there was one.
+    pub(super) history: Option<bool>,
     /// Sets of nodes and of elements that name one twice, with its number.
     pub(super) doubled: [BTreeMap<String, u64>; 2],
     /// Elements of types that are not supported, and sets of them: one error is enough.
@@ -73,6 +75,7 @@ impl<'a> Reader<'a> {
             procedure: false,
             touched: Vec::new(),
             asked: BTreeSet::new(),
+            history: None,
             doubled: Default::default(),
             skipped: Default::default(),
             skipped_sets: Default::default(),

@@ -41,6 +41,7 @@ impl Reader<'_> {
             abrupt,
             place: card.place,
             prints: before.map_or_else(Vec::new, |s| s.prints.clone()),
+            filed: before.map_or_else(Vec::new, |s| s.filed.clone()),
             output_every: before.and_then(|s| s.output_every),
             output_times: before.map_or_else(Vec::new, |s| s.output_times.clone()),
             ..Step::default()

@@ -7,7 +7,7 @@ const VIEW: &str = "it only chooses what is written";
 /// When something is written.
 const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPOINTS")];
 
-/// A card that asks for fields: when is read, and what is written is always the same.
+/// A card that asks for fields: which and when is read; they are written of the whole model.
 const fn fields(keyword: &'static str) -> Row {
     Row {
         keyword,
@@ -78,7 +78,15 @@ pub(super) const ROWS: &[Row] = &[
     fields("NODEOUTPUT"),
     fields("ELEMENTOUTPUT"),
     fields("CONTACTOUTPUT"),
-    fields("OUTPUT"),
+    Row {
+        parameters: &[
+            read("FREQUENCY"),
+            read("FREQUENCYF"),
+            read("TIMEPOINTS"),
+            read("HISTORY"),
+        ],
+        ..fields("OUTPUT")
+    },
     harmless_card("PREPRINT", VIEW),
     harmless_card("PRINT", VIEW),
     harmless_card("MONITOR", VIEW),

@@ -88,6 +88,7 @@ impl Deck {
             mesh,
             notes,
             prints: self.steps.iter().map(|s| s.prints.clone()).collect(),
+            filed: self.steps.iter().map(|s| s.filed.clone()).collect(),
             node_sets: printed(self, &self.node_sets),
             element_sets: printed(self, &self.element_sets),
             pairs: job.pairs,

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::io::frd::Encoding;
+
 use super::job::Job;
 use super::spans::{duration, times};
 use super::toml;
@@ -188,5 +190,11 @@ fn output(job: &mut Job) {
     job.out.line(&format!("every = {}", every.unwrap_or(0)));
     if !at.is_empty() {
         job.out.line(&format!("times = {}", toml::numbers(&at)));
+    }
+    if let Some(encoding) = deck.frd {
+        job.out.line(match encoding {
+            Encoding::Text => "frd = \"text\"",
+            Encoding::Binary => "frd = \"binary\"",
+        });
     }
 }

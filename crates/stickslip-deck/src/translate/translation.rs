@@ -7,9 +7,10 @@ use std::sync::Arc;
 use stickslip::error::{Diagnostic, Error, ProblemError};
 use stickslip::mesh::Mesh;
 use stickslip::problem::{Document, Meshes};
+use stickslip::results::{Due, FrdPlan, Request};
 
 use crate::card::Place;
-use crate::deck::Print;
+use crate::deck::{Filed, Print, When};
 use crate::finding::{DeckError, Finding, Severity};
 use crate::numbering::Numbering;
 
@@ -28,6 +29,8 @@ pub struct Translation {
     pub lint: Vec<Finding>,
     /// What is printed, by step.
     pub prints: Vec<Vec<Print>>,
+    /// What is written to the `.frd` file, by step.
+    pub filed: Vec<Vec<Filed>>,
     /// Nodes of the printed sets, in the order of the deck.
     pub node_sets: BTreeMap<String, Vec<u64>>,
     /// Elements of the printed sets.
@@ -54,6 +57,22 @@ impl Translation {
     /// The problem file as a document, with changes `path=value`.
     pub fn document(&self, overrides: Vec<String>) -> Document {
         Document::new(self.toml.clone(), Some(&self.path)).with_overrides(overrides)
+    }
+
+    /// The `.frd` file of a job of this name.
+    pub fn frd(&self, job: &str) -> FrdPlan {
+        let request = |filed: &Filed| Request {
+            quantities: filed.quantities.clone(),
+            due: match &filed.when {
+                When::Every(n) => Due::Every(*n),
+                When::Times(name) => Due::At(self.times.get(name).cloned().unwrap_or_default()),
+            },
+        };
+        let step = |filed: &Vec<Filed>| filed.iter().map(request).collect();
+        FrdPlan {
+            name: format!("{job}.frd"),
+            steps: Some(self.filed.iter().map(step).collect()),
+        }
     }
 
     /// The files that the deck was read from.

@@ -188,6 +188,63 @@ fn what_is_printed_goes_on_until_cards_of_its_kind_say_otherwise() {
 }
 
 #[test]
+fn what_is_written_to_the_frd_file_goes_on_until_cards_of_its_kind_say_otherwise() {
+    use stickslip::results::{Due, Quantity, Request};
+    let step = |cards: &str| format!("*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n{cards}*END STEP\n");
+    let steps = [
+        "*NODE FILE\nU, RF, NT\n*EL FILE, FREQUENCY=3\nS\nE\n",
+        "",
+        "*EL FILE\nENER\n*EL FILE, FREQUENCY=0\nS\n*CONTACT FILE\nCSTR, CDIS\n",
+    ];
+    let steps: String = steps.iter().map(|s| step(s)).collect();
+    let deck = translate(&format!("{}{steps}", column()));
+    let plan = deck.frd("job");
+    assert_eq!(plan.name, "job.frd");
+    let request = |quantities: &[Quantity], n| Request {
+        quantities: quantities.to_vec(),
+        due: Due::Every(n),
+    };
+    use Quantity::{Contact, Displacement, Energy, Force, Strain, Stress};
+    let nodes = request(&[Displacement, Force], 1);
+    let first = vec![nodes.clone(), request(&[Stress, Strain], 3)];
+    let last = vec![
+        nodes,
+        request(&[Energy], 1),
+        request(&[Contact, Contact], 1),
+    ];
+    assert_eq!(plan.steps, Some(vec![first.clone(), first, last]));
+    assert!(deck.toml.contains("frd = \"text\""), "{}", deck.toml);
+    let noted = deck.notes.iter().filter(|n| n.message.contains(".frd"));
+    let noted: Vec<&str> = noted.map(|n| n.message.as_str()).collect();
+    assert_eq!(
+        noted,
+        ["*NODE FILE: NT is left out: it is not written to the .frd file"]
+    );
+}
+
+#[test]
+fn cards_with_output_ask_for_a_binary_frd_file_unless_they_are_abaqus_s() {
+    use stickslip::results::Quantity::{Displacement, Force, Strain, Stress};
+    let read = |cards: &str| {
+        let step = format!("*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n{cards}*END STEP\n");
+        translate(&format!("{}{step}", column()))
+    };
+    let of = |cards: &str| {
+        let steps = read(cards).frd("job").steps.unwrap_or_default();
+        let all = steps.into_iter().flatten();
+        all.flat_map(|r| r.quantities).collect::<Vec<_>>()
+    };
+    assert!(read("*NODE OUTPUT\nU\n").toml.contains("frd = \"binary\""));
+    let fields = "*OUTPUT, FIELD\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT, VARIABLE=PRESELECT\n";
+    assert!(read(fields).toml.contains("frd = \"text\""));
+    assert_eq!(of(fields), [Displacement, Stress, Strain]);
+    let history = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=N\nRF\n";
+    assert!(!read(history).toml.contains("frd"));
+    assert_eq!(of(history), []);
+    assert_eq!(of("*NODE FILE\nRF\n"), [Force]);
+}
+
+#[test]
 fn time_points_and_frequencies_say_when_something_is_printed() {
     let steps = "*TIME POINTS, NAME=T, GENERATE\n.25, .75, .5\n*STEP\n*STATIC, DIRECT\n.125, 1.\n*CLOAD\nNTOP, 3, 1.\n\
                  *NODE PRINT, NSET=END, TIME POINTS=T\nU\n*END STEP\n";

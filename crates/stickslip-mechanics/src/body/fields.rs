@@ -19,10 +19,78 @@ struct Recovery {
     cells: Vec<Vec<[f64; 2]>>,
 }
 
-/// Stress at the points of a mesh summed over cells, and how many there are.
-struct Sums {
-    stress: Vec<[f64; 6]>,
+/// Values at the points of a mesh summed over cells, and how many there are.
+struct Sums<const K: usize> {
+    values: Vec<[f64; K]>,
     cells: Vec<f64>,
+    /// What they are, from strain and stress at a quadrature point.
+    of: fn(&[f64; 6], &[f64; 6]) -> [f64; K],
+}
+
+impl<const K: usize> Sums<K> {
+    fn new(count: usize, of: fn(&[f64; 6], &[f64; 6]) -> [f64; K]) -> Self {
+        Sums {
+            values: vec![[0.0; K]; count],
+            cells: vec![0.0; count],
+            of,
+        }
+    }
+
+    /// The mean at each of these points.
+    fn means(&self, points: &[usize]) -> Vec<[f64; K]> {
+        let mean = |&p: &usize| self.values[p].map(|s| s / self.cells[p]);
+        points.iter().map(mean).collect()
+    }
+
+    /// Adds the values of a part of a body, and returns energy and volume of every cell.
+    fn add_part<const N: usize>(
+        &mut self,
+        body: &Elastic,
+        part: usize,
+        u: &[f64],
+    ) -> Vec<[f64; 2]> {
+        let block = &body.mesh.blocks[body.parts[part].block];
+        let fit = extrapolate::matrix(block.kind, body.space, body.formulation);
+        let of = self.of;
+        let mut energies = Vec::with_capacity(block.connectivity.len() / N);
+        body.each_cell::<N>(
+            part,
+            u,
+            K * N + 2,
+            |_, _, recovered, values| {
+                let (at_nodes, cell) = values.split_at_mut(K * N);
+                for (out, row) in at_nodes.chunks_exact_mut(K).zip(&fit) {
+                    out.fill(0.0);
+                    let states = recovered.strain.iter().zip(&recovered.stress);
+                    for (weight, (strain, stress)) in row.iter().zip(states) {
+                        for (o, s) in out.iter_mut().zip(of(strain, stress)) {
+                            *o += weight * s;
+                        }
+                    }
+                }
+                cell.copy_from_slice(&[recovered.energy(), recovered.volume()]);
+            },
+            |cell, values| {
+                let (at_nodes, own) = values.split_at(K * N);
+                let points = &block.connectivity[cell * N..(cell + 1) * N];
+                for (&p, at_node) in points.iter().zip(at_nodes.chunks_exact(K)) {
+                    for (sum, s) in self.values[p].iter_mut().zip(at_node) {
+                        *sum += s;
+                    }
+                    self.cells[p] += 1.0;
+                }
+                energies.push([own[0], own[1]]);
+            },
+        );
+        energies
+    }
+}
+
+/// Strain, and behind it the strain energy per volume.
+fn strain_and_energy(strain: &[f64; 6], stress: &[f64; 6]) -> [f64; 7] {
+    let twice: f64 = strain.iter().zip(stress).map(|(e, s)| e * s).sum();
+    let [xx, yy, zz, xy, yz, xz] = *strain;
+    [xx, yy, zz, xy, yz, xz, 0.5 * twice]
 }
 
 impl Elastic {
@@ -34,67 +102,51 @@ impl Elastic {
         self.recovery(u).stress
     }
 
+    /// Strain at the body's points, six components with engineering shear strains, and behind them the strain energy per volume `[J/m³]`
+    /// without that of hourglass control: extrapolated and averaged as [`nodal_stress`](Elastic::nodal_stress) does. The strain across a
+    /// body in plane stress is not filled in.
+    fn nodal_strain(&self, u: &[f64]) -> Vec<[f64; 7]> {
+        let mut sums = Sums::new(self.mesh.points.len(), strain_and_energy);
+        self.visit_parts(u, &mut sums);
+        sums.means(self.points())
+    }
+
+    /// Adds `E` (points, six components) and `ENER` (points, strain energy per volume `[J/m³]`). Other bodies' points keep what is
+    /// there, zero at first.
+    pub fn strain_fields(&self, u: &[f64], out: &mut Fields) {
+        let count = self.mesh.points.len();
+        let all = self.nodal_strain(u);
+        let e = out.shared("E", Location::Point, 6, count, 0.0);
+        for (&p, values) in self.points().iter().zip(&all) {
+            e.values[6 * p..6 * p + 6].copy_from_slice(&values[..6]);
+        }
+        let energy = out.shared("ENER", Location::Point, 1, count, 0.0);
+        for (&p, values) in self.points().iter().zip(&all) {
+            energy.values[p] = values[6];
+        }
+    }
+
     /// Visits every cell once.
     fn recovery(&self, u: &[f64]) -> Recovery {
         // By point of the mesh; points of other bodies stay unused.
-        let count = self.mesh.points.len();
-        let mut sums = Sums {
-            stress: vec![[0.0; 6]; count],
-            cells: vec![0.0; count],
-        };
-        let cells = (self.parts.iter().enumerate())
-            .map(|(part, p)| {
-                by_nodes!(
-                    self.mesh.blocks[p.block].kind,
-                    Elastic::part_recovery(self, part, u, &mut sums)
-                )
-            })
-            .collect();
-        let mean = |&p: &usize| sums.stress[p].map(|s| s / sums.cells[p]);
+        let mut sums = Sums::new(self.mesh.points.len(), |_, stress| *stress);
+        let cells = self.visit_parts(u, &mut sums);
         Recovery {
-            stress: self.points().iter().map(mean).collect(),
+            stress: sums.means(self.points()),
             cells,
         }
     }
 
-    fn part_recovery<const N: usize>(
-        &self,
-        part: usize,
-        u: &[f64],
-        sums: &mut Sums,
-    ) -> Vec<[f64; 2]> {
-        let block = &self.mesh.blocks[self.parts[part].block];
-        let fit = extrapolate::matrix(block.kind, self.space, self.formulation);
-        let mut energies = Vec::with_capacity(block.connectivity.len() / N);
-        self.each_cell::<N>(
-            part,
-            u,
-            6 * N + 2,
-            |_, _, recovered, values| {
-                let (at_nodes, cell) = values.split_at_mut(6 * N);
-                for (out, row) in at_nodes.chunks_exact_mut(6).zip(&fit) {
-                    out.fill(0.0);
-                    for (weight, stress) in row.iter().zip(&recovered.stress) {
-                        for (o, s) in out.iter_mut().zip(stress) {
-                            *o += weight * s;
-                        }
-                    }
-                }
-                cell.copy_from_slice(&[recovered.energy(), recovered.volume()]);
-            },
-            |cell, values| {
-                let (at_nodes, own) = values.split_at(6 * N);
-                let points = &block.connectivity[cell * N..(cell + 1) * N];
-                for (&p, stress) in points.iter().zip(at_nodes.chunks_exact(6)) {
-                    for (sum, s) in sums.stress[p].iter_mut().zip(stress) {
-                        *sum += s;
-                    }
-                    sums.cells[p] += 1.0;
-                }
-                energies.push([own[0], own[1]]);
-            },
-        );
-        energies
+    /// Sums values at points, and returns energy and volume of every cell, part by part.
+    fn visit_parts<const K: usize>(&self, u: &[f64], sums: &mut Sums<K>) -> Vec<Vec<[f64; 2]>> {
+        (self.parts.iter().enumerate())
+            .map(|(part, p)| {
+                by_nodes!(
+                    self.mesh.blocks[p.block].kind,
+                    Sums::add_part(sums, self, part, u)
+                )
+            })
+            .collect()
     }
 
     /// Adds `S` (points, six components, `[Pa]`), `MISES` (points, `[Pa]`), `SENER` (cells, strain energy per volume

@@ -1,4 +1,4 @@
-//! Files: meshes in and out ([`gmsh`], [`vtu`], [`abaqus`]), fields and histories out ([`vtu`], [`pvd`], [`csv`]) and, for
+//! Files: meshes in and out ([`gmsh`], [`vtu`], [`abaqus`]), fields and histories out ([`vtu`], [`pvd`], [`frd`], [`csv`]) and, for
 //! comparisons, in again ([`vtu`], [`csv`]).
 //!
 //! This module knows meshes and named fields, never what they mean.
@@ -6,6 +6,7 @@
 pub mod abaqus;
 mod atomic;
 pub mod csv;
+pub mod frd;
 pub mod gmsh;
 mod growing;
 pub mod input;

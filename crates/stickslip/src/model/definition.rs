@@ -7,6 +7,7 @@ use super::limits::Limits;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Change;
+use crate::io::frd::Encoding;
 use crate::math::Mat3;
 use crate::mesh::Mesh;
 use crate::newton::{BodyPoints, Settings};
@@ -102,6 +103,14 @@ impl Body {
             ..State::default()
         };
         self.elastic.fields(&at_rest, out);
+    }
+
+    /// Adds strain and strain energy per volume at the points, `E` and `ENER`: more than [`fields`](Body::fields) has.
+    pub fn strain_fields(&self, state: &State, out: &mut Fields) {
+        match self.rigid {
+            None => self.elastic.strain_fields(&state.u, out),
+            Some(_) => self.elastic.strain_fields(&vec![0.0; state.u.len()], out),
+        }
     }
 }
 
@@ -281,6 +290,8 @@ pub struct OutputPlan {
     pub every: usize,
     /// Times of field output.
     pub times: Vec<f64>,
+    /// How the `.frd` file is written, if one is.
+    pub frd: Option<Encoding>,
     /// A row of the history after every so many increments, and at times of output; at least 1.
     pub history_every: usize,
     /// A checkpoint after every so many increments, and after so many seconds of wall clock; 0: not by that.

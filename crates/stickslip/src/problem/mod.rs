@@ -58,7 +58,7 @@ pub use mass::Mass;
 pub use model::{Model, SpaceKind};
 pub use nearest::nearest;
 pub use obstacle::Obstacle;
-pub use output::{CheckpointPlan, Output};
+pub use output::{CheckpointPlan, Frd, Output};
 pub use probe::Probe;
 pub use quality::Quality;
 #[cfg(feature = "schema")]

@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::io::frd::Encoding;
+
 /// `[output]`: when fields are written to `fields.pvd`. The summary covers every increment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -12,8 +14,36 @@ pub struct Output {
     pub history_every: usize,
     /// Further times `[time]` at which fields are written, increasing. Increments land on them.
     pub times: Vec<f64>,
+    /// Whether fields are written to an `.frd` file as well, which CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview read: `fields.frd`, and for a
+    /// deck `JOB.frd` with what it asks for.
+    pub frd: Frd,
     /// When the state is written from which `stickslip resume` goes on. It is written in any case when a run is asked to stop.
     pub checkpoint: CheckpointPlan,
+}
+
+/// How the `.frd` file is written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Frd {
+    /// It is not written.
+    #[default]
+    None,
+    /// As text, with six digits; every program that knows the format reads it.
+    Text,
+    /// As bytes, values of 32 bits: a third of the size, but fewer programs read it.
+    Binary,
+}
+
+impl Frd {
+    /// How numbers are written, if they are.
+    pub fn encoding(self) -> Option<Encoding> {
+        match self {
+            Frd::None => None,
+            Frd::Text => Some(Encoding::Text),
+            Frd::Binary => Some(Encoding::Binary),
+        }
+    }
 }
 
 /// When checkpoints are written: whichever comes first.
@@ -43,6 +73,7 @@ impl Default for Output {
             every: 1,
             history_every: 1,
             times: Vec::new(),
+            frd: Frd::None,
             checkpoint: CheckpointPlan::default(),
         }
     }

@@ -1,5 +1,5 @@
-//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`, and
-//! `culprits.vtu` where the doctor found something.
+//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`,
+//! an `.frd` file where the problem asks for one, and `culprits.vtu` where the doctor found something.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,12 +7,14 @@ use std::thread::JoinHandle;
 
 use super::analysis::Analysis;
 use super::folder::{Claim, Folder, FolderClaim, INTERFACES};
+use super::frd;
 use super::observer::{Event, Observer, Snapshot};
 use super::saved::{self, Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
 use crate::error::Error;
+use crate::io::frd::end_again;
 use crate::io::{csv, pvd, vtu, write_atomically};
 use crate::system::{Field, Fields, Location};
 
@@ -28,6 +30,7 @@ pub struct ResultFiles {
     source: Option<Source>,
     /// Other files that grow.
     also: Vec<String>,
+    frd: frd::Writer,
     /// Why a checkpoint could not be written, and whether it was asked for.
     unsaved: Option<(String, bool)>,
 }
@@ -48,6 +51,7 @@ impl ResultFiles {
             writing: None,
             source: claim.source.clone(),
             also: claim.also.clone(),
+            frd: frd::Writer::new(&claim.frd, None),
             unsaved: None,
         })
     }
@@ -66,6 +70,12 @@ impl ResultFiles {
         let known = |name: &str| positions.fields.iter().any(|(_, known)| known == name);
         folder.drop_fields(|name| !known(name))?;
         let history = directory.join("history.csv");
+        let frd = directory.join(&claim.frd.name);
+        match positions.frd {
+            Some(_) => end_again(&frd)?,
+            // It was begun after the checkpoint.
+            None => remove(&frd)?,
+        }
         Ok(ResultFiles {
             folder,
             pvd: pvd::Collection::resume(&directory.join("fields.pvd"), &positions.fields)?,
@@ -79,6 +89,7 @@ impl ResultFiles {
             writing: None,
             source: claim.source.clone(),
             also: claim.also.clone(),
+            frd: frd::Writer::new(&claim.frd, positions.frd),
         })
     }
 
@@ -90,7 +101,9 @@ impl ResultFiles {
         let directory = &self.folder.directory;
         let mut lengths = Vec::new();
         let growing = self.history.iter().map(|_| "history.csv");
-        for name in growing.chain(self.also.iter().map(String::as_str)) {
+        let growing = growing.chain(self.also.iter().map(String::as_str));
+        let frd = Some(self.frd.reached()).filter(|reached| reached.tally.outputs > 0);
+        for name in growing.chain(frd.map(|_| self.frd.name())) {
             let path = directory.join(name);
             if let Ok(file) = std::fs::File::open(&path) {
                 let length = file.sync_all().and_then(|()| file.metadata());
@@ -105,6 +118,7 @@ impl ResultFiles {
                 fields: self.pvd.entries().to_vec(),
                 lengths,
                 columns: self.history.as_ref().map_or(0, csv::History::columns),
+                frd,
             },
         };
         saved.write(directory)
@@ -137,9 +151,13 @@ impl ResultFiles {
             .collect();
         let path = self.folder.directory.join(&name);
         let folder = self.folder.directory.join(INTERFACES);
+        let frd = self
+            .frd
+            .job(view, &self.folder.directory, || owners(view))?;
         let file = path.clone();
         let write = move || {
             mesh.write(&path, &fields)?;
+            frd.map_or(Ok(()), |frd| frd.write(&fields))?;
             if !tables.is_empty() {
                 std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
             }
@@ -166,6 +184,7 @@ impl ResultFiles {
             Ok(outcome) => outcome?,
             Err(panic) => std::panic::resume_unwind(panic),
         }
+        self.frd.written();
         self.pvd.push(time, &name)
     }
 
@@ -178,12 +197,17 @@ impl ResultFiles {
         let findings = &summary.findings;
         if findings.iter().all(|f| f.guilty.is_empty()) {
             // Those of an earlier run would mislead.
-            return match std::fs::remove_file(&places) {
-                Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io(&places, e)),
-                _ => Ok(()),
-            };
+            return remove(&places);
         }
         doctor::write_culprits(&places, findings)
+    }
+}
+
+/// Removes a file that need not be there.
+fn remove(path: &Path) -> Result<(), Error> {
+    match std::fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::io(path, e)),
+        _ => Ok(()),
     }
 }
 
@@ -284,6 +308,7 @@ impl Observer for ResultFiles {
         }
         match event {
             Event::Increment(row) => {
+                self.frd.see(analysis, row);
                 if self.history.is_none() {
                     let path = self.folder.directory.join("history.csv");
                     self.history = Some(csv::History::create(&path, &row.names)?);

@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::frd::{self, FrdPlan};
 use super::lock::{self, Lock, Refused};
 use super::saved::{self, Source};
 use super::summary::Status;
@@ -17,6 +18,8 @@ pub struct Claim {
     pub inputs: Vec<PathBuf>,
     /// Names of files that are written into the folder beside the usual ones.
     pub also: Vec<String>,
+    /// The `.frd` file, which is written if the problem asks for one.
+    pub frd: FrdPlan,
     /// What the run was called with; without it no checkpoints are written.
     pub source: Option<Source>,
 }
@@ -228,12 +231,14 @@ const FILES: &[&str] = &[
     "culprits.vtu",
     "problem.toml",
     "report.html",
+    frd::NAME,
 ];
 
 /// Whether a file in the folder has the name of a result.
 fn is_result(name: &str, claim: &Claim) -> bool {
     let kept = saved::number(name).is_some();
-    is_field(name) || kept || FILES.contains(&name) || claim.also.iter().any(|also| also == name)
+    let also = claim.also.iter().chain([&claim.frd.name]);
+    is_field(name) || kept || FILES.contains(&name) || also.into_iter().any(|also| also == name)
 }
 
 fn is_checkpoint(path: &Path) -> bool {

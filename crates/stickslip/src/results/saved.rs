@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::frd::Reached;
 use super::observer::Snapshot;
 use super::sealed;
 use crate::error::{Error, IoError};
@@ -47,6 +48,8 @@ pub(crate) struct Positions {
     pub lengths: Vec<(String, u64)>,
     /// Columns of the history.
     pub columns: usize,
+    /// How far the `.frd` file had come, if there is one.
+    pub frd: Option<Reached>,
 }
 
 /// A checkpoint with all that is needed to go on from it.
@@ -71,7 +74,8 @@ crate::keep!(Lent { meshes, laws });
 crate::keep!(Positions {
     fields,
     lengths,
-    columns
+    columns,
+    frd
 });
 crate::keep!(Saved {
     source,
@@ -212,10 +216,10 @@ impl Saved {
         }))
     }
 
-    /// Whether files of a deck grow with the run beside its history.
+    /// Whether files of a deck grow with the run beside those of all results.
     pub fn has_prints(&self) -> bool {
         let mut names = self.positions.lengths.iter().map(|(name, _)| name);
-        names.any(|name| name != "history.csv")
+        names.any(|name| name != "history.csv" && !name.ends_with(".frd"))
     }
 
     /// Whether what the run had from a program is there again.

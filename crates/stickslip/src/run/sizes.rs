@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::simulation::{Simulation, view};
 use crate::integrate::explicit::Explicit;
+use crate::io::frd::Encoding;
 use crate::model::definition::{Solution, Step};
 use crate::newton::MOST_FACTORS;
 use crate::results::files::fields;
@@ -17,6 +18,10 @@ const NUMBER: usize = 25;
 
 /// Characters of the line of a file of fields in `fields.pvd`, and bytes of its name in a checkpoint.
 const LINE: usize = 80;
+
+/// Bytes of a point in the `.frd` file at most: seven blocks with 28 numbers.
+const FRD_TEXT: usize = 7 * 14 + 28 * 12;
+const FRD_BINARY: usize = 7 * 4 + 28 * 4;
 
 /// Bytes of a checkpoint beside vectors and histories: the problem, digests, counts, what judges remember, a few hundred cut-backs.
 const BESIDE: usize = 40_000;
@@ -33,6 +38,8 @@ pub struct Sizes {
     pub last_checkpoint: u64,
     /// A file of fields before compression `[bytes]`.
     pub fields: u64,
+    /// What the `.frd` file grows by with each, nothing if there is none `[bytes]`.
+    pub frd: u64,
     /// How many of them, about.
     pub outputs: u64,
     /// A row of the history `[bytes]`.
@@ -44,7 +51,7 @@ pub struct Sizes {
 impl Sizes {
     /// All of it `[bytes]`.
     pub fn total(&self) -> u64 {
-        let fields = self.outputs.saturating_mul(self.fields + LINE as u64);
+        let fields = (self.outputs).saturating_mul(self.fields + self.frd + LINE as u64);
         let checkpoints = 2 * self.checkpoint.max(self.last_checkpoint);
         let rows = self.rows.saturating_mul(self.row);
         checkpoints.saturating_add(fields).saturating_add(rows)
@@ -80,6 +87,12 @@ impl Simulation {
             + 4 * mesh.points.len()
             + of_mesh.sum::<usize>();
         sizes.fields = (8 * numbers + 10_000) as u64;
+        let frd = match plan.frd {
+            None => [0, 0],
+            Some(Encoding::Text) => [FRD_TEXT, 10_000],
+            Some(Encoding::Binary) => [FRD_BINARY, 10_000],
+        };
+        sizes.frd = (frd[0] * mesh.points.len() + frd[1]) as u64;
         let nothing = Trial { from: 0.0, to: 0.0 };
         let row = history::row(&view, &self.around, nothing, Default::default(), (0, 0));
         sizes.row = (NUMBER * row.values.len()) as u64;

@@ -15,6 +15,7 @@ mod dynamics;
 mod elements;
 mod exact;
 mod examples;
+mod frd;
 mod layers;
 mod library;
 mod loose;

@@ -156,6 +156,7 @@ impl Problem {
             output: OutputPlan {
                 every: self.output.every,
                 times: self.output.times.clone(),
+                frd: self.output.frd.encoding(),
                 history_every: self.output.history_every,
                 checkpoint: (
                     self.output.checkpoint.increments,
