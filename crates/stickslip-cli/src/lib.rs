@@ -4,6 +4,7 @@
 //! 130 interrupted.
 //! Results and listings go to standard output, diagnostics to standard error.
 
+mod closing;
 mod commands;
 mod failure;
 mod input;
@@ -14,6 +15,7 @@ mod progress;
 mod remaining;
 mod render;
 mod space;
+mod style;
 mod voice;
 
 use std::ffi::OsString;

@@ -1,42 +1,58 @@
-//! Progress on standard error: a line an increment.
+//! Progress on standard error: a line an increment, of what contact does; what the solver does is for who asks for it.
 
 use std::io::IsTerminal;
-use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use stickslip::Error;
-use stickslip::assess::Gate;
 use stickslip::assess::doctor::{Finding, Severity};
-use stickslip::contact::response::Status;
 use stickslip::newton::Strategy;
 use stickslip::results::{Analysis, Event, Observer, Row};
 
 use crate::remaining::{Remaining, part};
+use crate::style::{Look, digits, figure, paint, sentence, short};
 use crate::voice::Voice;
 pub use crate::voice::say;
+
+/// Lines of increments that a file or a pipe gets before they become fewer, and how far apart they are from then on.
+const FIRST: usize = 40;
+const APART: Duration = Duration::from_secs(10);
+
+/// What the columns of the line of an increment are.
+const HEAD: [&str; 9] = [
+    "step", "inc", "time", "its", "stick", "slip", "open", "force", "left",
+];
+
+/// Columns that fit into a line.
+fn columns([step, inc, time, its, stick, slip, open, force, left]: [&str; 9]) -> String {
+    let step = short(step, 16);
+    format!(
+        "{step:<16} {inc:>6} {time:>12} {its:>5} {stick:>7} {slip:>7} {open:>7} {force:>12} {left:>8}"
+    )
+}
 
 /// Prints what happens.
 pub struct Progress {
     verbose: bool,
-    /// Whether somebody looks on: then there is a line an increment.
+    /// Whether somebody looks on: then there is a line for each increment, however many there are.
     terminal: bool,
-    headed: bool,
-    /// Statuses of all contact points after the last increment.
-    statuses: Vec<Status>,
+    /// Lines of increments so far, and when the last was said.
+    lines: usize,
+    last: Instant,
     started: Instant,
     remaining: Remaining,
     voice: Voice,
 }
 
 impl Progress {
-    /// `verbose` shows every Newton iteration. Where standard error is no terminal, notes and cut-backs are said, and an increment now and then.
+    /// `verbose` shows every Newton iteration. Where standard error is no terminal, lines become fewer after a while.
     pub fn new(verbose: bool, voice: Voice) -> Self {
+        let now = Instant::now();
         Progress {
             verbose,
-            terminal: verbose || std::io::stderr().is_terminal(),
-            headed: false,
-            statuses: Vec::new(),
-            started: Instant::now(),
+            terminal: std::io::stderr().is_terminal(),
+            lines: 0,
+            last: now,
+            started: now,
             remaining: Remaining::default(),
             voice,
         }
@@ -47,55 +63,48 @@ impl Progress {
         self.voice.line(text);
     }
 
-    /// Points that have another status than after the last increment.
-    fn changes(&mut self, analysis: &Analysis) -> usize {
-        let now: Vec<Status> = analysis
-            .contact
-            .interfaces
-            .iter()
-            .flat_map(|i| i.statuses())
-            .collect();
-        let before = std::mem::replace(&mut self.statuses, now);
-        match before.len() == self.statuses.len() {
-            true => before
-                .iter()
-                .zip(&self.statuses)
-                .filter(|(a, b)| a != b)
-                .count(),
-            false => self.statuses.iter().filter(|s| **s != Status::Open).count(),
+    /// Whether the next increment has a line.
+    fn due(&mut self) -> bool {
+        let few = self.terminal || self.verbose || self.lines < FIRST;
+        let due = few || self.last.elapsed() >= APART;
+        if due {
+            self.lines += 1;
+            self.last = Instant::now();
         }
+        due
     }
 
     fn increment(&mut self, analysis: &Analysis, row: &Row) {
-        let changes = self.changes(analysis);
-        if !self.terminal && !self.voice.is_silent() {
+        if !self.due() {
             return;
         }
-        if !self.headed {
-            self.line("step                inc att its        time  residual     open  stick   slip changed  worst node    energy      left");
-            self.headed = true;
+        if self.lines == 1 {
+            self.line(&paint(Look::Strong, &columns(HEAD)));
         }
         let column = |name: &str| row.get(name).unwrap_or(0.0);
-        let energies = ["ALLSE", "ALLCE", "ALLFD", "ALLWK", "ALLKE"].map(|n| column(n).abs());
-        let scale = energies.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let worst = analysis
-            .worst_point()
-            .map_or(String::new(), |p| p.to_string());
-        let text = format!(
-            "{:<18} {:>4} {:>3} {:>3} {:>11.5e} {:>9.1e} {:>8} {:>6} {:>6} {changes:>7} {worst:>11} {:>9.1e} {:>9}",
+        let count = |name: &str| column(name).to_string();
+        let text = columns([
             analysis.step_name(),
-            column("INC"),
-            column("ATT"),
-            column("ITRS"),
-            column("TIME"),
-            column("RESIDUAL"),
-            column("OPEN"),
-            column("STICK"),
-            column("SLIP"),
-            column("ERESIDUAL") / scale,
-            self.left(),
-        );
+            &count("INC"),
+            &digits(column("TIME"), 6),
+            &count("ITRS"),
+            &count("STICK"),
+            &count("SLIP"),
+            &count("OPEN"),
+            &figure(largest_force(analysis, row)),
+            &self.left(),
+        ]);
         self.line(&text);
+        if self.verbose {
+            let text = internals(analysis, row);
+            self.line(&text);
+        }
+        if self.lines == FIRST && !self.terminal && !self.verbose {
+            let apart = APART.as_secs();
+            self.line(&format!(
+                "  from here on a line every {apart} s; all increments are in history.csv"
+            ));
+        }
     }
 
     /// An increment was accepted that ends at this time.
@@ -125,26 +134,25 @@ impl Observer for Progress {
         match event {
             Event::Accepted(a) if self.terminal && !self.verbose => {
                 self.voice.passing(&format!(
-                    "{:<18} {:>4} {:>3} {:>3} {:>11.5e} ...",
-                    analysis.step_name(),
+                    "{:<16} {:>6} {:>12} {:>5} ...",
+                    short(analysis.step_name(), 16),
                     a.increment,
-                    a.attempt,
-                    a.iterations,
-                    a.time
+                    digits(a.time, 6),
+                    a.iterations
                 ));
             }
             Event::Increment(row) => self.increment(analysis, row),
             Event::Iteration(p) if self.verbose => {
                 self.line(&format!(
-                    "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  open {} stick {} slip {} changed {}{}",
+                    "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  stick {} slip {} open {} changed {}{}",
                     p.round,
                     p.iteration,
                     p.residual,
                     p.step,
                     p.krylov,
-                    p.tally.open,
                     p.tally.stick,
                     p.tally.slip,
+                    p.tally.open,
                     p.tally.changed,
                     match p.strategy {
                         Strategy::Plain => String::new(),
@@ -153,16 +161,17 @@ impl Observer for Progress {
                 ));
             }
             Event::Finding(finding) if finding.severity >= Severity::Warning => {
-                self.line(&found(finding));
+                self.line(&sentence(&found(finding)));
             }
-            Event::Note(text) => self.line(&format!("  {text}")),
+            Event::Note(text) if !self.verbose && of_solver(analysis, text) => {}
+            Event::Note(text) => self.line(&sentence(&format!("  {text}"))),
             Event::Cutback(trial, failure) => {
-                self.line(&format!(
+                self.line(&sentence(&format!(
                     "  cut back: {:.5e} to {:.5e}: {}",
                     trial.from, trial.to, failure.message
-                ));
+                )));
                 for culprit in failure.culprits.iter().take(3) {
-                    self.line(&format!("    {culprit}"));
+                    self.line(&sentence(&format!("    {culprit}")));
                 }
             }
             _ => {}
@@ -171,105 +180,45 @@ impl Observer for Progress {
     }
 }
 
+/// Whether a note says how the systems of equations are solved, and why so: `method-reason` of the summary has it as well.
+fn of_solver(analysis: &Analysis, note: &str) -> bool {
+    let reason = &analysis.summary.method_reason;
+    !reason.is_empty() && note.ends_with(reason.as_str())
+}
+
+/// The largest force that an interface carries, of all interfaces.
+fn largest_force(analysis: &Analysis, row: &Row) -> f64 {
+    let dim = analysis.model.dofs.dim;
+    let of = |name: &str| {
+        let component = |c: usize| {
+            let part = |kind: &str| row.get(&format!("{name}.{kind}{}", c + 1)).unwrap_or(0.0);
+            part("CFN") + part("CFS")
+        };
+        (0..dim).map(component).map(|f| f * f).sum::<f64>().sqrt()
+    };
+    let interfaces = analysis.contact.interfaces.iter();
+    interfaces.map(|i| of(&i.name)).fold(0.0, f64::max)
+}
+
+/// How well an increment was solved, for who works on the solver.
+fn internals(analysis: &Analysis, row: &Row) -> String {
+    let column = |name: &str| row.get(name).unwrap_or(0.0);
+    let energies = ["ALLSE", "ALLCE", "ALLFD", "ALLWK", "ALLKE"].map(|n| column(n).abs());
+    let scale = energies.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let worst = analysis.worst_point();
+    let worst = worst.map_or(String::new(), |p| format!(", worst node {p}"));
+    format!(
+        "    residual {:.1e}, attempt {}, energy open by {:.1e}{worst}",
+        column("RESIDUAL"),
+        column("ATT"),
+        column("ERESIDUAL") / scale
+    )
+}
+
 /// A finding of the doctor in a line; `check` and `explain` say all of it.
 pub fn found(finding: &Finding) -> String {
     format!(
         "{} ({}): {}",
         finding.severity, finding.cause, finding.message
     )
-}
-
-/// Says which figures of the quality gate are above their limits.
-pub fn gate(gate: &Gate, findings: &[Finding]) {
-    let word = if gate.failed() { "error" } else { "warning" };
-    for figure in gate.violations() {
-        say(&format!("{word}: quality: {}", figure.sentence(findings)));
-    }
-    if !gate.met {
-        say("  the results are kept; `[quality]` in the problem file sets the limits");
-    }
-}
-
-/// What a user wants to know at the end.
-pub fn closing(analysis: &Analysis, directory: &Path) {
-    let s = &analysis.summary;
-    say(&format!(
-        "done: {} increments, {} iterations, {} cut-backs, {}{} factorisations, {:.2} s",
-        s.increments,
-        s.iterations,
-        s.cutbacks,
-        match s.events {
-            0 => String::new(),
-            n => format!("{n} halvings to locate events, "),
-        },
-        s.solver.factorisations,
-        s.phases.total
-    ));
-    if !s.friction_solvers.is_empty() {
-        let each = s
-            .friction_solvers
-            .iter()
-            .map(|(name, n)| format!("{n} by {name}"));
-        say(&format!(
-            "  solved as friction problems: {}",
-            each.collect::<Vec<_>>().join("; ")
-        ));
-    }
-    let p = &s.phases;
-    say(&format!(
-        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
-        p.read,
-        p.assemble,
-        p.order,
-        p.factor,
-        p.condense,
-        p.iterate,
-        p.contact,
-        p.recover,
-        p.write,
-        s.solver.flops,
-        s.peak_memory as f64 / 1e9
-    ));
-    if s.relative_to_linear > 0.0 {
-        say(&format!(
-            "  without writing {:.2} times one assembly, factorisation and solution of the same bodies ({:.2} s)",
-            s.relative_to_linear, s.linear_solve
-        ));
-    }
-    if s.mass_added > 0.0 {
-        say(&format!(
-            "  mass scaling added {:.2} % to the mass of the bodies",
-            100.0 * s.mass_added
-        ));
-    }
-    if analysis.model.moves() {
-        let q = &s.energy_quality;
-        say(&format!(
-            "  energy: the balance is open by {:.1e} of the energies in play{}",
-            q.residual,
-            if q.met {
-                String::new()
-            } else {
-                format!(
-                    ", more than the {:.1e} of `solver.energy-limit`: try other increments, or damping where bodies bounce",
-                    q.limit
-                )
-            }
-        ));
-    }
-    for i in &s.interfaces {
-        say(&format!(
-            "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",
-            i.name, i.quality.relative_to_size, i.relative_to_approach
-        ));
-        if let Some(n) = &i.numerical_stiffness {
-            say(&format!(
-                "  {}: independent of the numerical stiffness to {:.1e} % (factor {:.3e})",
-                i.name,
-                100.0 * n.independent_to,
-                n.factor
-            ));
-        }
-    }
-    say(&format!("results in {}", directory.display()));
 }

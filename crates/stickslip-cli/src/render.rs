@@ -1,6 +1,6 @@
 //! Errors on standard error: file, line, the line itself with the place underlined, what to do.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use stickslip::Error;
@@ -10,8 +10,7 @@ use crate::failure::Failure;
 
 /// Prints why a command failed.
 pub fn failure(failure: &Failure) {
-    let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let renderer = if styled {
+    let renderer = if crate::style::coloured() {
         Renderer::styled()
     } else {
         Renderer::plain()

@@ -85,11 +85,6 @@ impl Voice {
         self.state().passing(text);
     }
 
-    /// Whether nothing has been said to a file or a pipe for so long that somebody may worry.
-    pub fn is_silent(&self) -> bool {
-        self.state().said.elapsed() >= IN_PIPE
-    }
-
     /// Something was said elsewhere.
     pub fn is_heard(&self) {
         self.state().said = Instant::now();

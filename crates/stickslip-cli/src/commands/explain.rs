@@ -40,6 +40,15 @@ fn read(directory: &Path) -> Result<Value, Failure> {
         true => directory.join("summary.json"),
         false => directory.to_path_buf(),
     };
+    if path.is_file() && !path.extension().is_some_and(|e| e == "json") {
+        return Err(Failure::Arguments(
+            format!(
+                "{}: this is a file; the folder with the results of a run is needed",
+                path.display()
+            ),
+            "give the directory that `stickslip run` wrote, or the summary.json in it".into(),
+        ));
+    }
     let text = stickslip::io::input::read_text(&path).map_err(|e| {
         Failure::Arguments(
             format!("{} cannot be read: {e}", path.display()),

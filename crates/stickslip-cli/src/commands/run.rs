@@ -18,6 +18,7 @@ use crate::failure::{Failure, Outcome};
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::progress::Progress;
+use crate::style::sentence;
 use crate::voice::{Heartbeat, Voice};
 
 /// Run an analysis and write its results.
@@ -51,7 +52,7 @@ pub struct Manner {
     /// No progress on standard error.
     #[arg(short, long)]
     pub quiet: bool,
-    /// Show every Newton iteration.
+    /// Show every Newton iteration, and what the solver did.
     #[arg(short, long)]
     verbose: bool,
     /// Print what happens as lines of JSON on standard output, for programs.
@@ -107,21 +108,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .clone()
         .unwrap_or_else(|| arguments.file.with_extension("out"));
     for note in input.notes(manner.loud()) {
-        crate::progress::say(&note);
+        crate::progress::say(&sentence(&note));
     }
     let read = started.elapsed().as_secs_f64();
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
     let mut simulation = Simulation::with_library(setup, library)?;
     simulation.summary.phases.read = read;
     if let Some(warning) = crate::space::warning(&simulation.sizes(), &directory) {
-        crate::progress::say(&warning);
+        crate::progress::say(&sentence(&warning));
     }
     let stem = stem(&arguments.file);
     let source = source(&input, arguments)?;
     let claim = claim(&input, &stem, source);
     let files = ResultFiles::new(&directory, &claim)?;
     for note in files.notes() {
-        crate::progress::say(note);
+        crate::progress::say(&sentence(note));
     }
     go(
         Session {
@@ -230,16 +231,16 @@ pub fn go(session: Session, manner: &Manner) -> Outcome {
         ));
     }
     if let Some(why) = files.unsaved().filter(|_| manner.quiet) {
-        crate::progress::say(&format!("warning: {why}"));
+        crate::progress::say(&sentence(&format!("warning: {why}")));
     }
     outcome?;
     drop(heartbeat);
     if loud {
-        crate::progress::closing(&simulation.analysis(), &directory);
+        crate::closing::closing(&simulation.analysis(), &directory, manner.verbose);
     }
     let quality = &simulation.summary.quality;
     if quality.failed() || loud {
-        crate::progress::gate(quality, &simulation.summary.findings);
+        crate::closing::gate(quality, &simulation.summary.findings);
     }
     Ok(match quality.failed() {
         true => ExitCode::from(crate::failure::CHECK),

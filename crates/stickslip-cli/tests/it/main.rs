@@ -12,4 +12,6 @@ mod faults;
 mod progress;
 mod reports;
 mod runs;
+#[path = "../../../stickslip/tests/it/suggestions.rs"]
+mod suggestions;
 mod sweep;

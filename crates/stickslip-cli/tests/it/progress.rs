@@ -38,25 +38,118 @@ fn programs_get_a_line_of_json_for_each_event() {
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }
 
+/// What a run says, with other arguments and variables of the environment, but for the seconds it took.
+fn said(name: &str, more: &[&str], variables: &[(&str, &str)]) -> String {
+    let folder = place(name);
+    let mut command = support::command(&folder);
+    command.args(["run", "case.toml"]).args(more);
+    let output = command.envs(variables.iter().copied()).output();
+    let output = output.expect("the binary runs");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty(), "{}", text(&output.stdout));
+    text(&output.stderr)
+}
+
+/// The whole of it: increments, then what came out.
+const SAID: &str = "\
+step                inc         time   its   stick    slip    open        force     left
+press                 1     0.333333     4       3       2       0      1.737e6        ?
+press                 2     0.666667     2       3       2       0      3.475e6        ?
+press                 3            1     2       3       2       0      5.212e6        ?
+done: 3 increments, 8 iterations, 0 cut-backs
+interface base at time 1, forces on its secondary
+  peak pressure  1.394e8 at (0, 0), time 1; now 1.394e8
+  normal force   5.212e6 (0, 5.212e6)
+  shear force    0
+  contact area   0.04
+  points         3 stick, 2 slip, 0 open
+  friction work  0.1813
+quality: all 14 figures within their limits; nearest: oscillation of interface base, 0.013 of 0.25
+results in case.out
+  stickslip plot case.out      a picture
+  stickslip report case.out    all of it, as a page to browse
+";
+
 #[test]
-fn a_pipe_gets_no_line_an_increment() {
-    let folder = place("piped");
-    let output = support::command(&folder)
-        .args(["run", "case.toml"])
-        .output()
-        .expect("the binary runs");
-    let said = text(&output.stderr);
-    assert!(said.contains("done: 3 increments"), "{said}");
-    assert!(!said.lines().any(|l| l.starts_with("press")), "{said}");
-    let output = support::command(&folder)
-        .args(["run", "case.toml", "--verbose"])
-        .output();
-    let said = text(&output.expect("the binary runs").stderr);
-    assert_eq!(
-        said.lines().filter(|l| l.starts_with("press")).count(),
-        3,
-        "{said}"
+fn a_run_says_what_contact_does_and_what_came_of_it() {
+    for (name, variables) in [("said", vec![]), ("said-plain", vec![("NO_COLOR", "1")])] {
+        let said = said(name, &[], &variables);
+        assert!(!said.contains(['\x1b', '\r']), "{said:?}");
+        let lines = said.lines().map(|line| match line.strip_prefix("done: ") {
+            Some(rest) => format!(
+                "done: {}\n",
+                rest.rsplit_once(", ").map_or(rest, |(a, _)| a)
+            ),
+            None => format!("{line}\n"),
+        });
+        assert_eq!(lines.collect::<String>(), SAID);
+    }
+}
+
+#[test]
+fn what_the_solver_does_is_for_who_asks() {
+    let words = [
+        "residual",
+        "krylov",
+        "factorisation",
+        "condensed",
+        "flops",
+        "worst node",
+    ];
+    let plain = said("asked-not", &[], &[]);
+    let verbose = said("asked", &["--verbose"], &[]);
+    for word in words {
+        assert!(!plain.contains(word), "{word}: {plain}");
+        assert!(verbose.contains(word), "{word}: {verbose}");
+    }
+    for said in [&plain, &verbose] {
+        let increments = said.lines().filter(|l| l.starts_with("press"));
+        assert_eq!(increments.count(), 3, "{said}");
+        assert!(said.lines().all(|l| l.chars().count() <= 100), "{said}");
+    }
+    assert_eq!(said("asked-quiet", &["--quiet"], &[]), "");
+}
+
+#[test]
+fn a_pipe_gets_fewer_lines_after_a_while() {
+    let set = ["--set", "step.0.increments.fixed=60"];
+    let said = said("piped", &set, &[]);
+    let increments = said.lines().filter(|l| l.starts_with("press")).count();
+    assert!((40..60).contains(&increments), "{said}");
+    assert!(said.contains("from here on a line every 10 s"), "{said}");
+    assert!(said.contains("done: 60 increments"), "{said}");
+}
+
+#[test]
+fn the_summary_has_what_the_end_says() {
+    let folder = place("physics");
+    // Pressed, and half let go: the largest pressure is not the last.
+    let turned = CASE.replace("y = -1e-5", "y = -1e-5, amplitude = \"turn\"")
+        + "amplitude.turn.table = [[0, 0], [0.5, 1], [1, 0.5]]\n";
+    std::fs::write(folder.join("case.toml"), turned).expect("the folder can be written to");
+    let run = support::command(&folder)
+        .args(["run", "case.toml", "-q"])
+        .status();
+    assert!(run.expect("the binary runs").success());
+    let summary = std::fs::read_to_string(folder.join("case.out/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    let base = &summary["interfaces"][0];
+    let peak = &base["peak-pressure"];
+    assert_eq!(peak["time"], 0.5);
+    let number = |v: &Value| v.as_f64().expect("a number");
+    let last = |column: &str| number(&summary["last"][column]);
+    assert!(
+        number(&peak["value"]) > 1.5 * last("base.CPRESSMAX"),
+        "{base}"
     );
+    assert_eq!(peak["at"].as_array().map(Vec::len), Some(3));
+    assert_eq!(number(&base["pressure"]), last("base.CPRESSMAX"));
+    assert_eq!(number(&base["normal-force"][1]), last("base.CFN2"));
+    assert_eq!(number(&base["area"]), last("base.CAREA"));
+    assert_eq!(number(&base["friction-work"]), last("base.ALLFD"));
+    for (key, column) in [("stick", "STICK"), ("slip", "SLIP"), ("open", "OPEN")] {
+        assert_eq!(number(&base["points"][key]), last(column), "{base}");
+    }
 }
 
 /// A run that does not outlive its test.

@@ -11,5 +11,6 @@ pub(crate) mod unsupported;
 pub(crate) mod view;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
-pub use quality::{Figure, Gate, InterfaceSummary, NumericalStiffness};
+pub use doctor::Peak;
+pub use quality::{Figure, Gate, InterfaceSummary, NumericalStiffness, Points};
 pub use view::View;

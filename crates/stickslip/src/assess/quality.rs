@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::doctor::{Finding, Watch};
+use super::doctor::{Finding, Peak, Watch};
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
     FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
@@ -10,10 +10,11 @@ use super::figures::{
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
-use crate::math::norm;
+use crate::math::{Vec3, norm};
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
 use crate::model::limits::{GateMode, Limits};
+use crate::system::Tally;
 
 /// The outcome of the quality gate.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -237,7 +238,7 @@ impl View<'_> {
     pub(crate) fn watch(&self, watches: &mut [Watch]) {
         let (u, t) = (&self.frame.state.u, self.frame.state.t);
         for (watch, interface) in watches.iter_mut().zip(&self.contact.interfaces) {
-            watch.note(interface, interface.resultant(u).carried, (u, t));
+            watch.note(interface, &interface.resultant(u), (u, t));
         }
     }
 
@@ -369,6 +370,20 @@ pub struct InterfaceSummary {
     ///
     /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
     pub exchanged: bool,
+    /// The largest pressure of the whole run, with its place and time.
+    pub peak_pressure: Peak,
+    /// The largest pressure at the end `[Pa]`.
+    pub pressure: f64,
+    /// Sum of pressure forces on the secondary, as it is named, at the end `[N]`.
+    pub normal_force: Vec3,
+    /// Sum of shear forces on it at the end `[N]`.
+    pub shear_force: Vec3,
+    /// Area in contact at the end `[m²]`.
+    pub area: f64,
+    /// Contact points by what they do at the end.
+    pub points: Points,
+    /// What friction took over the whole run `[J]`.
+    pub friction_work: f64,
     /// Largest unwanted penetration and false slip.
     pub quality: Quality,
     /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
@@ -380,6 +395,28 @@ pub struct InterfaceSummary {
     pub moment: f64,
     /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
     pub numerical_stiffness: Option<NumericalStiffness>,
+}
+
+/// Contact points by what they do.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Points {
+    /// In contact without slip.
+    pub stick: usize,
+    /// In contact and sliding.
+    pub slip: usize,
+    /// Not in contact.
+    pub open: usize,
+}
+
+impl From<Tally> for Points {
+    fn from(tally: Tally) -> Self {
+        Points {
+            stick: tally.stick,
+            slip: tally.slip,
+            open: tally.open,
+        }
+    }
 }
 
 /// How much a result depends on the numerical stiffness of an enforcement.
@@ -395,10 +432,10 @@ pub struct NumericalStiffness {
 }
 
 /// The interfaces at the last accepted state.
-pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
+pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<InterfaceSummary> {
     let energy = view.elastic_energy();
-    let all = view.contact.interfaces.iter();
-    all.map(|interface| {
+    let all = view.contact.interfaces.iter().zip(watches);
+    all.map(|(interface, watch)| {
         let quality = interface.quality();
         let r = interface.resultant(&view.frame.state.u);
         let b = interface.balance(&view.frame.state.u);
@@ -410,6 +447,13 @@ pub(crate) fn interfaces(view: &View, gate: &Gate) -> Vec<InterfaceSummary> {
         InterfaceSummary {
             name: interface.name.clone(),
             exchanged: interface.exchanged,
+            peak_pressure: watch.peak(),
+            pressure: r.peak,
+            normal_force: r.normal,
+            shear_force: r.shear,
+            area: r.area,
+            points: interface.tally().into(),
+            friction_work: interface.energy().dissipated,
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),

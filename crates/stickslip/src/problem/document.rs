@@ -4,8 +4,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::tree::{self, Table};
-use super::{FORMAT, MeshSource, Problem, check, key, overrides, schema, structure};
-use crate::error::{Diagnostic, Error, IoError, ProblemError, line_column};
+use super::{FORMAT, MeshSource, Problem, check, foreign, key, overrides, schema, structure};
+use crate::error::{Diagnostic, Error, ProblemError, line_column};
 use crate::io::input;
 
 /// The text of a problem file with its overrides: it becomes a [`Problem`], and shows where in the text a finding is.
@@ -35,10 +35,10 @@ impl Document {
     /// [`Error::Io`] if it cannot be read, [`Error::Problem`] if it is not UTF-8 or a file of another kind.
     pub fn read(file: &Path) -> Result<Self, Error> {
         if file.is_dir() {
-            return Err(folder(file));
+            return Err(foreign::folder(file));
         }
         let bytes = input::read(file, input::TEXT).map_err(|e| Error::io(file, e))?;
-        if let Some(finding) = foreign(&bytes) {
+        if let Some(finding) = foreign::kind(file, &bytes) {
             return Err(Error::Problem(ProblemError {
                 file: Some(file.to_path_buf()),
                 source: String::new(),
@@ -188,63 +188,6 @@ fn syntax_help(message: &str) -> &'static str {
     } else {
         "TOML has lines `key = value`, headings `[table]`, texts in double quotes, and lists in brackets that are closed"
     }
-}
-
-/// Most files of a folder that are listed.
-const MOST_FILES: usize = 5;
-
-/// A folder where a problem file is wanted: what in it may be meant.
-fn folder(folder: &Path) -> Error {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<String> = entries
-        .map(|e| e.file_name().to_string_lossy().into_owned())
-        .filter(|name| name.ends_with(".toml") || name.ends_with(".inp"))
-        .collect();
-    files.sort();
-    let more = files.len() > MOST_FILES;
-    files.truncate(MOST_FILES);
-    let what = match files.is_empty() {
-        true => "there is no problem file in it".to_string(),
-        false => format!(
-            "name one of its files: {}{}",
-            files.join(", "),
-            if more { ", …" } else { "" }
-        ),
-    };
-    Error::Io(IoError {
-        file: folder.to_path_buf(),
-        message: format!("this is a folder, and a problem file is wanted; {what}"),
-    })
-}
-
-/// A finding if the file is one of a kind that is known and no problem file.
-fn foreign(bytes: &[u8]) -> Option<Diagnostic> {
-    let mut start = bytes.trim_ascii_start();
-    start = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(start);
-    let begins = |words: &[u8]| {
-        start
-            .get(..words.len())
-            .is_some_and(|s| s.eq_ignore_ascii_case(words))
-    };
-    let (what, help) = if begins(b"$MeshFormat") {
-        (
-            "a mesh of Gmsh",
-            "name it in a problem file: `body.NAME.gmsh.file = \"FILE\"`",
-        )
-    } else if begins(b"<VTKFile") || begins(b"<?xml") {
-        (
-            "a file in XML, a mesh or results",
-            "problem files are TOML; a mesh in VTU becomes one of Gmsh by `stickslip convert`",
-        )
-    } else if begins(b"*") {
-        (
-            "an input deck of Abaqus or CalculiX",
-            "decks have names that end in `.inp`",
-        )
-    } else {
-        return None;
-    };
-    Some(Diagnostic::new("", format!("this is {what}, not a problem file")).help(help))
 }
 
 /// A file that is no text: shown up to where it stops being one.

@@ -7,6 +7,7 @@
 //! Nothing is guessed: unknown keys are refused at their line and column with the nearest known name, and all
 //! findings of a stage are reported at once (see [`Document::problem`]).
 
+mod advice;
 mod amplitude;
 mod body;
 mod build;
@@ -16,7 +17,9 @@ mod coupling;
 mod data;
 mod document;
 mod dynamic;
+mod expected;
 mod families;
+mod foreign;
 mod initial;
 mod interface;
 mod key;

@@ -43,6 +43,12 @@ pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     (distance <= (length / 3).max(1) && distance < length).then_some(name)
 }
 
+/// The word of this program for one of another.
+pub(super) fn synonym(word: &str) -> Option<&'static str> {
+    let known = SYNONYMS.iter().find(|(other, _)| *other == word);
+    known.map(|(_, name)| *name)
+}
+
 /// `help` for a name that is not among `names`: what was probably meant and what there is.
 pub(super) fn suggest(word: &str, what: &str, names: &[&str]) -> String {
     let all = match names {

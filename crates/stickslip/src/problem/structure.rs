@@ -5,11 +5,13 @@
 
 use std::ops::Range;
 
-use serde_json::{Map, Value as Json};
+use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::nearest::{nearest, suggest};
+use super::advice;
+use super::expected::{Expected, strings};
+use super::nearest::suggest;
 use super::prose::first_sentence;
 use super::tree::{self, Table, Value};
 use super::{key, tree::number};
@@ -53,109 +55,6 @@ pub(super) fn description(schema: &Json, path: &[String]) -> Option<String> {
     found.map(first_sentence)
 }
 
-/// What the schema says about a value, references resolved.
-struct Expected<'s> {
-    /// The keyword object.
-    own: &'s Map<String, Json>,
-    /// Description at the place of use or of the type.
-    description: Option<&'s str>,
-    /// Keys with a meaning.
-    properties: Vec<(&'s str, &'s Json)>,
-    /// Keys of which exactly one must be there.
-    kinds: Vec<(&'s str, &'s Json)>,
-    /// Strings allowed.
-    words: Vec<&'s str>,
-}
-
-impl<'s> Expected<'s> {
-    fn of(root: &'s Json, schema: &'s Json) -> Self {
-        static NOTHING: std::sync::LazyLock<Map<String, Json>> = std::sync::LazyLock::new(Map::new);
-        let mut description = None;
-        let mut schema = schema;
-        // References, and the `X or null` of optional keys.
-        let own = loop {
-            let Some(own) = schema.as_object() else {
-                break &*NOTHING;
-            };
-            description = description.or_else(|| own.get("description").and_then(Json::as_str));
-            let reference = own.get("$ref").and_then(Json::as_str);
-            let target = reference.and_then(|r| root.pointer(r.strip_prefix('#')?));
-            let some = || {
-                own.get("anyOf")?
-                    .as_array()?
-                    .iter()
-                    .find(|s| s.get("type").and_then(Json::as_str) != Some("null"))
-            };
-            match target.or_else(some) {
-                Some(next) => schema = next,
-                None => break own,
-            }
-        };
-        let entries = |map: &'s Map<String, Json>| {
-            let properties = map.get("properties").and_then(Json::as_object);
-            properties
-                .into_iter()
-                .flatten()
-                .map(|(k, v)| (k.as_str(), v))
-        };
-        let mut kinds = Vec::new();
-        let mut words: Vec<&str> = Vec::new();
-        let alternatives = own.get("oneOf").and_then(Json::as_array);
-        for alternative in alternatives.into_iter().flatten() {
-            words.extend(alternative.get("const").and_then(Json::as_str));
-            words.extend(strings(alternative.get("enum")));
-            kinds.extend(alternative.as_object().into_iter().flat_map(entries));
-        }
-        words.extend(strings(own.get("enum")));
-        Expected {
-            own,
-            description,
-            properties: entries(own).collect(),
-            kinds,
-            words,
-        }
-    }
-
-    fn allows(&self, kind: &str) -> bool {
-        match self.own.get("type") {
-            Some(Json::String(s)) => s == kind,
-            Some(Json::Array(all)) => all.iter().any(|s| s == kind),
-            _ => match kind {
-                "object" => !self.kinds.is_empty(),
-                "string" => !self.words.is_empty(),
-                _ => false,
-            },
-        }
-    }
-
-    fn limit(&self, keyword: &str) -> Option<f64> {
-        self.own.get(keyword).and_then(Json::as_f64)
-    }
-
-    /// In words.
-    fn name(&self) -> String {
-        let names = [
-            ("object", "a table"),
-            ("array", "a list"),
-            ("number", "a number"),
-            ("integer", "a whole number"),
-            ("string", "a string"),
-            ("boolean", "true or false"),
-        ];
-        let names: Vec<&str> = names
-            .iter()
-            .filter(|(kind, _)| self.allows(kind))
-            .map(|(_, name)| *name)
-            .collect();
-        names.join(" or ")
-    }
-}
-
-fn strings(list: Option<&Json>) -> impl Iterator<Item = &str> {
-    let list = list.and_then(Json::as_array).into_iter().flatten();
-    list.filter_map(Json::as_str)
-}
-
 struct Walk<'s> {
     root: &'s Json,
     path: Vec<String>,
@@ -196,72 +95,12 @@ impl<'s> Walk<'s> {
                 if !name.is_empty() {
                     let message =
                         format!("expected {name}, found {}", found_name(found.type_str()));
-                    let help = self.kind_help(&expected, found);
+                    let advice = advice::place(self.root, &self.path, &expected, found);
+                    let help = advice.or_else(|| expected.description.map(first_sentence));
                     self.report(span, message, help);
                 }
             }
         }
-    }
-
-    /// For `friction = "coulomb"`: how to write a kind; otherwise what the key means.
-    fn kind_help(&self, expected: &Expected, found: &Value) -> Option<String> {
-        let kinds: Vec<&str> = expected.kinds.iter().map(|(k, _)| *k).collect();
-        if let Some(example) = self.number_help(expected, found) {
-            let kinds = match kinds.is_empty() {
-                true => String::new(),
-                false => format!("; kinds: {}", kinds.join(", ")),
-            };
-            return Some(format!("write `{example}`{kinds}"));
-        }
-        if kinds.is_empty() {
-            return expected.description.map(first_sentence);
-        }
-        let kind = match found {
-            DeValue::String(word) => nearest(word, &kinds),
-            _ => None,
-        };
-        let example = format!(
-            "{}.{} = {{ … }}",
-            key::join(&self.path),
-            kind.unwrap_or(kinds[0])
-        );
-        Some(format!(
-            "the kind is a key: `{example}`; kinds: {}",
-            kinds.join(", ")
-        ))
-    }
-
-    /// For `friction = 0.2` and `increments = 10`: where the number belongs, if there is a kind with one number, or a key of its type.
-    fn number_help(&self, expected: &Expected, found: &Value) -> Option<String> {
-        let (text, types) = match found {
-            DeValue::Integer(i) => (i.as_str(), ["integer", "number"]),
-            DeValue::Float(f) => (f.as_str(), ["number", "number"]),
-            _ => return None,
-        };
-        let of_type = |schema: &Json, kind: &str| Expected::of(self.root, schema).allows(kind);
-        let only = |required: &[&str], properties: &[(&str, &Json)], kind: &str| {
-            let wanted = properties.iter().filter(|(name, schema)| {
-                (required.is_empty() || required.contains(name)) && of_type(schema, kind)
-            });
-            let names: Vec<String> = wanted.map(|(name, _)| name.to_string()).collect();
-            match names.as_slice() {
-                [one] if required.len() < 2 => Some(one.clone()),
-                _ => None,
-            }
-        };
-        let here = self.path.last()?;
-        if expected.kinds.is_empty() {
-            let mut keys = types.iter();
-            let key = keys.find_map(|kind| only(&[], &expected.properties, kind))?;
-            return Some(format!("{here} = {{ {key} = {text} }}"));
-        }
-        expected.kinds.iter().find_map(|(kind, schema)| {
-            let inner = Expected::of(self.root, schema);
-            let required: Vec<&str> = strings(inner.own.get("required")).collect();
-            let key =
-                (required.len() == 1).then(|| only(&required, &inner.properties, "number"))??;
-            Some(format!("{here}.{kind} = {{ {key} = {text} }}"))
-        })
     }
 
     fn number(&mut self, expected: &Expected, value: &Spanned<Value>, span: Range<usize>) {
@@ -363,7 +202,8 @@ impl<'s> Walk<'s> {
                 None if rest == Some(&Json::Bool(true)) => {}
                 None => {
                     unknown = true;
-                    let help = suggest(name, "allowed here", &names);
+                    let found = value.get_ref();
+                    let help = advice::elsewhere(self.root, &self.path, (expected, &names), found);
                     self.report(span.clone(), format!("unknown key `{name}`"), Some(help));
                 }
             }

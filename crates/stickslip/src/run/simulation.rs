@@ -195,7 +195,7 @@ impl Simulation {
         summary.energy = self.frame.ledger;
         let strain = self.frame.ledger.strain;
         summary.artificial_energy = self.solver.floating.artificial_energy(strain);
-        summary.interfaces = quality::interfaces(&view, &summary.quality);
+        summary.interfaces = quality::interfaces(&view, &summary.quality, &self.watches);
         if summary.completed {
             for finding in doctor::watched(&view, &self.watches) {
                 doctor::note(&mut summary.findings, finding);

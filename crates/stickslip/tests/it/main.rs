@@ -31,6 +31,7 @@ mod restep;
 mod rigid;
 mod schema;
 mod starts;
+mod suggestions;
 mod threads;
 mod units;
 mod wear;

@@ -452,16 +452,17 @@ fn help_names_the_nearest_and_what_there_is() {
         "did you mean `young`? allowed here: density, poisson, young"
     );
     let kind = help("friction.coulomb = { mu = 1.0 }", "friction = \"coulom\"");
-    let expected = "the kind is a key: `interface.base.friction.coulomb = { … }`; kinds: none, coulomb, power-law, ";
+    let expected =
+        "the kind is a key: `friction.coulomb.mu = …`; kinds: none, coulomb, power-law, ";
     assert!(kind.starts_with(expected), "{kind}");
     let number = help("friction.coulomb = { mu = 1.0 }", "friction = 0.2");
-    let expected = "write `friction.coulomb = { mu = 0.2 }`; kinds: none, coulomb, ";
+    let expected = "write `friction.coulomb.mu = 0.2`; kinds: none, coulomb, ";
     assert!(number.starts_with(expected), "{number}");
     let stiffness = help(
         "friction.coulomb = { mu = 1.0 }",
         "friction.coulomb = { mu = 1.0 }\nnormal = 1e14",
     );
-    let expected = "write `normal.linear = { c = 1e14 }`; kinds: unilateral, ";
+    let expected = "write `normal.linear.c = 1e14`; kinds: unilateral, ";
     assert!(stiffness.starts_with(expected), "{stiffness}");
     assert_eq!(
         help("primary = \"floor\"", "primary = \"B\""),

@@ -202,6 +202,13 @@ fn commands_do_what_the_book_says() {
                 let (code, printed) = follow(command, &folder);
                 said += &printed;
                 assert_eq!(code, wanted, "{}: {line}", page.display());
+                let wide = printed.lines().find(|l| l.chars().count() > 100);
+                let runs = line.starts_with("stickslip run") && wanted == Some(0);
+                assert!(
+                    !runs || wide.is_none(),
+                    "{}: {line}: {wide:?}",
+                    page.display()
+                );
                 followed += 1;
             }
         }

@@ -3,6 +3,7 @@
 use super::definition::{Interface, Primary};
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, norm, normalize, scale, sub};
+use crate::system::Tally;
 
 /// Forces of an interface on what the problem calls its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -21,6 +22,8 @@ pub struct Resultant {
     pub area: f64,
     /// Largest pressure `[Pa]`.
     pub peak: f64,
+    /// Where it is `[m]`, displaced; of points that press alike the first. The origin where nothing presses.
+    pub peak_at: Vec3,
     /// Sum of the magnitudes of pressure forces, whatever their directions `[N]`.
     pub total: f64,
     /// The same of all forces, shear included `[N]`.
@@ -29,6 +32,9 @@ pub struct Resultant {
 
 /// What pressure and pull leave of their sum, relative to the sum of their magnitudes, where they have no centre.
 const CANCELLED: f64 = 1e-9;
+
+/// Pressures that differ by less than this part are alike.
+const ALIKE: f64 = 1e-9;
 
 impl Interface {
     /// Forces on the secondary, as it is named, at the last committed state `u`.
@@ -54,6 +60,10 @@ impl Interface {
             r.total += h.pressure.abs() * area;
             r.carried += h.pressure.hypot(norm(h.shear)) * area;
             r.area += area;
+            // What is larger by rounding only is no other place.
+            if h.pressure > (1.0 + ALIKE) * r.peak {
+                r.peak_at = add(place, self.origin);
+            }
             r.peak = r.peak.max(h.pressure);
         }
         let averaged = self.points.iter().any(|p| p.nodes.len() > 1);
@@ -72,6 +82,19 @@ impl Interface {
             *v = scale(self.named(), *v);
         }
         r
+    }
+
+    /// Points by what they did at the last committed state; `changed` is zero.
+    pub fn tally(&self) -> Tally {
+        let mut tally = Tally::default();
+        for point in &self.history.points {
+            *match point.status {
+                Status::Open => &mut tally.open,
+                Status::Stick => &mut tally.stick,
+                Status::Slip => &mut tally.slip,
+            } += 1;
+        }
+        tally
     }
 
     /// Centre of the area in contact at the displacements `u` `[m]`, and the mean outward normal of the secondary there; zero where nothing touches.

@@ -33,4 +33,5 @@ pub(crate) use places::body as body_at;
 pub(crate) use record::{Counters, mistake, note};
 pub(crate) use surfaces::Opposite;
 pub(crate) use unjoined::Unjoined;
+pub use watch::Peak;
 pub(crate) use watch::{Watch, watched};

@@ -1,9 +1,12 @@
 //! What interfaces did over a whole run: those that never carried anything, those whose contact is too small for their mesh.
 
+use serde::Serialize;
+
 use super::cause::DoctorCause;
 use super::finding::{Finding, Guilty, Severity};
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Resolution};
+use crate::contact::interface::{Interface, Resolution, Resultant};
+use crate::math::Vec3;
 
 /// What is remembered of an interface.
 #[derive(Debug, Clone, Copy, Default)]
@@ -17,7 +20,24 @@ pub(crate) struct Watch {
     /// The largest turn of normals that small sliding leaves out so far `[rad]`, and its time.
     turn: f64,
     turned_at: f64,
+    /// The largest pressure so far.
+    peak: Peak,
 }
+
+/// The largest pressure of an interface over a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Peak {
+    /// The pressure `[Pa]`; 0 where nothing ever pressed.
+    pub value: f64,
+    /// The contact point that carried it `[m]`, displaced.
+    pub at: Vec3,
+    /// When `[s]`; the first time where it stays.
+    pub time: f64,
+}
+
+/// What a pressure has to exceed the largest so far by, as a part of it: one that stays as it is differs by rounding from increment to increment.
+const LARGER: f64 = 1e-9;
 
 /// Turn of normals worth a word: shear over pressure is off by as much.
 const TURNED: f64 = 0.02;
@@ -29,8 +49,21 @@ const RESOLVED: f64 = 0.5;
 const NOTHING: f64 = 1e-11;
 
 impl Watch {
-    /// Looks at the last accepted state, of which `force` is the sum of the magnitudes of all forces.
-    pub fn note(&mut self, interface: &Interface, force: f64, (u, t): (&[f64], f64)) {
+    /// The largest pressure so far.
+    pub fn peak(&self) -> Peak {
+        self.peak
+    }
+
+    /// Looks at the last accepted state, of which `r` are the forces.
+    pub fn note(&mut self, interface: &Interface, r: &Resultant, (u, t): (&[f64], f64)) {
+        let force = r.carried;
+        if r.peak > (1.0 + LARGER) * self.peak.value {
+            self.peak = Peak {
+                value: r.peak,
+                at: r.peak_at,
+                time: t,
+            };
+        }
         self.acted |= interface.schedule.active(t);
         let turn = interface.normals_turned(u);
         if turn > self.turn {
@@ -136,5 +169,7 @@ crate::keep!(Watch {
     resolution,
     acted,
     turn,
-    turned_at
+    turned_at,
+    peak
 });
+crate::keep!(Peak { value, at, time });

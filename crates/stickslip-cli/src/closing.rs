@@ -1,0 +1,222 @@
+//! What is said at the end of a run: what came out, how good it is, where it is, and what to do with it.
+
+use std::path::Path;
+
+use stickslip::assess::doctor::Finding;
+use stickslip::assess::{Figure, Gate, InterfaceSummary};
+use stickslip::math::norm;
+use stickslip::model::GateMode;
+use stickslip::results::{Analysis, Summary};
+
+use crate::style::{self, Look, digits, figure, paint, sentence, vector};
+use crate::voice::say;
+
+/// Places nearer to an axis than this part of the size of the model are on it: bodies are strained by more. In the unit of [`vector`].
+const HERE: f64 = 1e-4 / style::ROUNDED;
+
+/// Forces below this part of all that an interface carries are rounding.
+const NOTHING: f64 = 1e-9;
+
+/// What a user wants to know at the end; with `verbose` what only who works on the solver wants to know as well.
+pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
+    let s = analysis.summary;
+    say(&effort(s));
+    let time = digits(analysis.frame.state.t, 6);
+    let dim = analysis.model.dofs.dim;
+    let size = analysis.model.mesh.diameter();
+    for interface in &s.interfaces {
+        for line in physics(interface, (dim, size), &time) {
+            say(&line);
+        }
+    }
+    if s.mass_added > 0.0 {
+        let added = figure(100.0 * s.mass_added);
+        say(&format!(
+            "mass scaling added {added} % to the mass of the bodies"
+        ));
+    }
+    if verbose {
+        for line in internals(analysis) {
+            say(&sentence(&line));
+        }
+    }
+    say(&quality(&s.quality));
+    let folder = directory.display();
+    say(&format!("results in {folder}"));
+    say(&format!("  stickslip plot {folder}      a picture"));
+    say(&format!(
+        "  stickslip report {folder}    all of it, as a page to browse"
+    ));
+}
+
+fn effort(s: &Summary) -> String {
+    let events = match s.events {
+        0 => String::new(),
+        n => format!(", {n} halvings to locate events"),
+    };
+    format!(
+        "{}: {} increments, {} iterations, {} cut-backs{events}, {:.2} s",
+        paint(Look::Good, "done"),
+        s.increments,
+        s.iterations,
+        s.cutbacks,
+        s.phases.total
+    )
+}
+
+/// What an interface carries, in the units of the problem.
+fn physics(i: &InterfaceSummary, (dim, size): (usize, f64), time: &str) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{} {} at time {time}, forces on its secondary",
+        paint(Look::Strong, "interface"),
+        style::short(&i.name, 50)
+    )];
+    let mut line = |what: &str, text: String| lines.push(format!("  {what:<15}{text}"));
+    let peak = &i.peak_pressure;
+    line(
+        "peak pressure",
+        match peak.value > 0.0 {
+            true => format!(
+                "{} at {}, time {}; now {}",
+                figure(peak.value),
+                vector(&peak.at[..dim], HERE * size),
+                digits(peak.time, 6),
+                figure(i.pressure)
+            ),
+            false => "none: it never pressed".into(),
+        },
+    );
+    let all = norm(i.normal_force).max(norm(i.shear_force));
+    let force = |f: [f64; 3]| match norm(f) > NOTHING * all {
+        true => format!("{} {}", figure(norm(f)), vector(&f[..dim], all)),
+        false => "0".into(),
+    };
+    line("normal force", force(i.normal_force));
+    line("shear force", force(i.shear_force));
+    line("contact area", figure(i.area));
+    let p = &i.points;
+    line(
+        "points",
+        format!("{} stick, {} slip, {} open", p.stick, p.slip, p.open),
+    );
+    line("friction work", figure(i.friction_work));
+    lines
+}
+
+/// The quality gate in a line.
+fn quality(gate: &Gate) -> String {
+    let word = paint(Look::Strong, "quality");
+    if gate.gate == GateMode::Off {
+        return format!("{word}: not judged, `quality.gate` is off");
+    }
+    let judged = gate.figures.iter().filter(|f| f.limit.is_some());
+    let missed = gate.violations().count();
+    if missed > 0 {
+        let look = match gate.failed() {
+            true => Look::Wrong,
+            false => Look::Warning,
+        };
+        let limits = if missed == 1 {
+            "its limit"
+        } else {
+            "their limits"
+        };
+        let missed = paint(look, &format!("{missed} of {}", judged.count()));
+        return format!("{word}: {missed} figures above {limits}");
+    }
+    let part = |f: &Figure| f.value / f.limit.unwrap_or(f64::INFINITY);
+    let nearest = judged.clone().max_by(|a, b| part(a).total_cmp(&part(b)));
+    let nearest = match nearest.filter(|f| f.value > 0.0) {
+        Some(f) => format!(
+            "; nearest: {} of {}, {} of {}",
+            f.figure,
+            style::short(&f.place, 24),
+            digits(f.value, 2),
+            digits(f.limit.unwrap_or(f64::INFINITY), 2)
+        ),
+        None => String::new(),
+    };
+    let all = judged.count();
+    match all {
+        0 => format!("{word}: nothing to judge"),
+        1 => format!("{word}: 1 figure, within its limit{nearest}"),
+        _ => format!("{word}: all {all} figures within their limits{nearest}"),
+    }
+}
+
+/// What the solver did, and what its approximations cost.
+fn internals(analysis: &Analysis) -> Vec<String> {
+    let s = analysis.summary;
+    let mut lines = vec![format!("  factorisations: {}", s.solver.factorisations)];
+    if !s.friction_solvers.is_empty() {
+        let each = s.friction_solvers.iter();
+        let each: Vec<String> = each.map(|(name, n)| format!("{n} by {name}")).collect();
+        lines.push(format!(
+            "  solved as friction problems: {}",
+            each.join("; ")
+        ));
+    }
+    lines.push(phases(s));
+    if s.relative_to_linear > 0.0 {
+        lines.push(format!(
+            "  without writing {:.2} times one assembly, factorisation and solution of the same bodies ({:.2} s)",
+            s.relative_to_linear, s.linear_solve
+        ));
+    }
+    if analysis.model.moves() {
+        lines.push(format!(
+            "  energy: the balance is open by {:.1e} of the energies in play",
+            s.energy_quality.residual
+        ));
+    }
+    for i in &s.interfaces {
+        lines.push(format!(
+            "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",
+            i.name, i.quality.relative_to_size, i.relative_to_approach
+        ));
+        if let Some(n) = &i.numerical_stiffness {
+            lines.push(format!(
+                "  {}: independent of the numerical stiffness to {:.1e} % (factor {:.3e})",
+                i.name,
+                100.0 * n.independent_to,
+                n.factor
+            ));
+        }
+    }
+    lines
+}
+
+fn phases(s: &Summary) -> String {
+    let p = &s.phases;
+    format!(
+        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
+        p.read,
+        p.assemble,
+        p.order,
+        p.factor,
+        p.condense,
+        p.iterate,
+        p.contact,
+        p.recover,
+        p.write,
+        s.solver.flops,
+        s.peak_memory as f64 / 1e9
+    )
+}
+
+/// Says which figures of the quality gate are above their limits.
+pub fn gate(gate: &Gate, findings: &[Finding]) {
+    let word = match gate.failed() {
+        true => paint(Look::Wrong, "error"),
+        false => paint(Look::Warning, "warning"),
+    };
+    for figure in gate.violations() {
+        say(&sentence(&format!(
+            "{word}: quality: {}",
+            figure.sentence(findings)
+        )));
+    }
+    if !gate.met {
+        say("  the results are kept; `[quality]` in the problem file sets the limits");
+    }
+}

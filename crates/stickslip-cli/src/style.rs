@@ -1,0 +1,176 @@
+//! How words on standard error look: colours where somebody sees them, numbers with the digits that say something, lines that fit.
+
+use std::io::IsTerminal;
+use std::sync::LazyLock;
+
+/// Columns of a line.
+pub const WIDTH: usize = 100;
+
+/// Components below this part of a scale are rounding.
+pub const ROUNDED: f64 = 1e-9;
+
+/// How a word looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// A heading.
+    Strong,
+    /// All is well.
+    Good,
+    /// Worth a look.
+    Warning,
+    /// Something is wrong.
+    Wrong,
+}
+
+/// Whether standard error shows colours: it is a terminal that knows them, and nobody has asked for none (<https://no-color.org>).
+pub fn coloured() -> bool {
+    static COLOURED: LazyLock<bool> = LazyLock::new(|| {
+        let is = |name: &str| std::env::var_os(name).unwrap_or_default();
+        wanted(
+            std::io::stderr().is_terminal(),
+            !is("NO_COLOR").is_empty(),
+            is("TERM") == "dumb",
+        )
+    });
+    *COLOURED
+}
+
+fn wanted(terminal: bool, refused: bool, dumb: bool) -> bool {
+    terminal && !refused && !dumb
+}
+
+/// A word as it looks on standard error.
+pub fn paint(look: Look, text: &str) -> String {
+    painted(coloured(), look, text)
+}
+
+fn painted(coloured: bool, look: Look, text: &str) -> String {
+    let code = match look {
+        Look::Strong => "1",
+        Look::Good => "32",
+        Look::Warning => "33",
+        Look::Wrong => "31",
+    };
+    match coloured {
+        true => format!("\x1b[{code}m{text}\x1b[0m"),
+        false => text.to_string(),
+    }
+}
+
+/// A number with four digits, without zeros that say nothing.
+pub fn figure(x: f64) -> String {
+    digits(x, 4)
+}
+
+/// The same with as many digits as are asked for.
+pub fn digits(x: f64, count: usize) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{}", x.abs() + 0.0 * x);
+    }
+    // Rounded first: 9.9999 has two places before the point with four digits.
+    let text = format!("{x:.*e}", count.saturating_sub(1));
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-3..count as i32 + 1).contains(&exponent) {
+        let places = (count as i32 - 1 - exponent).max(0) as usize;
+        return trimmed(&format!("{x:.places$}")).to_string();
+    }
+    format!("{}e{exponent}", trimmed(mantissa))
+}
+
+fn trimmed(text: &str) -> &str {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
+    }
+}
+
+/// A vector, where what is nothing but rounding beside `scale` is zero.
+pub fn vector(components: &[f64], scale: f64) -> String {
+    let each = components.iter().map(|c| match c.abs() <= ROUNDED * scale {
+        true => "0".to_string(),
+        false => figure(*c),
+    });
+    format!("({})", each.collect::<Vec<_>>().join(", "))
+}
+
+/// A name in so many columns.
+pub fn short(name: &str, most: usize) -> String {
+    match name.chars().count() > most {
+        true => name.chars().take(most - 1).chain(['…']).collect(),
+        false => name.to_string(),
+    }
+}
+
+/// A sentence in lines that fit, all but the first two columns further in.
+pub fn sentence(text: &str) -> String {
+    let indent = text.len() - text.trim_start().len();
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = " ".repeat(indent);
+    let mut begun = false;
+    for word in text.split_whitespace() {
+        if begun && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(std::mem::replace(&mut line, " ".repeat(indent + 2)));
+            begun = false;
+        }
+        if begun {
+            line.push(' ');
+        }
+        line += word;
+        begun = true;
+    }
+    lines.push(line);
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_for_terminals_where_nobody_minds() {
+        assert!(wanted(true, false, false));
+        for (terminal, refused, dumb) in [
+            (false, false, false),
+            (true, true, false),
+            (true, false, true),
+        ] {
+            assert!(!wanted(terminal, refused, dumb));
+        }
+        assert_eq!(painted(true, Look::Wrong, "error"), "\x1b[31merror\x1b[0m");
+        assert_eq!(painted(false, Look::Wrong, "error"), "error");
+    }
+
+    #[test]
+    fn numbers_have_the_digits_that_say_something() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (0.5, "0.5"),
+            (-0.12345, "-0.1235"),
+            (0.001234, "0.001234"),
+            (0.0001234, "1.234e-4"),
+            (9999.6, "10000"),
+            (12345.6, "12346"),
+            (123456.0, "1.235e5"),
+            (2.1e11, "2.1e11"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(figure(x), text);
+        }
+        assert_eq!(digits(1.0 / 3.0, 6), "0.333333");
+        assert_eq!(vector(&[1e-12, 2.0], 2.0), "(0, 2)");
+    }
+
+    #[test]
+    fn long_sentences_go_on_in_the_next_line() {
+        let text = format!("  note: {}", "word ".repeat(40));
+        let lines = sentence(&text);
+        assert!(lines.lines().all(|l| l.chars().count() <= WIDTH), "{lines}");
+        assert!(lines.starts_with("  note: word"), "{lines}");
+        assert!(lines.lines().skip(1).all(|l| l.starts_with("    word")));
+        assert_eq!(sentence("short"), "short");
+        assert_eq!(short("a long name", 6), "a lon…");
+    }
+}
