@@ -107,7 +107,7 @@ fn physics(i: &InterfaceSummary, (dim, size): (usize, f64), time: &str) -> Vec<S
 fn quality(gate: &Gate) -> String {
     let word = paint(Look::Strong, "quality");
     if gate.gate == GateMode::Off {
-        return format!("{word}: not judged, `quality.gate` is off");
+        return format!("{word} is not judged: `quality.gate` is off");
     }
     let judged = gate.figures.iter().filter(|f| f.limit.is_some());
     let missed = gate.violations().count();
@@ -126,22 +126,22 @@ fn quality(gate: &Gate) -> String {
     }
     let part = |f: &Figure| f.value / f.limit.unwrap_or(f64::INFINITY);
     let nearest = judged.clone().max_by(|a, b| part(a).total_cmp(&part(b)));
-    let nearest = match nearest.filter(|f| f.value > 0.0) {
-        Some(f) => format!(
-            "; nearest: {} of {}, {} of {}",
-            f.figure,
-            style::short(&f.place, 24),
-            digits(f.value, 2),
-            digits(f.limit.unwrap_or(f64::INFINITY), 2)
-        ),
-        None => String::new(),
-    };
     let all = judged.count();
-    match all {
-        0 => format!("{word}: nothing to judge"),
-        1 => format!("{word}: 1 figure, within its limit{nearest}"),
-        _ => format!("{word}: all {all} figures within their limits{nearest}"),
-    }
+    let head = match all {
+        0 => return format!("{word}: nothing to judge"),
+        1 => "the one limit is kept".to_string(),
+        _ => format!("all {all} limits are kept"),
+    };
+    let Some(f) = nearest.filter(|f| f.value > 0.0) else {
+        return format!("{word}: {head}");
+    };
+    let limit = digits(f.limit.unwrap_or(f64::INFINITY), 2);
+    let tail = format!(", {} of {limit}", digits(f.value, 2));
+    let head = format!("{head}; nearest: {} of ", f.figure);
+    // The place is what may be long.
+    let rest = "quality: ".len() + head.len() + tail.len();
+    let place = style::short(&f.place, style::WIDTH.saturating_sub(rest).max(1));
+    format!("{word}: {head}{place}{tail}")
 }
 
 /// What the solver did, and what its approximations cost.

@@ -64,8 +64,11 @@ pub fn figure(x: f64) -> String {
 
 /// The same with as many digits as are asked for.
 pub fn digits(x: f64, count: usize) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return format!("{}", x.abs() + 0.0 * x);
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !x.is_finite() {
+        return x.to_string();
     }
     // Rounded first: 9.9999 has two places before the point with four digits.
     let text = format!("{x:.*e}", count.saturating_sub(1));

@@ -231,7 +231,7 @@ pub fn go(session: Session, manner: &Manner) -> Outcome {
         ));
     }
     if let Some(why) = files.unsaved().filter(|_| manner.quiet) {
-        crate::progress::say(&sentence(&format!("warning: {why}")));
+        crate::progress::say(&format!("warning: {why}"));
     }
     outcome?;
     drop(heartbeat);

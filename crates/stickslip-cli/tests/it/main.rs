@@ -12,6 +12,4 @@ mod faults;
 mod progress;
 mod reports;
 mod runs;
-#[path = "../../../stickslip/tests/it/suggestions.rs"]
-mod suggestions;
 mod sweep;

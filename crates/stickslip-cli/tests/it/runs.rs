@@ -270,7 +270,8 @@ fn a_poor_result_is_kept_and_ends_with_code_2_and_a_sentence() {
     assert_eq!(summary["quality"]["met"], false);
     assert_eq!(summary["quality"]["gate"], "error");
 
-    let output = stickslip(&["run", &case, "-o", &out, "--set", "quality.gate=\"warn\""]);
+    let warn = "quality.gate=\"warn\"";
+    let output = stickslip(&["run", &case, "-o", &out, "-v", "--set", warn]);
     let said = text(&output.stderr);
     assert_eq!(code(&output), Some(0), "{said}");
     assert!(

@@ -120,7 +120,10 @@ pub(super) fn elsewhere(
         return (*advice).into();
     }
     let whole = Expected::of(root, root);
-    let away = words.find_map(|w| schema.written(&whole, w, found));
+    let away = words.find_map(|w| match found {
+        DeValue::Table(_) => schema.heading(&whole, w),
+        _ => schema.written(&whole, w, found),
+    });
     match away.filter(|_| !parents.is_empty()) {
         Some(examples) => format!("it belongs elsewhere: {examples}; {}", all()),
         None => all(),
@@ -454,6 +457,17 @@ impl<'s> Schema<'s> {
         }
         let few = (1..=PLACES).contains(&examples.len());
         few.then(|| examples.join(" or "))
+    }
+
+    /// The heading of the table of this name that lies least deep.
+    fn heading(&self, table: &Expected<'s>, name: &str) -> Option<String> {
+        let path = self.named_below(table, name)?;
+        let named = self
+            .table_at(table, &path)?
+            .entry()
+            .map(|_| NAME.to_string());
+        let all: Vec<String> = path.into_iter().chain(named).collect();
+        Some(format!("`[{}]`", key::join(&all)))
     }
 
     /// The same as [`form`](Self::form) for a table that is there already, with what it requires or without.

@@ -21,7 +21,7 @@ const KINDS: &[Kind] = &[
     (
         &[b"*"],
         "an input deck of Abaqus or CalculiX",
-        "`stickslip run` and `stickslip check` take decks with names that end in .inp; `stickslip convert FILE.inp FILE.toml` makes a problem file of one",
+        "`stickslip run` and `stickslip check` take decks with names that end in `.inp`; `stickslip convert FILE.inp FILE.toml` makes a problem file of one",
     ),
     (
         &[b"# vtk datafile"],

@@ -307,7 +307,7 @@ fn a_number_of_increments_belongs_into_their_table() {
             "{ name = \"press\" }",
             "{ name = \"press\", increments = 10 }",
         ),
-        &["expected a table", "write `increments = { fixed = 10 }`"],
+        &["expected a table", "write `increments.fixed = 10`"],
     );
 }
 
