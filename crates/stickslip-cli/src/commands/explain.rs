@@ -40,7 +40,7 @@ fn read(directory: &Path) -> Result<Value, Failure> {
         true => directory.join("summary.json"),
         false => directory.to_path_buf(),
     };
-    if path.is_file() && !path.extension().is_some_and(|e| e == "json") {
+    if path.is_file() && path.extension().is_none_or(|e| e != "json") {
         return Err(Failure::Arguments(
             format!(
                 "{}: this is a file; the folder with the results of a run is needed",
