@@ -3,6 +3,8 @@
 //! The cards of a part are kept, and read for every instance with the numbers, names and place that the instance has. So each card is read
 //! by the function that reads it in a flat deck.
 
+use stickslip::io::abaqus::{self, Space};
+
 use super::cards;
 use super::fields::nearest;
 use super::reader::Reader;
@@ -12,8 +14,6 @@ use crate::motion::Motion;
 use crate::numbering::Numbering;
 use crate::source::Source;
 use crate::text::{clip, squeeze, whole};
-
-use stickslip::io::abaqus::{self, Space};
 
 /// Most lines that are read for instances: a short deck must not ask for more than there is memory.
 const MOST_LINES: usize = 20_000_000;

@@ -1,5 +1,7 @@
 //! Nodes, their axes and normals.
 
+use stickslip::math::{cross, sub};
+
 use super::fields::Nodes;
 use super::reader::Reader;
 use super::sets::add;
@@ -7,8 +9,6 @@ use crate::axes::frame;
 use crate::card::Card;
 use crate::deck::Transform;
 use crate::motion::Motion;
-
-use stickslip::math::{cross, sub};
 
 impl Reader<'_> {
     pub(super) fn nodes(&mut self, card: &Card) {
