@@ -156,8 +156,10 @@ impl Cursor<'_> {
         let name = self.line();
         assert!(name.starts_with(" -4  ") && name.len() == 23, "{name:?}");
         block.name = name[5..13].trim_end().to_string();
-        let mut count = number::<usize>(&name, 13, 18);
-        for _ in 0..count {
+        // The last of them may be one that readers compute.
+        let named = number::<usize>(&name, 13, 18);
+        let mut count = named;
+        for _ in 0..named {
             let line = self.line();
             assert!(line.starts_with(" -5  "), "{line:?}");
             if line.ends_with("    1ALL") {
