@@ -242,7 +242,7 @@ fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsMo
     let tangent = least(|| evaluate(true, true));
     let lean = least(|| evaluate(true, false));
     let norm = out.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
-    let tally = interface.tally();
+    let tally = interface.tally().unwrap_or_default();
     let us = |seconds: f64| 1e6 * seconds / count as f64;
     println!(
         "{:6} {:6} {:14} {:12} {:5.1} | {:6.2} {:8.2} {:7.2} {:6.2} | {:6.3} | {:3} {:20.13e}",

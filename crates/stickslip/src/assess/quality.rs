@@ -452,7 +452,7 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
             normal_force: r.normal,
             shear_force: r.shear,
             area: r.area,
-            points: interface.tally().into(),
+            points: interface.committed_tally().into(),
             friction_work: interface.energy().dissipated,
             quality,
             relative_to_approach: ratio(quality.penetration, whole),

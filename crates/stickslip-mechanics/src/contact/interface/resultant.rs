@@ -85,7 +85,7 @@ impl Interface {
     }
 
     /// Points by what they did at the last committed state; `changed` is zero.
-    pub fn tally(&self) -> Tally {
+    pub fn committed_tally(&self) -> Tally {
         let mut tally = Tally::default();
         for point in &self.history.points {
             *match point.status {
