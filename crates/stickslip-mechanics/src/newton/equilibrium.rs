@@ -43,7 +43,7 @@ enum Curvature {
     /// Where it costs next to nothing, until Newton's method misses it.
     Unasked,
     Wanted,
-    /// Not any more: linear systems could not be solved with it.
+    /// That of whole surfaces not any more: linear systems could not be solved with it.
     Refused,
 }
 
@@ -176,11 +176,10 @@ fn solve(
     };
     // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel of their own points alone.
     if system.patience() == 0 {
-        let dear = system.bulk.prefers_straight(out);
         match curvature {
-            Curvature::Unasked if dear => out.straighten(),
+            Curvature::Unasked if system.bulk.prefers_straight(out) => out.straighten(),
             Curvature::Unasked | Curvature::Wanted => system.curve(out),
-            Curvature::Refused => out.straighten(),
+            Curvature::Refused => {}
         }
     }
     let wanted = wanted.clamp(FINEST, coarse.max(FINEST));
@@ -188,9 +187,8 @@ fn solve(
     let solved = (system.bulk).solve(out, b, wanted, du, (&settings, &mut *counts));
     let krylov = match solved {
         // Preconditioners know nothing of the curvature. Where it is so large that they fail, slower iterations are better than none.
-        Err(failure) if failure.cause == Cause::LinearSolver && *curvature == Curvature::Wanted => {
+        Err(failure) if failure.cause == Cause::LinearSolver && out.drop_curvature() => {
             *curvature = Curvature::Refused;
-            out.straighten();
             (system.bulk).solve(out, b, wanted, du, (&settings, counts))?
         }
         solved => solved?,

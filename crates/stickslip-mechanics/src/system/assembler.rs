@@ -164,7 +164,14 @@ impl Assembler {
     /// Takes how gaps and slips curve out of the tangent, and blocks that hold nothing else.
     pub fn straighten(&mut self) {
         self.blocks.iter_mut().for_each(|b| b.hessian.clear());
+        self.drop_curvature();
+    }
+
+    /// Takes away blocks that hold nothing but curvature; `false` if there are none.
+    pub fn drop_curvature(&mut self) -> bool {
+        let before = self.blocks.len();
         self.blocks.retain(|b| b.rows.iter().any(|r| *r != 0.0));
+        self.blocks.len() < before
     }
 
     /// Adds the residual of one point.
