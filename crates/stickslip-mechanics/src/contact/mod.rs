@@ -5,7 +5,7 @@
 //! | surface | `surface.rs`, `crossing.rs` | points of the secondary with their areas, facets of the primary; whether they run through themselves |
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
 //! | search | `search.rs` | which facets a point may meet |
-//! | projection | `projection.rs` | the projection of a point on a facet |
+//! | projection | `projection.rs`, `facet_point.rs`, `bounds.rs` | the projection of a point on a facet, and what follows from a place of it; where it lies and looks, which rules most facets out |
 //! | pairing | `pairing/` | which facet a point belongs to |
 //! | mortar | `mortar/` | integrals over what two surfaces have in common: gaps weighted over faces |
 //! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
@@ -53,9 +53,11 @@
 //! the points are gone through once for each of them, which yields the questions; the function answers all of them, and the evaluation proper finds
 //! them in `LawInput::answers`. Nothing else knows where a pressure came from.
 
+pub mod bounds;
 pub mod crossing;
 pub mod discretisation;
 pub mod enforcement;
+pub mod facet_point;
 pub mod interface;
 pub mod kinematics;
 pub mod law;

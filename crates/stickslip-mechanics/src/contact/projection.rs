@@ -1,92 +1,211 @@
 //! The projection of a point on a facet. Pure geometry; tolerances are lengths.
+//!
+//! Newton's method asks for positions and their derivatives many times, and for shape functions nowhere: a facet is a polynomial here.
 
+use super::facet_point::FACET_NODES;
 use crate::math::{Vec3, add_scaled, cross, distance, dot, norm, scale, sub};
 use crate::shape::ElementKind;
 
-/// Most nodes of a facet.
-pub const FACET_NODES: usize = 8;
-
-/// A facet's shape functions and its geometry at one place.
+/// The geometry of a facet: the coefficients of `1, ξ, η, ξη, ξ², η², ξ²η, ξη²`, among which are all that lines, triangles and quadrilaterals, linear or
+/// quadratic, have.
 #[derive(Debug, Clone, Copy)]
-pub struct FacetPoint {
+pub struct Patch {
+    /// Line, triangle or quadrilateral.
+    pub kind: ElementKind,
+    c: [Vec3; 8],
+    quadratic: bool,
+}
+
+/// A place of a facet.
+#[derive(Debug, Clone, Copy)]
+pub struct Foot {
     /// Reference coordinates.
     pub xi: [f64; 2],
-    /// Shape functions.
-    pub n: [f64; FACET_NODES],
-    /// Their first derivatives, `[direction][node]`.
-    pub dn: [[f64; FACET_NODES]; 2],
-    /// Their second derivatives `[11, 22, 12][node]`.
-    pub ddn: [[f64; FACET_NODES]; 3],
     /// Position.
     pub x: Vec3,
     /// Base vectors `∂x/∂ξ`; in 2D the second is the unit vector out of the plane.
     pub a: [Vec3; 2],
-    /// Second derivatives of the position, `11, 22, 12`.
-    pub aa: [Vec3; 3],
     /// Unit normal, out of the primary body.
     pub normal: Vec3,
 }
 
-/// Evaluates a facet at `xi`.
-pub fn evaluate(kind: ElementKind, coordinates: &[Vec3], xi: [f64; 2]) -> FacetPoint {
-    let reference = kind.reference();
-    let count = coordinates.len();
-    let at = [xi[0], xi[1], 0.0];
-    let mut p = FacetPoint {
-        xi,
-        n: [0.0; FACET_NODES],
-        dn: [[0.0; FACET_NODES]; 2],
-        ddn: [[0.0; FACET_NODES]; 3],
-        x: [0.0; 3],
-        a: [[0.0; 3]; 2],
-        aa: [[0.0; 3]; 3],
-        normal: [0.0; 3],
-    };
-    let mut d = [[0.0; 3]; FACET_NODES];
-    reference.values(at, &mut p.n[..count]);
-    reference.gradients(at, &mut d[..count]);
-    for (k, dk) in d[..count].iter().enumerate() {
-        p.dn[0][k] = dk[0];
-        p.dn[1][k] = dk[1];
-    }
-    let straight = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
-    if !straight {
-        reference.second_derivatives(at, &mut d[..count]);
-        for (k, dk) in d[..count].iter().enumerate() {
-            for (q, &value) in dk.iter().enumerate() {
-                p.ddn[q][k] = value;
+/// Steps of Newton's method for a projection.
+const ITERATIONS: usize = 25;
+
+/// Step in reference coordinates after which Newton's method, which squares the error, has converged to rounding.
+const LAST_STEP: f64 = 1e-9;
+
+/// Reference coordinates beyond which no projection is sought, and those beyond which one of before is no guide.
+const FAR: f64 = 1e3;
+const NEAR: f64 = 1.5;
+
+/// How far from a right angle, relative to the size of the facet, a projection may be that Newton's method has not settled on.
+const SETTLED: f64 = 1e-10;
+
+impl Patch {
+    /// Of a facet with these nodes.
+    pub fn new(kind: ElementKind, nodes: &[Vec3]) -> Patch {
+        let reference = kind.reference();
+        let count = nodes.len();
+        let origin = [0.0; 3];
+        let mut n = [0.0; FACET_NODES];
+        let mut d = [[0.0; 3]; FACET_NODES];
+        reference.values(origin, &mut n[..count]);
+        reference.gradients(origin, &mut d[..count]);
+        let mut c = [[0.0; 3]; 8];
+        let mut add = |k: usize, x: &Vec3, w: f64| c[k] = add_scaled(c[k], w, *x);
+        for ((x, n), d) in nodes.iter().zip(n).zip(d) {
+            add(0, x, n);
+            add(1, x, d[0]);
+            add(2, x, d[1]);
+        }
+        // Taylor's series at the origin, which ends.
+        if !matches!(kind, ElementKind::Line2 | ElementKind::Tri3) {
+            reference.second_derivatives(origin, &mut d[..count]);
+            for (x, [along, across, mixed]) in nodes.iter().zip(d) {
+                add(3, x, mixed);
+                add(4, x, 0.5 * along);
+                add(5, x, 0.5 * across);
             }
         }
-    }
-    for (k, &c) in coordinates.iter().enumerate() {
-        p.x = add_scaled(p.x, p.n[k], c);
-        p.a[0] = add_scaled(p.a[0], p.dn[0][k], c);
-        p.a[1] = add_scaled(p.a[1], p.dn[1][k], c);
-        if !straight {
-            for q in 0..3 {
-                p.aa[q] = add_scaled(p.aa[q], p.ddn[q][k], c);
+        if kind == ElementKind::Quad8 {
+            let mut d = [[0.0; 4]; FACET_NODES];
+            reference.third_derivatives(origin, &mut d[..count]);
+            for (x, d) in nodes.iter().zip(d) {
+                add(6, x, 0.5 * d[1]);
+                add(7, x, 0.5 * d[2]);
             }
         }
+        Patch {
+            kind,
+            c,
+            quadratic: kind.order() > 1,
+        }
     }
-    if kind.dim() == 1 {
-        p.a[1] = [0.0, 0.0, 1.0];
+
+    /// Position and base vectors.
+    #[inline]
+    pub fn at(&self, [s, t]: [f64; 2]) -> (Vec3, [Vec3; 2]) {
+        let c = &self.c;
+        let mut a = [add_scaled(c[1], t, c[3]), add_scaled(c[2], s, c[3])];
+        let mut x = add_scaled(add_scaled(c[0], s, c[1]), t, a[1]);
+        if self.quadratic {
+            let (along, across) = (add_scaled(c[4], t, c[6]), add_scaled(c[5], s, c[7]));
+            x = add_scaled(add_scaled(x, s * s, along), t * t, across);
+            a[0] = add_scaled(add_scaled(a[0], 2.0 * s, along), t * t, c[7]);
+            a[1] = add_scaled(add_scaled(a[1], 2.0 * t, across), s * s, c[6]);
+        }
+        if self.kind.dim() == 1 {
+            a[1] = [0.0, 0.0, 1.0];
+        }
+        (x, a)
     }
-    let n = cross(p.a[0], p.a[1]);
-    p.normal = scale(1.0 / norm(n), n);
-    p
+
+    /// Second derivatives of the position, `11, 22, 12`.
+    #[inline]
+    fn bending(&self, [s, t]: [f64; 2]) -> [Vec3; 3] {
+        let c = &self.c;
+        let mixed = add_scaled(add_scaled(c[3], 2.0 * s, c[6]), 2.0 * t, c[7]);
+        [
+            scale(2.0, add_scaled(c[4], t, c[6])),
+            scale(2.0, add_scaled(c[5], s, c[7])),
+            mixed,
+        ]
+    }
+
+    /// A place.
+    #[inline]
+    pub fn foot(&self, xi: [f64; 2]) -> Foot {
+        let (x, a) = self.at(xi);
+        let n = cross(a[0], a[1]);
+        Foot {
+            xi,
+            x,
+            a,
+            normal: scale(1.0 / norm(n), n),
+        }
+    }
+
+    /// Projects `point` orthogonally on the facet extended beyond its edges. `None` if the iteration does not settle, which happens only far
+    /// from a strongly curved facet.
+    pub fn project(&self, point: Vec3) -> Option<Foot> {
+        let [s, t, _] = self.kind.centre();
+        self.project_from(point, [s, t])
+    }
+
+    /// The same from the projection of a place nearby; from the centre if that leads nowhere.
+    pub fn project_near(&self, point: Vec3, xi: [f64; 2]) -> Option<Foot> {
+        // Far outside the facet its extension is no guide.
+        let near = xi[0].abs().max(xi[1].abs()) < NEAR;
+        let found = near.then(|| self.project_from(point, xi));
+        found.flatten().or_else(|| self.project(point))
+    }
+
+    fn project_from(&self, point: Vec3, start: [f64; 2]) -> Option<Foot> {
+        let mut xi = start;
+        let linear = matches!(self.kind, ElementKind::Line2 | ElementKind::Tri3);
+        for _ in 0..ITERATIONS {
+            let (x, a) = self.at(xi);
+            let r = sub(point, x);
+            let f = [dot(r, a[0]), dot(r, a[1])];
+            let metric = metric(&a);
+            let mut matrix = metric;
+            let mut positive = true;
+            if !linear {
+                let [along, across, mixed] = self.bending(xi).map(|aa| dot(r, aa));
+                matrix = [
+                    [metric[0][0] - along, metric[0][1] - mixed],
+                    [metric[1][0] - mixed, metric[1][1] - across],
+                ];
+                positive =
+                    matrix[0][0] > 0.0 && matrix[0][0] * matrix[1][1] > matrix[0][1] * matrix[0][1];
+            }
+            // Gauss-Newton far away is safer than Newton: the curvature term may make the matrix indefinite.
+            let inverse = invert2(if positive { &matrix } else { &metric })?;
+            let mut step = [
+                inverse[0][0] * f[0] + inverse[0][1] * f[1],
+                inverse[1][0] * f[0] + inverse[1][1] * f[1],
+            ];
+            if self.kind.dim() == 1 {
+                step[1] = 0.0;
+            }
+            let longest = step[0].abs().max(step[1].abs());
+            if !longest.is_finite() {
+                return None;
+            }
+            // Slip is a difference of such coordinates: every digit counts.
+            if !linear && longest <= f64::EPSILON {
+                return Some(self.foot(xi));
+            }
+            let damp = if !linear && longest > 1.0 {
+                1.0 / longest
+            } else {
+                1.0
+            };
+            xi = [xi[0] + damp * step[0], xi[1] + damp * step[1]];
+            if linear || (positive && longest < LAST_STEP) {
+                return Some(self.foot(xi));
+            }
+            if xi[0].abs() + xi[1].abs() > FAR {
+                return None;
+            }
+        }
+        let foot = self.foot(xi);
+        let r = sub(point, foot.x);
+        let size = match self.kind.dim() {
+            1 => norm(foot.a[0]),
+            _ => norm(foot.a[0]).max(norm(foot.a[1])),
+        };
+        let miss = dot(r, foot.a[0]).abs().max(dot(r, foot.a[1]).abs());
+        (miss < SETTLED * size * size).then_some(foot)
+    }
 }
 
-/// Index of a pair of directions in `11, 22, 12`.
+/// Products of base vectors.
 #[inline]
-pub(crate) fn pair_index(a: usize, b: usize) -> usize {
-    if a == b { a } else { 2 }
-}
-
-/// The metric of the projection's iteration, `a_α·a_β - r·a_αβ` with `r` from the facet to the point.
-pub(crate) fn projection_matrix(p: &FacetPoint, r: Vec3) -> [[f64; 2]; 2] {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| dot(p.a[i], p.a[j]) - dot(r, p.aa[pair_index(i, j)]))
-    })
+fn metric(a: &[Vec3; 2]) -> [[f64; 2]; 2] {
+    let mixed = dot(a[0], a[1]);
+    [[dot(a[0], a[0]), mixed], [mixed, dot(a[1], a[1])]]
 }
 
 /// Inverse of a symmetric 2×2 matrix; `None` if it is singular.
@@ -100,93 +219,6 @@ pub(crate) fn invert2(m: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
         [m[1][1] / det, -m[0][1] / det],
         [-m[1][0] / det, m[0][0] / det],
     ])
-}
-
-/// Step in reference coordinates after which Newton's method, which squares the error, has converged to rounding.
-const LAST_STEP: f64 = 1e-9;
-
-/// Projects `point` orthogonally on a facet extended beyond its edges. `None` if the iteration does not settle, which
-/// happens only far from a strongly curved facet.
-pub fn project(kind: ElementKind, coordinates: &[Vec3], point: Vec3) -> Option<FacetPoint> {
-    let centre = match kind {
-        ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0; 2],
-        _ => [0.0; 2],
-    };
-    project_from(kind, coordinates, point, centre)
-}
-
-/// The same from the projection of a place nearby; from the centre if that leads nowhere.
-pub fn project_near(
-    kind: ElementKind,
-    coordinates: &[Vec3],
-    point: Vec3,
-    xi: [f64; 2],
-) -> Option<FacetPoint> {
-    // Far outside the facet its extension is no guide.
-    let near = xi[0].abs().max(xi[1].abs()) < 1.5;
-    let found = near.then(|| project_from(kind, coordinates, point, xi));
-    found
-        .flatten()
-        .or_else(|| project(kind, coordinates, point))
-}
-
-fn project_from(
-    kind: ElementKind,
-    coordinates: &[Vec3],
-    point: Vec3,
-    start: [f64; 2],
-) -> Option<FacetPoint> {
-    let mut xi = start;
-    let linear = matches!(kind, ElementKind::Line2 | ElementKind::Tri3);
-    for _ in 0..25 {
-        let p = evaluate(kind, coordinates, xi);
-        let r = sub(point, p.x);
-        let f = [dot(r, p.a[0]), dot(r, p.a[1])];
-        // Gauss-Newton far away is safer than Newton: the curvature term may make the matrix indefinite.
-        let full = projection_matrix(&p, r);
-        let positive = full[0][0] > 0.0 && full[0][0] * full[1][1] > full[0][1] * full[0][1];
-        let matrix = if positive {
-            full
-        } else {
-            projection_matrix(&p, [0.0; 3])
-        };
-        let inverse = invert2(&matrix)?;
-        let mut step = [
-            inverse[0][0] * f[0] + inverse[0][1] * f[1],
-            inverse[1][0] * f[0] + inverse[1][1] * f[1],
-        ];
-        if kind.dim() == 1 {
-            step[1] = 0.0;
-        }
-        let longest = step[0].abs().max(step[1].abs());
-        if !longest.is_finite() {
-            return None;
-        }
-        // Slip is a difference of such coordinates: every digit counts.
-        if !linear && longest <= f64::EPSILON {
-            return Some(p);
-        }
-        let damp = if !linear && longest > 1.0 {
-            1.0 / longest
-        } else {
-            1.0
-        };
-        xi = [xi[0] + damp * step[0], xi[1] + damp * step[1]];
-        if linear || (positive && longest < LAST_STEP) {
-            return Some(evaluate(kind, coordinates, xi));
-        }
-        if xi[0].abs() + xi[1].abs() > 1e3 {
-            return None;
-        }
-    }
-    let p = evaluate(kind, coordinates, xi);
-    let r = sub(point, p.x);
-    let size = match kind.dim() {
-        1 => norm(p.a[0]),
-        _ => norm(p.a[0]).max(norm(p.a[1])),
-    };
-    let settled = dot(r, p.a[0]).abs().max(dot(r, p.a[1]).abs()) < 1e-10 * size * size;
-    settled.then_some(p)
 }
 
 /// How far a projection lies beyond the facet.
@@ -230,33 +262,76 @@ fn clamp(kind: ElementKind, xi: [f64; 2]) -> ([f64; 2], usize) {
     }
 }
 
-/// How far the projection `p` lies beyond its facet.
-pub fn beyond(kind: ElementKind, coordinates: &[Vec3], p: &FacetPoint) -> Beyond {
-    let (inside, edge) = clamp(kind, p.xi);
-    if inside == p.xi || (kind.dim() == 1 && inside[0] == p.xi[0]) {
-        return Beyond {
-            distance: 0.0,
-            from: p.x,
+impl Patch {
+    /// How far a projection lies beyond the facet.
+    pub fn beyond(&self, foot: &Foot) -> Beyond {
+        let (inside, edge) = clamp(self.kind, foot.xi);
+        if inside == foot.xi || (self.kind.dim() == 1 && inside[0] == foot.xi[0]) {
+            return Beyond {
+                distance: 0.0,
+                from: foot.x,
+                edge,
+            };
+        }
+        let (x, _) = self.at(inside);
+        Beyond {
+            distance: distance(foot.x, x),
+            from: x,
             edge,
-        };
-    }
-    let mut n = [0.0; FACET_NODES];
-    let n = &mut n[..coordinates.len()];
-    kind.reference().values([inside[0], inside[1], 0.0], n);
-    let weighted = n.iter().zip(coordinates);
-    let x = weighted.fold([0.0; 3], |x, (&n, &c)| add_scaled(x, n, c));
-    Beyond {
-        distance: distance(p.x, x),
-        from: x,
-        edge,
+        }
     }
 }
 
 /// Distance from `point` to the facet itself (not its extension), given its projection. The extension of a curved facet may come near to
 /// any place, and its height there says nothing about how far the facet is.
-pub fn facet_distance(point: Vec3, p: &FacetPoint, beyond: Beyond) -> f64 {
+pub fn facet_distance(point: Vec3, foot: &Foot, beyond: Beyond) -> f64 {
     if beyond.distance == 0.0 {
-        return dot(sub(point, p.x), p.normal).abs();
+        return dot(sub(point, foot.x), foot.normal).abs();
     }
     distance(point, beyond.from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::facet_point::evaluate;
+
+    /// The polynomial is the facet: positions, base vectors and second derivatives are those of the shape functions.
+    #[test]
+    fn a_patch_is_the_facet_of_its_shape_functions() {
+        for kind in [
+            ElementKind::Line2,
+            ElementKind::Line3,
+            ElementKind::Tri3,
+            ElementKind::Tri6,
+            ElementKind::Quad4,
+            ElementKind::Quad8,
+        ] {
+            let bent = |(k, xi): (usize, &[f64; 3])| {
+                let wave = |c: usize| 0.3 * (1.7 * (k + 11 * c) as f64).sin();
+                [3.0 + xi[0] + wave(0), xi[1] + wave(1), wave(2)]
+            };
+            let nodes: Vec<Vec3> =
+                (kind.reference().nodes().iter().enumerate().map(bent)).collect();
+            let patch = Patch::new(kind, &nodes);
+            for xi in [
+                [0.0, 0.0],
+                [0.3, -0.7],
+                [-0.9, 0.2],
+                [1.2, 0.6],
+                [-1.5, -1.1],
+            ] {
+                let p = evaluate(kind, &nodes, xi);
+                let foot = patch.foot(xi);
+                let pairs = [(foot.x, p.x), (foot.a[0], p.a[0]), (foot.a[1], p.a[1])];
+                let normal = [(foot.normal, p.normal)];
+                let bending = patch.bending(xi).into_iter().zip(p.aa);
+                let dims = if kind.dim() == 1 { 1 } else { 3 };
+                let all = pairs.into_iter().chain(normal).chain(bending.take(dims));
+                for (mine, theirs) in all {
+                    assert!(distance(mine, theirs) < 1e-14 * 20.0, "{kind} at {xi:?}");
+                }
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Which facets a point may meet: a tree of boxes over the facets, asked for the facets near a point.
 
-use super::projection::FACET_NODES;
+use super::facet_point::FACET_NODES;
 use crate::math::Vec3;
 use crate::shape::ElementKind;
 
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn boxes_hold_curved_facets() {
-        use crate::contact::projection::evaluate;
+        use crate::contact::facet_point::evaluate;
         for kind in [
             ElementKind::Line2,
             ElementKind::Line3,

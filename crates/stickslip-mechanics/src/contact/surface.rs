@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::contact::projection::{FACET_NODES, evaluate};
+use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::math::{Vec3, angle, distance};
 use crate::shape::ElementKind;
 

@@ -9,8 +9,10 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
-use crate::contact::projection::{FACET_NODES, beyond, evaluate, facet_distance, project};
-use crate::contact::search::{Box3, Tree};
+use crate::contact::bounds::Bounds;
+use crate::contact::facet_point::{FACET_NODES, evaluate};
+use crate::contact::projection::facet_distance;
+use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
@@ -80,8 +82,8 @@ pub(super) struct Side<'a> {
     /// Heights of the cells beneath, where they are known.
     sizes: Vec<f64>,
     tree: Tree,
-    /// Boxes around the facets, bulges included.
-    boxes: Vec<Box3>,
+    /// Where they lie, and which way they look.
+    bounds: Vec<Bounds>,
     margin: f64,
     /// Depth that contact points know of `[m]`.
     deep: f64,
@@ -100,9 +102,8 @@ impl<'a> Side<'a> {
         // Curved facets leave the boxes of their nodes by a part of their size.
         let curved = facets.iter().filter(|f| f.kind.order() > 1);
         let longest = curved.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
-        let around = |f: &&Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
         Side {
-            boxes: facets.iter().map(around).collect(),
+            bounds: facets.iter().map(|f| Bounds::around(f, x)).collect(),
             margin: 0.25 * longest.fold(0.0, f64::max),
             facets,
             sizes,
@@ -125,7 +126,8 @@ impl<'a> Side<'a> {
     fn gap(&self, place: &Place, found: &mut Vec<usize>) -> Option<(usize, f64)> {
         self.tree.near(place.x, self.margin, found);
         // Most of what is near is farther than what is met first.
-        let least = |f: usize| self.boxes[f].distance2(place.x);
+        found.retain(|&f| self.bounds[f].may_face(place.normal));
+        let least = |f: usize| self.bounds[f].space.distance2(place.x);
         found.sort_unstable_by(|&a, &b| least(a).total_cmp(&least(b)).then(a.cmp(&b)));
         // Outside an edge the nearest facet may have no foot, and the next one that has is no measure.
         let mut aside: Option<(f64, usize)> = None;
@@ -135,18 +137,18 @@ impl<'a> Side<'a> {
                 break;
             }
             let facet = self.facets[f];
-            let mut nodes = [[0.0; 3]; FACET_NODES];
-            let nodes = facet.gather(self.x, &mut nodes);
-            let Some(p) = project(facet.kind, nodes, place.x) else {
+            let patch = &self.bounds[f].patch;
+            let Some(p) = patch.project(place.x) else {
                 continue;
             };
             if dot(p.normal, place.normal) >= 0.0 {
                 continue;
             }
-            let over = beyond(facet.kind, nodes, &p);
+            let over = patch.beyond(&p);
             let away = facet_distance(place.x, &p, over);
             let gap = dot(sub(place.x, p.x), p.normal);
-            if over.distance > EDGE * distance(nodes[0], nodes[1]) {
+            let size = distance(self.x[facet.nodes[0]], self.x[facet.nodes[1]]);
+            if over.distance > EDGE * size {
                 if gap > 0.0 && aside.is_none_or(|a| away < a.0) {
                     aside = Some((away, f));
                 }
@@ -157,11 +159,13 @@ impl<'a> Side<'a> {
             }
             // No place lies deeper beneath a surface than it has come, or than a soft law lets it: what does belongs to the other side of a
             // thin body.
-            let rest = facet.nodes.iter().zip(&p.n);
+            let mut n = [0.0; FACET_NODES];
+            let n = &mut n[..facet.nodes.len()];
+            (facet.kind.reference()).values([p.xi[0], p.xi[1], 0.0], n);
+            let rest = facet.nodes.iter().zip(&*n);
             let rest = rest.fold([0.0; 3], |s, (&n, &w)| add_scaled(s, w, self.reference[n]));
             let came = dot(sub(sub(place.x, place.from), sub(p.x, rest)), p.normal);
-            let size = self.sizes.get(f).copied().unwrap_or(0.0);
-            let size = size.max(distance(nodes[0], nodes[1]));
+            let size = size.max(self.sizes.get(f).copied().unwrap_or(0.0));
             let deepest = self.deep + START * size + came.abs();
             best = Some((away, f, (gap >= -deepest).then_some(gap)));
         }

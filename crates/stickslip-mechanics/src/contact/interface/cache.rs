@@ -2,10 +2,10 @@
 
 use super::evaluation::Evaluations;
 use super::search::{FaceSearch, Search};
+use crate::contact::bounds::Bounds;
+use crate::contact::facet_point::FacetPoint;
 use crate::contact::mortar::FaceIntegral;
 use crate::contact::pairing::Anchor;
-use crate::contact::projection::FacetPoint;
-use crate::contact::search::Box3;
 use crate::math::Vec3;
 
 /// What was found for the last evaluations.
@@ -18,8 +18,8 @@ pub struct Cache {
     /// Coordinates at the last evaluation, and at the accepted state that it started from.
     pub(super) x: Vec<Vec3>,
     pub(super) before: Vec<Vec3>,
-    /// Boxes around the facets.
-    pub(super) boxes: Vec<Box3>,
+    /// Where the facets lie, and which way they look.
+    pub(super) bounds: Vec<Bounds>,
     pub(super) anchors: Vec<Option<Anchor>>,
     /// Pairs of the reference configuration, for small sliding.
     pub(super) frozen: Vec<Option<(usize, FacetPoint)>>,

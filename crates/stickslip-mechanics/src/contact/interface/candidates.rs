@@ -1,13 +1,16 @@
 //! Facets that may belong to the points of an interface, looked for when points have moved, and that which does.
 
+use rayon::prelude::*;
+
 use super::cache::Cache;
 use super::definition::{Interface, Primary};
+use super::evaluation::CHUNK;
 use super::search::Search;
+use crate::contact::bounds::Bounds;
+use crate::contact::facet_point::FacetPoint;
 use crate::contact::kinematics::{Part, rotation_of};
 use crate::contact::pairing::{Choice, Previous};
-use crate::contact::projection::FacetPoint;
-use crate::contact::search::Box3;
-use crate::contact::surface::{ContactPoint, Facet};
+use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, mat_vec};
 
 /// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back.
@@ -46,25 +49,24 @@ impl Interface {
         }
     }
 
-    /// Boxes around the facets.
-    pub(super) fn enclose(&self, x: &[Vec3], out: &mut Vec<Box3>) {
-        out.clear();
-        let around = |f: &Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
-        out.extend(self.facets().iter().map(around));
+    /// Bounds of the facets.
+    pub(super) fn enclose(&self, x: &[Vec3], out: &mut Vec<Bounds>) {
+        let around = self.facets().par_iter().with_min_len(CHUNK);
+        around.map(|f| Bounds::around(f, x)).collect_into_vec(out);
     }
 
     /// The facet that a point belongs to, of those found by the search, and its projection there; the distance to the surface if it belongs to none.
     pub(super) fn closest(
         &self,
         i: usize,
-        (x, boxes): (&[Vec3], &[Box3]),
+        (x, bounds): (&[Vec3], &[Bounds]),
         search: &Search,
         previous: Previous,
     ) -> Result<(usize, FacetPoint), f64> {
         let turned = search.facing.get(i).copied();
         let choice = Choice {
             facets: self.facets(),
-            boxes,
+            bounds,
             candidates: search.candidates.get(i).map_or(&[], Vec::as_slice),
             margin: search.margin,
             x,
@@ -82,10 +84,10 @@ impl Interface {
         x: &[Vec3],
         search: &Search,
     ) -> Vec<Result<(usize, FacetPoint), f64>> {
-        let mut boxes = Vec::new();
-        self.enclose(x, &mut boxes);
+        let mut bounds = Vec::new();
+        self.enclose(x, &mut bounds);
         (0..self.points.len())
-            .map(|i| self.closest(i, (x, &boxes), search, Previous::default()))
+            .map(|i| self.closest(i, (x, &bounds), search, Previous::default()))
             .collect()
     }
 

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
 use super::evaluation::Evaluations;
+use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
 use crate::contact::mortar::{Face, FaceIntegral, Piece};
-use crate::contact::projection::{FACET_NODES, evaluate, invert2};
+use crate::contact::projection::invert2;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add_scaled, dot};
 use crate::system::{Assembler, Dofs, Tangent};

@@ -4,9 +4,9 @@ use super::definition::Interface;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
 use super::scene::Scene;
+use crate::contact::facet_point::{FACET_NODES, FacetPoint};
 use crate::contact::kinematics::Pair;
 use crate::contact::pairing::{Anchor, Previous};
-use crate::contact::projection::{FACET_NODES, FacetPoint};
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
 
@@ -124,7 +124,7 @@ impl Interface {
             });
             let held = self.attempt.flips[i].goes_to_and_fro();
             let previous = Previous { facet, near, held };
-            self.closest(i, (&cache.x, &cache.boxes), &cache.search, previous)
+            self.closest(i, (&cache.x, &cache.bounds), &cache.search, previous)
         };
         match found {
             // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays

@@ -22,7 +22,7 @@ impl Interface {
         if self.mortar.is_some() {
             self.integrate(cache, wants.holds_turns);
         } else if !self.kinematics.as_dyn().frozen() {
-            self.enclose(&cache.x, &mut cache.boxes);
+            self.enclose(&cache.x, &mut cache.bounds);
         }
         let mut out = std::mem::take(&mut cache.trial);
         let mut anchors = std::mem::take(&mut cache.anchors);

@@ -28,7 +28,7 @@ pub(super) enum LawQuery {
 /// What all points of one evaluation share.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
-    /// Coordinates, boxes, integrals and the iterate before.
+    /// Coordinates, bounds, integrals and the iterate before.
     pub cache: &'a Cache,
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,

@@ -2,7 +2,7 @@
 
 use super::between::Side;
 use super::definition::{Interface, Primary};
-use crate::contact::projection::evaluate;
+use crate::contact::facet_point::evaluate;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, cross, norm};
 use crate::shape::ElementKind;

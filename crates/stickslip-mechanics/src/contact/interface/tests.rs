@@ -4,13 +4,13 @@ use super::attempt::Flips;
 use super::definition::{Interface, Primary};
 use super::search::Search;
 use super::{Attempt, Cache, Directives, History, Initial};
+use crate::contact::bounds::Bounds;
 use crate::contact::enforcement::{EnforcementModel, Penalty};
+use crate::contact::facet_point::FacetPoint;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::{Coulomb, FrictionModel};
 use crate::contact::pairing::Previous;
-use crate::contact::projection::FacetPoint;
 use crate::contact::response::{Laws, Status};
-use crate::contact::search::Box3;
 use crate::contact::surface::{ContactPoint, Facet, connect};
 use crate::math::{Vec3, add_scaled};
 use crate::registry::Family;
@@ -164,12 +164,9 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
             let x = interface.coordinates(&state.u);
             let mut search = Search::default();
             interface.search(&mut search, &x);
-            let mut boxes = Vec::new();
-            interface.enclose(&x, &mut boxes);
-            // a box around everything
-            let corners = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
-            let all = Box3::around(ElementKind::Line2, corners.into_iter());
-            let without = vec![all; boxes.len()];
+            let mut bounds = Vec::new();
+            interface.enclose(&x, &mut bounds);
+            let without: Vec<Bounds> = bounds.iter().map(|b| b.endless()).collect();
             for i in 0..interface.points.len() {
                 let candidates = &search.candidates[i];
                 let previous = [
@@ -185,7 +182,7 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                         facet: previous,
                         ..Previous::default()
                     };
-                    let quick = interface.closest(i, (&x, &boxes), &search, previous);
+                    let quick = interface.closest(i, (&x, &bounds), &search, previous);
                     let full = interface.closest(i, (&x, &without), &search, previous);
                     found += usize::from(full.is_ok());
                     assert_eq!(place(quick), place(full), "{kind}, point {i}");

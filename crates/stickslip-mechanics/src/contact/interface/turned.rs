@@ -1,7 +1,7 @@
 //! By how much the surfaces have turned since the start: what small sliding leaves out.
 
 use super::definition::{Interface, Primary};
-use crate::contact::projection::evaluate;
+use crate::contact::facet_point::evaluate;
 use crate::contact::surface::{Facet, turns};
 use crate::math::{Vec3, add, angle, norm};
 

@@ -4,7 +4,8 @@
 //! `r·a_β = 0` gives `A_βα δξ^α = (δx_s - δx̄)·a_β + g n·δx̄,β` with `A_βα = a_β·a_α - g n·x̄,αβ`.
 
 use super::stencil::Pair;
-use crate::contact::projection::{FACET_NODES, invert2, pair_index, projection_matrix};
+use crate::contact::facet_point::{FACET_NODES, pair_index, projection_matrix};
+use crate::contact::projection::invert2;
 use crate::math::{Vec3, add_scaled, dot, scale, sub};
 
 /// Most dofs of a stencil on a facet: a point on a face of eight nodes and a facet of eight.

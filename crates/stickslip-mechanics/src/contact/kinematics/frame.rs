@@ -1,7 +1,7 @@
 //! Two unit vectors in the tangent plane of a facet, and how they change when the facet does.
 
 use super::facet::{MOST_DOFS, Projection, Row, add_facet, add_relative, add_scaled_row};
-use crate::contact::projection::{FACET_NODES, FacetPoint, pair_index};
+use crate::contact::facet_point::{FACET_NODES, FacetPoint, pair_index};
 use crate::math::{Vec3, add_scaled, cross, dot, norm, scale};
 
 /// Orthonormal directions in a facet: `e_1` along `a_1`, `e_2 = n × e_1`.

@@ -135,7 +135,7 @@ fn add_secondary(pair: &Pair, v: Vec3, row: &mut [f64]) {
 }
 
 fn add_node(pair: &Pair, node: usize, v: Vec3, row: &mut [f64]) {
-    let mut c = [0.0; crate::contact::projection::FACET_NODES];
+    let mut c = [0.0; crate::contact::facet_point::FACET_NODES];
     c[node] = 1.0;
     add_facet(pair, &c, v, 1.0, row);
 }

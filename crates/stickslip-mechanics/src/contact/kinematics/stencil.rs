@@ -1,6 +1,6 @@
 //! The stencil of a point: gap and slip with their gradients, and what a kinematics makes it from.
 
-use crate::contact::projection::FacetPoint;
+use crate::contact::facet_point::FacetPoint;
 use crate::math::Vec3;
 use crate::shape::ElementKind;
 

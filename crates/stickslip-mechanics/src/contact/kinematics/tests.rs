@@ -2,14 +2,20 @@
 
 use super::rigid::tangents;
 use super::*;
+use crate::contact::facet_point::{FacetPoint, evaluate};
 use crate::contact::obstacle::{Motion, ObstacleShape};
-use crate::contact::projection::project;
+use crate::contact::projection::Patch;
 use crate::contact::surface::ContactPoint;
 use crate::math::{
     Vec3, add, add_scaled, cross, dot, mat_vec, norm, normalize, rotation, scale, sub,
 };
 use crate::registry::Family;
 use crate::shape::ElementKind;
+
+fn project(kind: ElementKind, nodes: &[Vec3], point: Vec3) -> Option<FacetPoint> {
+    let foot = Patch::new(kind, nodes).project(point)?;
+    Some(evaluate(kind, nodes, foot.xi))
+}
 
 /// A small deterministic generator of numbers in [-1, 1], so that tests repeat.
 struct Numbers(u64);

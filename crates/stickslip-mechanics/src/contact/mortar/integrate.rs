@@ -9,6 +9,7 @@ use super::sides::Sides;
 use super::sum::sum;
 use super::view::{Sample, View, gather, looks_back};
 use super::window::Window;
+use crate::contact::projection::Patch;
 use crate::math::Vec3;
 
 /// Part of a face below which what lies opposite is left out.
@@ -73,15 +74,15 @@ fn meet<W: Window>(
             let Some(part) = window.common(x, other) else {
                 continue;
             };
-            if !looks_back(facet.kind, x, normal) {
+            let patch = Patch::new(facet.kind, x);
+            if !looks_back(&patch, normal) {
                 continue;
             }
             let piece = *known.get_or_insert_with(|| out.piece_of(f));
             let centre = facet.kind.centre();
             let mut start = [centre[0], centre[1]];
             window.places(&part, facet.kind, &mut |xi, w| {
-                let facet = (piece, facet.kind, x);
-                view.sample(xi, w, facet, &mut start, &mut scratch.samples);
+                view.sample((xi, w), (piece, &patch), &mut start, &mut scratch.samples);
             });
         }
     }

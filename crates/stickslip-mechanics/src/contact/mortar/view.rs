@@ -3,6 +3,7 @@
 use super::clip::Point;
 use super::dual::positive;
 use super::face::{FACE_NODES, Face};
+use crate::contact::projection::Patch;
 use crate::math::{Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, sub};
 use crate::shape::ElementKind;
 
@@ -97,56 +98,6 @@ pub(super) fn place(kind: ElementKind, x: &[Vec3], xi: Point) -> Place {
     p
 }
 
-/// Position and base vectors of a facet at a place: of a bilinear one, which most are, from the coefficients of its polynomial.
-struct Patch<'a> {
-    kind: ElementKind,
-    nodes: &'a [Vec3],
-    bilinear: Option<[Vec3; 4]>,
-}
-
-impl<'a> Patch<'a> {
-    fn new(kind: ElementKind, nodes: &'a [Vec3]) -> Self {
-        let bilinear = match (kind, nodes) {
-            (ElementKind::Quad4, &[a, b, c, d]) => {
-                let sum = |f: [f64; 4]| {
-                    std::array::from_fn(|i| {
-                        0.25 * (f[0] * a[i] + f[1] * b[i] + f[2] * c[i] + f[3] * d[i])
-                    })
-                };
-                Some([
-                    sum([1.0, 1.0, 1.0, 1.0]),
-                    sum([-1.0, 1.0, 1.0, -1.0]),
-                    sum([-1.0, -1.0, 1.0, 1.0]),
-                    sum([1.0, -1.0, 1.0, -1.0]),
-                ])
-            }
-            _ => None,
-        };
-        Patch {
-            kind,
-            nodes,
-            bilinear,
-        }
-    }
-
-    fn at(&self, xi: Point) -> (Vec3, [Vec3; 2]) {
-        match &self.bilinear {
-            Some([middle, along, across, twist]) => {
-                let a = [
-                    add_scaled(*along, xi[1], *twist),
-                    add_scaled(*across, xi[0], *twist),
-                ];
-                let x = add_scaled(*middle, xi[0], *along);
-                (add_scaled(x, xi[1], a[1]), a)
-            }
-            None => {
-                let p = place(self.kind, self.nodes, xi);
-                (p.x, p.a)
-            }
-        }
-    }
-}
-
 /// Where a ray from `from` along `n` meets a facet: the base vectors there and the signed distance.
 fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2], f64)> {
     let affine = matches!(patch.kind, ElementKind::Line2 | ElementKind::Tri3);
@@ -191,9 +142,8 @@ impl View<'_> {
     /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there.
     pub fn sample(
         &self,
-        xi: Point,
-        w: f64,
-        facet: (usize, ElementKind, &[Vec3]),
+        (xi, w): (Point, f64),
+        (piece, facet): (usize, &Patch),
         start: &mut Point,
         out: &mut Vec<Sample>,
     ) {
@@ -210,8 +160,7 @@ impl View<'_> {
             from = add_scaled(from, n, *x);
         }
         let normal = self.normal(&n);
-        let (piece, facet_kind, facet) = facet;
-        let Some((a, gap)) = hit(&Patch::new(facet_kind, facet), from, normal, start) else {
+        let Some((a, gap)) = hit(facet, from, normal, start) else {
             return;
         };
         let Some(m) = normalize(cross(a[0], a[1])) else {
@@ -228,7 +177,7 @@ impl View<'_> {
             n,
             positive: positives,
             piece,
-            opposite: shapes(facet_kind, *start).0,
+            opposite: shapes(facet.kind, *start).0,
             place: *start,
             gap,
             direction: m.map(|m| m / facing),
@@ -243,8 +192,8 @@ impl View<'_> {
 }
 
 /// Whether a facet looks back along `normal`.
-pub(super) fn looks_back(kind: ElementKind, x: &[Vec3], normal: Vec3) -> bool {
-    let centre = kind.centre();
-    let p = place(kind, x, [centre[0], centre[1]]);
-    normalize(cross(p.a[0], p.a[1])).is_some_and(|m| dot(m, normal) < -FACING)
+pub(super) fn looks_back(facet: &Patch, normal: Vec3) -> bool {
+    let [s, t, _] = facet.kind.centre();
+    let (_, a) = facet.at([s, t]);
+    normalize(cross(a[0], a[1])).is_some_and(|m| dot(m, normal) < -FACING)
 }

@@ -1,6 +1,7 @@
 //! The projection that a way over the surface is counted from.
 
-use crate::contact::projection::{FACET_NODES, FacetPoint, project};
+use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
+use crate::contact::projection::Patch;
 use crate::contact::surface::Facet;
 use crate::math::Vec3;
 
@@ -28,7 +29,8 @@ impl Anchor {
         let same = matches!(kept, Some(k) if k.facet == f && k.point == point
             && k.nodes[..then.len()] == *then);
         if !same {
-            let foot = project(facet.kind, then, point);
+            let foot = Patch::new(facet.kind, then).project(point);
+            let foot = foot.map(|foot| evaluate(facet.kind, then, foot.xi));
             *kept = Some(Anchor {
                 facet: f,
                 point,

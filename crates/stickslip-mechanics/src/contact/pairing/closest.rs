@@ -1,9 +1,8 @@
 //! Which facet a point belongs to.
 
-use crate::contact::projection::{
-    FACET_NODES, FacetPoint, beyond, facet_distance, project, project_near,
-};
-use crate::contact::search::Box3;
+use crate::contact::bounds::Bounds;
+use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
+use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add, cross, dot, norm, scale, sub};
 
@@ -24,9 +23,6 @@ const TIE: f64 = 1e-9;
 /// some 1e-6 of the facet.
 const FLAT: f64 = 1e-5;
 
-/// Farther away than the nearest facet by this factor a box need not be looked into.
-const AWAY: f64 = 1.5;
-
 /// Part of the margin of the search that leaves room for facets that are equally near.
 const ROOM: f64 = 1e-8;
 
@@ -35,8 +31,8 @@ const ROOM: f64 = 1e-8;
 pub struct Choice<'a> {
     /// All facets of the primary.
     pub facets: &'a [Facet],
-    /// Boxes around them.
-    pub boxes: &'a [Box3],
+    /// Where they lie, and which way they look.
+    pub bounds: &'a [Bounds],
     /// Those that come into question, ascending.
     pub candidates: &'a [usize],
     /// Distance up to which facets were looked for `[m]`.
@@ -67,7 +63,7 @@ pub struct Previous {
 /// A point over one of its candidates.
 #[derive(Clone, Copy)]
 struct Look {
-    p: FacetPoint,
+    p: Foot,
     /// A length of the facet, for tolerances.
     size: f64,
     away: f64,
@@ -76,7 +72,7 @@ struct Look {
 }
 
 /// A length of a facet, for tolerances.
-fn facet_size(facet: &Facet, p: &FacetPoint) -> f64 {
+fn facet_size(facet: &Facet, p: &Foot) -> f64 {
     match facet.kind.dim() {
         1 => 2.0 * norm(p.a[0]),
         _ => norm(cross(p.a[0], p.a[1])).sqrt(),
@@ -105,8 +101,8 @@ impl Choice<'_> {
                 seed.take()
             } else {
                 // Beyond a facet `away` is the distance to a place of it, at least that to its box.
-                let limit = AWAY * (nearest + ROOM * self.margin);
-                if self.box_distance2(f) > limit * limit {
+                let limit = nearest + ROOM * self.margin;
+                if self.box_distance2(f) > limit * limit || !self.may_face(f) {
                     continue;
                 }
                 self.look(f, None)
@@ -135,11 +131,18 @@ impl Choice<'_> {
             (Some((_, look)), Some(k), Some(f))
                 if look.carried && self.stays(&k, &look, previous.held) =>
             {
-                Ok((f, k.p))
+                Ok((f, self.meets(f, k.p)))
             }
-            (Some((f, look)), ..) if look.carried => Ok((f, look.p)),
+            (Some((f, look)), ..) if look.carried => Ok((f, self.meets(f, look.p))),
             _ => Err(nearest),
         }
+    }
+
+    /// The place of a facet with its shape functions.
+    fn meets(&self, f: usize, foot: Foot) -> FacetPoint {
+        let facet = &self.facets[f];
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        evaluate(facet.kind, facet.gather(self.x, &mut nodes), foot.xi)
     }
 
     /// Whether a point that may stay where it was does, though another facet is nearest.
@@ -155,24 +158,30 @@ impl Choice<'_> {
     }
 
     /// Height of the point above the plane of its projection.
-    fn height(&self, p: &FacetPoint) -> f64 {
+    fn height(&self, p: &Foot) -> f64 {
         dot(sub(self.position, p.x), p.normal)
     }
 
     /// Whether the point lies on the inner side of its projection's plane.
-    fn behind(&self, p: &FacetPoint) -> bool {
+    fn behind(&self, p: &Foot) -> bool {
         self.height(p) < 0.0
     }
 
     fn box_distance2(&self, f: usize) -> f64 {
-        self.boxes[f].distance2(self.position)
+        self.bounds[f].space.distance2(self.position)
     }
 
-    /// The candidate to look at first: the previous one or that with the nearest box. Facets that cannot be as near need not be projected on.
+    fn may_face(&self, f: usize) -> bool {
+        self.bounds[f].may_face(self.outward)
+    }
+
+    /// The candidate to look at first: the previous one, or of those that may face the point that with the nearest box. Facets that cannot be as near need not be
+    /// projected on.
     fn likely(&self, previous: Option<usize>) -> Option<usize> {
         let previous = previous.filter(|f| self.candidates.binary_search(f).is_ok());
         previous.or_else(|| {
-            let nearest = self.candidates.iter().map(|&f| (self.box_distance2(f), f));
+            let facing = self.candidates.iter().filter(|&&f| self.may_face(f));
+            let nearest = facing.map(|&f| (self.box_distance2(f), f));
             nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f)
         })
     }
@@ -180,18 +189,17 @@ impl Choice<'_> {
     /// The point over a facet; `None` if it has no projection there, or if the two do not face each other.
     fn look(&self, f: usize, near: Option<[f64; 2]>) -> Option<Look> {
         let facet = &self.facets[f];
-        let mut nodes = [[0.0; 3]; FACET_NODES];
-        let nodes = facet.gather(self.x, &mut nodes);
+        let patch = &self.bounds[f].patch;
         let position = self.position;
         let p = match near {
-            Some(xi) => project_near(facet.kind, nodes, position, xi)?,
-            None => project(facet.kind, nodes, position)?,
+            Some(xi) => patch.project_near(position, xi)?,
+            None => patch.project(position)?,
         };
         if dot(p.normal, self.outward) >= 0.0 {
             return None;
         }
         let size = facet_size(facet, &p);
-        let over = beyond(facet.kind, nodes, &p);
+        let over = patch.beyond(&p);
         // A facet is extended for points near its edge. Behind the plane of a distant one lie points that no facet nearby faces, such as
         // those on the far side of a ball.
         let far_behind = self.behind(&p) && over.distance > size;
@@ -265,11 +273,10 @@ mod tests {
     /// The facet of two, from the first to the second node and on to the third, that a point above them belongs to.
     fn chosen(x: &[Vec3; 3], position: Vec3, previous: usize, held: bool) -> usize {
         let facets = [line([0, 1]), line([1, 2])];
-        let around = |f: &Facet| Box3::around(f.kind, f.nodes.iter().map(|&n| x[n]));
-        let boxes = [around(&facets[0]), around(&facets[1])];
+        let bounds = [0, 1].map(|f| Bounds::around(&facets[f], x));
         let choice = Choice {
             facets: &facets,
-            boxes: &boxes,
+            bounds: &bounds,
             candidates: &[0, 1],
             margin: 1.0,
             x,

@@ -2,8 +2,8 @@
 
 use super::surfaces::Opposite;
 use crate::assess::view::View;
+use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::projection::evaluate;
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
 use crate::model::unheld::{self, Mode};

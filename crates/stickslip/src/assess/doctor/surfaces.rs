@@ -1,7 +1,7 @@
 //! How the two sides of an interface lie to each other, apart from any law.
 
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::projection::{beyond, facet_distance, project};
+use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, distance, dot, sub};
@@ -73,10 +73,11 @@ impl<'a> Opposite<'a> {
         let mut best: Option<Nearest> = None;
         for &f in &self.found {
             let nodes = coordinates(self.interface, &facets[f]);
-            let Some(p) = project(facets[f].kind, &nodes, x) else {
+            let patch = Patch::new(facets[f].kind, &nodes);
+            let Some(p) = patch.project(x) else {
                 continue;
             };
-            let distance = facet_distance(x, &p, beyond(facets[f].kind, &nodes, &p));
+            let distance = facet_distance(x, &p, patch.beyond(&p));
             if best.is_none_or(|b| distance < b.distance) {
                 best = Some(Nearest {
                     facet: f,

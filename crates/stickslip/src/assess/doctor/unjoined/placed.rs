@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::assess::doctor::places::bounds;
+use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{Interface, Primary};
-use crate::contact::projection::{beyond, evaluate, facet_distance, project};
+use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::math::{Vec3, add, distance, dot, sub};
 use crate::model::definition::Model;
@@ -126,10 +127,11 @@ impl Placed<'_> {
         for &f in &found {
             let facet = &body.facets[f];
             let nodes = self.nodes(facet);
-            let Some(p) = project(facet.0, &nodes, x) else {
+            let patch = Patch::new(facet.0, &nodes);
+            let Some(p) = patch.project(x) else {
                 continue;
             };
-            let beyond = beyond(facet.0, &nodes, &p);
+            let beyond = patch.beyond(&p);
             let within = beyond.distance == 0.0;
             let away = facet_distance(x, &p, beyond);
             if best.as_ref().is_none_or(|b| away < b.away) {
