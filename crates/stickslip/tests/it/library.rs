@@ -168,6 +168,28 @@ fn what_is_not_the_same_is_factored_again() {
         (changed("poisson = 0.25", "poisson = 0.26"), 1, 0),
         (changed("young = 300e9", "young = 301e9"), 1, 0),
         (changed("to = [0.022, 0.03]", "to = [0.0221, 0.03]"), 1, 0),
+        // The same mesh and material.
+        (
+            changed(
+                "material = \"tool\"",
+                "material = \"tool\"\nformulation = \"mean-dilatation\"",
+            ),
+            1,
+            0,
+        ),
+        (
+            changed("\"plane-strain\"", "\"plane-strain\"\nmodel.thickness = 2"),
+            4,
+            0,
+        ),
+        (
+            changed(
+                "[support.top]",
+                "[load.held]\nset = \"second.right\"\nspring.stiffness = [1e8, 1e8]\n\n[support.top]",
+            ),
+            1,
+            0,
+        ),
         // Other unknowns or points.
         (changed("x = 1e-6\n", ""), 1, 1),
         (
