@@ -133,9 +133,13 @@ fn converged(
     }
 }
 
-/// Whether points keep changing status and nothing is gained: they are better held than given more time.
+/// Whether points keep changing status and nothing is gained: they are better held than given more time. Where the last iteration left all of them as they
+/// were, the next may be the last.
 fn chatters(attempt: &mut Attempt, residuals: &[f64]) -> bool {
-    attempt.strategy == Strategy::Plain && stalled(residuals) && attempt.system.chatters()
+    attempt.strategy == Strategy::Plain
+        && stalled(residuals)
+        && attempt.system.tally().changed > 0
+        && attempt.system.chatters()
 }
 
 /// Whether the last iterations have not brought the residual down by an order of magnitude.
