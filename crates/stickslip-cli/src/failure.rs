@@ -46,6 +46,18 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// What is wrong, in a line.
+    pub fn line(&self) -> String {
+        let text = match self {
+            Failure::Library(e) => e.to_string(),
+            Failure::Deck(e) => e.to_string(),
+            Failure::Arguments(message, _) => message.clone(),
+            Failure::Runs { failed, all, .. } => format!("{failed} of {all} runs failed"),
+            Failure::Output(e) => e.to_string(),
+        };
+        text.lines().next().unwrap_or_default().to_string()
+    }
+
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {

@@ -1,6 +1,7 @@
 //! What a command is given: a problem file, or a deck of Abaqus or CalculiX.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use stickslip::Error;
 use stickslip::model::Setup;
@@ -16,7 +17,7 @@ pub struct Input {
     /// The problem.
     pub problem: Problem,
     /// The deck.
-    pub deck: Option<Translation>,
+    pub deck: Option<Arc<Translation>>,
     meshes: Meshes,
     /// The folder that names of files are relative to.
     folder: PathBuf,
@@ -34,34 +35,57 @@ pub fn translate(file: &Path) -> Result<Translation, Failure> {
     translate().map_err(Failure::Deck)
 }
 
+/// A file as it was read, before values are changed: what a sweep runs again and again.
+pub struct Case {
+    /// Its text; for a deck the one it was translated to.
+    pub document: Document,
+    /// The deck.
+    deck: Option<Arc<Translation>>,
+}
+
+impl Case {
+    /// Reads a problem file, or a deck if the name ends in `.inp`.
+    pub fn read(file: &Path) -> Result<Case, Failure> {
+        let deck = match is_deck(file) {
+            true => Some(Arc::new(translate(file)?)),
+            false => None,
+        };
+        let document = match &deck {
+            Some(deck) => deck.document(Vec::new()),
+            None => Document::read(file)?,
+        };
+        Ok(Case { document, deck })
+    }
+
+    /// With values changed.
+    pub fn input(&self, overrides: &[String]) -> Result<Input, Failure> {
+        let document = self.document.clone().with_overrides(overrides.to_vec());
+        let problem = document.problem();
+        Ok(Input {
+            problem: problem.map_err(|e| self.failure(e.into()))?,
+            folder: document.folder(),
+            document,
+            meshes: self
+                .deck
+                .as_ref()
+                .map_or_else(Meshes::default, |d| d.meshes()),
+            deck: self.deck.clone(),
+        })
+    }
+
+    /// Findings about the problem as findings about the deck, if it is one.
+    pub fn failure(&self, error: Error) -> Failure {
+        match &self.deck {
+            Some(deck) => of_deck(deck, error),
+            None => error.into(),
+        }
+    }
+}
+
 impl Input {
     /// Reads a problem file, or a deck if the name ends in `.inp`.
     pub fn open(file: &Path, overrides: &[String]) -> Result<Input, Failure> {
-        if !is_deck(file) {
-            let document = Document::read(file)?.with_overrides(overrides.to_vec());
-            let problem = document.problem()?;
-            let folder = document.folder();
-            return Ok(Input {
-                document,
-                problem,
-                deck: None,
-                meshes: Meshes::default(),
-                folder,
-            });
-        }
-        let deck = translate(file)?;
-        let document = deck.document(overrides.to_vec());
-        let problem = match document.problem() {
-            Ok(problem) => problem,
-            Err(e) => return Err(of_deck(&deck, e.into())),
-        };
-        Ok(Input {
-            folder: document.folder(),
-            document,
-            problem,
-            meshes: deck.meshes(),
-            deck: Some(deck),
-        })
+        Case::read(file)?.input(overrides)
     }
 
     /// A problem whose names of files are relative to another folder than its own.

@@ -1,29 +1,68 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::failure::Outcome;
+use stickslip::results::compare::{Differences, compare, differences};
+
+use crate::failure::{CHECK, Failure, Outcome};
 use crate::print;
 
-/// Compare the results in a directory with expected values.
+/// Compare the results in a directory with expected values, or with those of another run.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  stickslip compare case.out                              with expected.toml beside it
+  stickslip compare coarse.out fine.out                   histories, fields and interfaces: the largest differences, and where
+  stickslip compare before.out after.out --relative 1e-6  exit code 2 if anything differs by more")]
 pub struct Arguments {
     /// Directory of results, as written by `run`.
     directory: PathBuf,
-    /// What is expected; `expected.toml` beside the directory if not given.
-    expected: Option<PathBuf>,
+    /// What is expected, `expected.toml` beside the directory if not given; or the directory of another run.
+    other: Option<PathBuf>,
+    /// The largest difference between two runs that passes, relative to the largest value of a quantity; what cannot be compared does not.
+    #[arg(long, value_name = "R")]
+    relative: Option<f64>,
 }
 
-/// Prints a line a check; exit code 2 if one fails.
+/// Prints a line a check, or a line a quantity that differs; exit code 2 if one fails.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let expected = arguments.expected.clone().unwrap_or_else(|| {
+    if let Some(other) = arguments.other.as_ref().filter(|other| other.is_dir()) {
+        let found = differences(&arguments.directory, other)?;
+        print::out(&format!("{found}\n"))?;
+        return judge(&found, arguments.relative);
+    }
+    if arguments.relative.is_some() {
+        return Err(Failure::Arguments(
+            "`--relative` is for two directories of results".into(),
+            "name both, or give tolerances in expected.toml".into(),
+        ));
+    }
+    let expected = arguments.other.clone().unwrap_or_else(|| {
         let parent = arguments.directory.parent().unwrap_or(&arguments.directory);
         parent.join("expected.toml")
     });
-    let report = stickslip::results::compare::compare(&arguments.directory, &expected)?;
+    let report = compare(&arguments.directory, &expected)?;
     print::out(&format!("{report}\n"))?;
-    Ok(if report.passes() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::from(crate::failure::CHECK)
-    })
+    Ok(code(report.passes()))
+}
+
+/// Whether differences are as small as they shall be.
+fn judge(found: &Differences, limit: Option<f64>) -> Outcome {
+    let Some(limit) = limit else {
+        return Ok(ExitCode::SUCCESS);
+    };
+    let beyond = found.quantities.iter().filter(|d| d.relative() > limit);
+    let beyond = beyond.count();
+    print::out(&match (beyond, found.uncompared.len()) {
+        (0, 0) => format!("all differ by at most {limit:e}\n"),
+        (0, n) => format!("those compared differ by at most {limit:e}, but {n} could not be\n"),
+        (n, _) => format!("{n} differ by more than {limit:e}\n"),
+    })?;
+    Ok(code(beyond == 0 && found.uncompared.is_empty()))
+}
+
+fn code(passes: bool) -> ExitCode {
+    match passes {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(CHECK),
+    }
 }

@@ -3,15 +3,15 @@ use std::process::ExitCode;
 
 use stickslip::contact::law::friction::FrictionPoint;
 use stickslip::contact::law::slip::Tangential;
-use stickslip::problem::Document;
 
 use crate::failure::{Failure, Outcome};
+use crate::input::Input;
 use crate::print;
 
 /// Tabulate the laws of an interface alone, as CSV: pressure and shear limit against gap, shear against slip.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The problem file.
+    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
     /// The interface; may be left out if there is only one.
     interface: Option<String>,
@@ -28,8 +28,7 @@ pub struct Arguments {
 
 /// Prints the table.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let document = Document::read(&arguments.file)?.with_overrides(arguments.set.clone());
-    let problem = document.problem()?;
+    let problem = Input::open(&arguments.file, &arguments.set)?.problem;
     let known = || {
         problem
             .interface

@@ -169,3 +169,80 @@ fn a_problem_and_a_deck_write_frd_files_only_if_they_are_asked_to() {
     run("out", "output.frd=none");
     assert!(!there("out", "slide.frd"));
 }
+
+/// A deck is swept and its laws are tabulated as those of a problem file; the last run is that of the deck as it stands, to the last bit.
+#[test]
+fn a_deck_is_swept_as_a_problem_file_is() {
+    let folder = folder("deck-sweep");
+    for name in ["slide.inp", "mesh.inp"] {
+        std::fs::copy(deck(name), folder.join(name)).expect("a copy");
+    }
+    let place = |name: &str| folder.join(name).display().to_string();
+    let output = stickslip(&["convert".into(), place("slide.inp"), place("slide.toml")]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let problem = std::fs::read_to_string(folder.join("slide.toml")).expect("a problem file");
+    let table = |line: &str| line.starts_with("[interface.") && line.matches('.').count() == 1;
+    let header = problem.lines().find(|l| table(l)).expect("an interface");
+    let interface = header.trim_matches(['[', ']']);
+    let key = format!("{interface}.friction.coulomb.mu");
+    let name = interface.trim_start_matches("interface.");
+
+    let output = stickslip(&[
+        "sweep".into(),
+        place("slide.inp"),
+        format!("--set={key}=0.05,0.1"),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let written = std::fs::read_to_string(folder.join("slide.sweep.csv")).expect("a table");
+    let rows: Vec<&str> = written.lines().collect();
+    assert_eq!(rows.len(), 3, "{written}");
+    assert!(
+        rows[1].starts_with("1,0.05,done") && rows[2].starts_with("2,0.1,done"),
+        "{written}"
+    );
+
+    // Run alone with that value it gives what its row says, and another what the comparison of folders says.
+    for (value, results) in [("0.05", "low"), ("0.1", "high")] {
+        let set = format!("--set={key}={value}");
+        let output = stickslip(&[
+            "run".into(),
+            place("slide.inp"),
+            set,
+            format!("--output={}", place(results)),
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    let last = std::fs::read_to_string(folder.join("low/history.csv")).expect("a history");
+    let last = last
+        .lines()
+        .last()
+        .expect("a row")
+        .split(',')
+        .next_back()
+        .expect("a value");
+    assert!(rows[1].ends_with(last), "{} against {last}", rows[1]);
+    let compare = |a: &str, b: &str, more: &[&str]| {
+        let mut all = vec!["compare".to_string(), place(a), place(b)];
+        all.extend(more.iter().map(|m| m.to_string()));
+        stickslip(&all)
+    };
+    let same = compare("low", "low", &["--relative", "0"]);
+    assert_eq!(same.status.code(), Some(0), "{}", text(&same.stdout));
+    assert!(text(&same.stdout).contains("all differ by at most 0e0"));
+    let other = compare("low", "high", &["--relative", "0.1"]);
+    assert_eq!(other.status.code(), Some(2), "{}", text(&other.stdout));
+    let said = text(&other.stdout);
+    let shear = said
+        .lines()
+        .find(|l| l.contains(&format!("history {name}.CFS1")));
+    let shear = shear.unwrap_or_else(|| panic!("{said}"));
+    // Twice the friction in gross slip: half of the larger force is missing.
+    assert!(shear.contains(" 5.0") || shear.contains(" 4.9"), "{shear}");
+    assert_eq!(compare("low", "high", &[]).status.code(), Some(0));
+    let alone = stickslip(&["compare".into(), place("low"), "--relative=1".to_string()]);
+    assert_eq!(alone.status.code(), Some(1));
+
+    let curve = stickslip(&["curve".into(), place("slide.inp"), name.to_string()]);
+    assert_eq!(curve.status.code(), Some(0), "{}", text(&curve.stderr));
+    assert!(text(&curve.stdout).starts_with("gap,pressure,slope"));
+}

@@ -1,4 +1,4 @@
-//! `sweep`: a problem file, many values, one table.
+//! `sweep`: a problem file or a deck, many values, one table.
 
 mod begun;
 mod columns;
@@ -15,13 +15,13 @@ use stickslip::Error;
 use stickslip::assess::doctor::Severity;
 use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
-use stickslip::problem::Document;
 use stickslip::results::{Claim, FileClaim, Observer, ResultFiles, Summary};
 use stickslip::run::{Interrupt, Simulation, Watch};
 
 use super::{library, spare, use_threads};
 
-use crate::failure::{Failure, Outcome, located};
+use crate::failure::{Failure, Outcome};
+use crate::input::{Case, Input};
 use crate::progress::found;
 use crate::voice::{Heartbeat, Voice};
 use begun::{Begun, Stand};
@@ -42,7 +42,7 @@ Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
   stickslip sweep case.toml --zip --set step.0.duration=1,2 --set step.0.increments.fixed=10,20 --column ALLSE")]
 pub struct Arguments {
-    /// The problem file.
+    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`), whose values go by the names that `convert` gives them.
     file: PathBuf,
     /// An axis: a key and its values. Several make all combinations, the last one changing fastest.
     #[arg(long = "set", value_name = "PATH=V1,V2,...", required = true)]
@@ -56,7 +56,7 @@ pub struct Arguments {
     /// A quantity of the history that the table shall have; all if not given. Can be repeated.
     #[arg(long = "column", value_name = "NAME")]
     column: Vec<String>,
-    /// The table; `<file>.sweep.csv` beside the problem file if not given. It is complete after every run.
+    /// The table; `<file>.sweep.csv` beside the file if not given. It is complete after every run.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Keep the result files of every run, in DIR/0001 and so on.
@@ -81,12 +81,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let started = Instant::now();
     use_threads(arguments.threads, arguments.quiet);
     let plan = Plan::new(&arguments.set, &arguments.fix, arguments.zip)?;
-    let case = Document::read(&arguments.file)?;
-    plan.check(&case)?;
+    let case = Case::read(&arguments.file)?;
+    plan.check(&case.document)
+        .map_err(|e| case.failure(e.into()))?;
 
     let output = arguments.output.clone();
     let output = output.unwrap_or_else(|| arguments.file.with_extension("sweep.csv"));
-    spare(&output, &case.file.iter().cloned().collect::<Vec<_>>())?;
+    spare(&output, std::slice::from_ref(&arguments.file))?;
     let axes = plan.axes.iter().map(|axis| axis.path.clone()).collect();
     let mut table = Table::new(output, axes, &arguments.column);
     // That the file cannot be written should not be found after the first run.
@@ -133,8 +134,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let directory = arguments.results.as_ref();
         let directory = directory.map(|d| d.join(format!("{:04}", run + 1)));
         let mut columns = Columns::new(wanted);
-        let document = plan.document(&case, run);
-        let ended = analyse(&document, directory.as_deref(), &mut columns, &shared);
+        let input = case.input(&plan.overrides(run));
+        let ended = analyse(input, directory.as_deref(), &mut columns, &shared);
         if let Some(refusal) = columns.refusal() {
             return Err(refusal);
         }
@@ -148,12 +149,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
         if run == done {
             first = seconds;
         }
-        if let Some(stopped @ Error::Interrupted(_)) = ended.error {
+        if let Some(stopped @ Failure::Library(Error::Interrupted(_))) = ended.error {
             tell(&format!(
                 "the table in {} has the runs before",
                 table.path.display()
             ));
-            return Err(stopped.into());
+            return Err(stopped);
         }
         failed += usize::from(ended.error.is_some());
         let values = plan.values(run);
@@ -216,13 +217,13 @@ struct Shared {
 
 /// How a run ended: its error if it failed, and what is known of it if there was a simulation.
 struct Ended {
-    error: Option<Error>,
+    error: Option<Failure>,
     summary: Option<Summary>,
 }
 
 /// From the problem file to the end of its run.
 fn analyse(
-    document: &Document,
+    input: Result<Input, Failure>,
     directory: Option<&Path>,
     columns: &mut Columns,
     shared: &Shared,
@@ -232,24 +233,21 @@ fn analyse(
         summary: None,
     };
     let started = Instant::now();
-    let problem = match document.problem() {
-        Ok(problem) => problem,
-        Err(e) => return failed(e.into()),
-    };
-    let setup = match problem.build(&document.folder()) {
-        Ok(setup) => setup,
-        Err(e) => return failed(located(document, e)),
+    let built = input.and_then(|input| Ok((input.build()?, input.files())));
+    let (setup, inputs) = match built {
+        Ok(built) => built,
+        Err(e) => return failed(e),
     };
     let read = started.elapsed().as_secs_f64();
     let mut observers: Vec<&mut dyn Observer> = vec![columns];
     let claim = Claim {
-        inputs: document.inputs(&problem),
+        inputs,
         ..Claim::default()
     };
     let files = directory.map(|directory| ResultFiles::new(directory, &claim));
     let mut files = match files.transpose() {
         Ok(files) => files,
-        Err(e) => return failed(e),
+        Err(e) => return failed(e.into()),
     };
     if let Some(files) = &mut files {
         observers.push(files);
@@ -271,12 +269,12 @@ fn simulate(
             simulation.set_watch(Arc::clone(&shared.watch));
             let error = simulation.run(observers).err();
             Ended {
-                error,
+                error: error.map(Failure::from),
                 summary: Some(simulation.summary),
             }
         }
         Err(error) => Ended {
-            error: Some(error),
+            error: Some(error.into()),
             summary: None,
         },
     }
@@ -286,12 +284,11 @@ fn simulate(
 fn outcome(ended: &Ended) -> String {
     let quality = ended.summary.as_ref().map(|s| &s.quality);
     let poor = quality.filter(|q| q.failed());
-    let text = match (&ended.error, poor.and_then(|q| q.violations().next())) {
-        (Some(error), _) => error.to_string(),
+    match (&ended.error, poor.and_then(|q| q.violations().next())) {
+        (Some(error), _) => error.line(),
         (None, Some(figure)) => format!("quality: {}", figure.brief()),
         (None, None) => "done".into(),
-    };
-    text.lines().next().unwrap_or_default().to_string()
+    }
 }
 
 fn runs(count: usize) -> String {

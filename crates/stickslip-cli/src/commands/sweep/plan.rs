@@ -86,16 +86,11 @@ impl Plan {
     }
 
     /// The changes of the problem file that make it the one of a run.
-    fn overrides(&self, run: usize) -> Vec<String> {
+    pub fn overrides(&self, run: usize) -> Vec<String> {
         let values = self.values(run);
         let chosen = self.axes.iter().zip(values);
         let chosen = chosen.map(|(axis, value)| format!("{}={value}", axis.path));
         self.fixed.iter().cloned().chain(chosen).collect()
-    }
-
-    /// The problem file of a run.
-    pub fn document(&self, case: &Document, run: usize) -> Document {
-        case.clone().with_overrides(self.overrides(run))
     }
 
     /// Reads and checks the problem of every run, without meshes.
@@ -106,7 +101,8 @@ impl Plan {
         let failed: Vec<(usize, Vec<Diagnostic>)> = (0..self.count)
             .into_par_iter()
             .filter_map(|run| {
-                let error = self.document(case, run).problem().err()?;
+                let document = case.clone().with_overrides(self.overrides(run));
+                let error = document.problem().err()?;
                 Some((run, error.findings))
             })
             .collect();

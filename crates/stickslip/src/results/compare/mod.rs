@@ -1,4 +1,4 @@
-//! Compares the results of a run with expected values: the checker of every verification case.
+//! Compares the results of a run with expected values, the checker of every verification case, or with those of [another run](differences()).
 //!
 //! An `expected.toml` lists checks. Each takes one number or one curve from the results, and says what it should be:
 //!
@@ -47,6 +47,7 @@
 //!
 //! A check whose file, column or row is missing fails and says which names come near; so does one that meets a NaN.
 
+mod differences;
 mod evaluate;
 mod expected;
 mod near;
@@ -60,6 +61,7 @@ use std::path::Path;
 
 use crate::error::{Error, IoError};
 
+pub use differences::{Difference, Differences, differences};
 pub use expected::{Check, Curve, Expected, Reduce};
 pub use near::near;
 pub use report::{Comparison, Outcome, Report, Target, Verdict};

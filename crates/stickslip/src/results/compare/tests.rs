@@ -368,3 +368,123 @@ fn the_report_is_an_aligned_table() {
     .join("\n");
     assert_eq!(text, expected, "\n{text}");
 }
+
+/// Differences by quantity, as they are found.
+fn apart(a: &Folder, b: &Folder) -> super::Differences {
+    super::differences(&a.0, &b.0).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn two_folders_differ_where_their_files_do() {
+    let (a, b) = (Folder::new("differ-a"), Folder::new("differ-b"));
+    let same = apart(&a, &b);
+    assert!(same.quantities.iter().all(|d| d.largest == 0.0));
+    assert_eq!(same.quantities.len(), 4, "three of the history, one table");
+    assert!(same.notes.is_empty() && same.uncompared.is_empty());
+
+    b.file(
+        "history.csv",
+        "TIME,A.U1,A.U2,bad,more\n0,0,0,0,1\n0.5,3e-5,-7,0,1\n1,2.84594e-5,1,1,1\n",
+    );
+    b.file(
+        "interfaces/base.csv",
+        "node,x,z,CPRESS\n1,1,0,10\n2,0,0,27\n3,2,0,0\n4,0,1,5\n5,1,1,NaN\n",
+    );
+    b.file("interfaces/other.csv", "node,x,CPRESS\n1,1,0\n");
+    let found = apart(&a, &b);
+    let of = |quantity: &str| {
+        let all = found.quantities.iter();
+        let one = all.clone().find(|d| d.quantity == quantity);
+        one.unwrap_or_else(|| panic!("{quantity} of {:?}", all.collect::<Vec<_>>()))
+    };
+    // Components have one scale: that of the largest of them.
+    let u1 = of("history A.U1");
+    assert!(
+        (u1.largest - 1e-5).abs() < 1e-18 && u1.scale == 7.0,
+        "{u1:?}"
+    );
+    assert_eq!(u1.place, "time 0.500000");
+    // What only one of them has is as far as can be.
+    assert_eq!(of("history bad").relative(), f64::INFINITY);
+    let pressure = of("interfaces/base.csv CPRESS");
+    assert_eq!((pressure.largest, pressure.scale), (3.0, 30.0));
+    assert_eq!(pressure.place, "at (0.0000, 0.0000, 0.0000)");
+    assert_eq!(
+        found.uncompared,
+        [
+            "history: only the second has more",
+            "interfaces: only the second has other.csv"
+        ]
+    );
+    // The largest first.
+    assert_eq!(found.quantities[0].quantity, "history bad");
+    let text = found.to_string();
+    assert!(
+        text.contains("interfaces/base.csv CPRESS") && text.contains("1.00e-1"),
+        "{text}"
+    );
+    assert!(
+        text.ends_with("4 quantities compared, 1 equal to the last digit"),
+        "{text}"
+    );
+    // What is zero but for rounding is that beside the same quantity elsewhere.
+    for (folder, zero) in [(&a, "1e-14"), (&b, "3e-14")] {
+        folder.file(
+            "history.csv",
+            &format!("TIME,foot.RF1,top.RF1\n1,200,{zero}\n"),
+        );
+    }
+    let found = apart(&a, &b);
+    let top = found
+        .quantities
+        .iter()
+        .find(|d| d.quantity == "history top.RF1");
+    assert!(top.is_some_and(|d| d.relative() < 1.01e-7), "{top:?}");
+}
+
+#[test]
+fn histories_with_other_increments_are_compared_in_between() {
+    let (a, b) = (Folder::new("between-a"), Folder::new("between-b"));
+    b.file(
+        "history.csv",
+        "TIME,A.U1,A.U2,bad\n0,0,0,0\n1,2.84594e-5,1,1\n2,9,9,9\n",
+    );
+    let found = apart(&a, &b);
+    let u2 = found
+        .quantities
+        .iter()
+        .find(|d| d.quantity == "history A.U2");
+    // At 0.5 the second has 0.5, half of the way from 0 to 1; time 2 is none of the first's.
+    assert_eq!(u2.map(|d| d.largest), Some(7.5));
+    assert_eq!(
+        found.notes,
+        [
+            "history: 3 and 3 rows, 2 at the same times; the second is taken as linear between its rows"
+        ]
+    );
+}
+
+#[test]
+fn tables_of_other_points_and_folders_without_a_history_are_not_compared() {
+    let (a, b) = (Folder::new("unlike-a"), Folder::new("unlike-b"));
+    b.file(
+        "interfaces/base.csv",
+        "node,x,z,CPRESS\n1,1,0,10\n2,0,0,30\n",
+    );
+    assert_eq!(
+        apart(&a, &b).uncompared,
+        ["interfaces/base.csv: the meshes have 5 and 2 points"]
+    );
+    b.file(
+        "interfaces/base.csv",
+        "node,x,z,CPRESS\n1,1,0,10\n2,0,0,30\n3,2,0,0\n4,0,1,5\n5,1.1,1,1\n",
+    );
+    let moved = apart(&a, &b).uncompared;
+    assert!(moved[0].contains("lie up to 1.000e-1 apart"), "{moved:?}");
+    fs::remove_file(b.0.join("history.csv")).unwrap();
+    let error = super::differences(&a.0, &b.0).unwrap_err().to_string();
+    assert!(
+        error.contains("no history.csv") && error.contains("unlike-b"),
+        "{error}"
+    );
+}
