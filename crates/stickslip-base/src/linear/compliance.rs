@@ -11,6 +11,7 @@ use faer::{MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
 use super::LinearError;
+use super::factor::zeros;
 
 /// The inverse of a dense symmetric positive definite matrix, for products with vectors.
 ///
@@ -80,11 +81,7 @@ impl Compliance {
         let Ok(mut memory) = MemBuffer::try_new(scratch) else {
             return Err(lost);
         };
-        let mut values: Vec<f64> = Vec::new();
-        if values.try_reserve_exact(n * n).is_err() {
-            return Err(lost);
-        }
-        values.resize(n * n, 0.0);
+        let mut values = zeros(n * n)?;
         let done = cholesky_in_place(
             MatMut::from_column_major_slice_mut(&mut *stiffness, n, n),
             LltRegularization::default(),

@@ -153,14 +153,9 @@ impl Factor {
 
 /// Zeros, or the news that they do not fit.
 pub(super) fn zeros(length: usize) -> Result<Vec<f64>, LinearError> {
-    let mut values = Vec::new();
-    values
-        .try_reserve_exact(length)
-        .map_err(|_| LinearError::OutOfMemory {
-            bytes: 8 * length as u64,
-        })?;
-    values.resize(length, 0.0);
-    Ok(values)
+    bytemuck::try_zeroed_vec(length).map_err(|()| LinearError::OutOfMemory {
+        bytes: 8 * length as u64,
+    })
 }
 
 /// Collects the matrix and the extra blocks in the order of elimination.

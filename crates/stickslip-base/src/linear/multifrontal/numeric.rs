@@ -1,3 +1,4 @@
+use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
@@ -10,6 +11,9 @@ use super::symbolic::Fronts;
 
 /// Children of the root worked on at a time; their contributions are added in order.
 const TOGETHER: usize = 8;
+
+/// Numbers in a page of memory, or a part of one.
+const PAGE: usize = 512;
 
 /// The factor of the interior of a substructure and its couplings to the kept dofs: `L_II` and `L_CI` in
 /// `K = [L_II 0; L_CI I] [I 0; 0 S] [L_II 0; L_CI I]ᵀ` with the Schur complement
@@ -34,37 +38,62 @@ struct Work<'a> {
 }
 
 /// Memory that factorisations use one after the other, or side by side: fresh pages cost as much as arithmetic.
+///
+/// Its pieces are as long as the longest that any of the bodies asks for. What is not written to is no page, so that they need not grow and are
+/// not filled with zeros.
 #[derive(Debug, Default)]
-pub struct Workspace(Mutex<Vec<Vec<f64>>>);
+pub struct Workspace {
+    free: Mutex<Vec<Vec<f64>>>,
+    longest: usize,
+}
+
+/// Numbers of a [`Workspace`].
+#[derive(Debug)]
+pub struct Numbers {
+    all: Vec<f64>,
+    length: usize,
+}
+
+impl Deref for Numbers {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.all[..self.length]
+    }
+}
+
+impl DerefMut for Numbers {
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.all[..self.length]
+    }
+}
 
 impl Workspace {
-    /// At least `length` numbers of any value.
-    fn take(&self, length: usize) -> Result<Vec<f64>, LinearError> {
-        let mut buffer = {
-            let mut free = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            let large_enough = (0..free.len()).filter(|&i| free[i].len() >= length);
-            let best = large_enough.min_by_key(|&i| free[i].len());
-            // Instead of one more of them the largest grows: its pages stay where they are.
-            let largest = || (0..free.len()).max_by_key(|&i| free[i].len());
-            match best.or_else(largest) {
-                Some(at) => free.swap_remove(at),
-                None => Vec::new(),
-            }
-        };
-        let more = length.saturating_sub(buffer.len());
-        (buffer.try_reserve_exact(more)).map_err(|_| LinearError::OutOfMemory {
-            bytes: 8 * length as u64,
-        })?;
-        if more > 0 {
-            buffer.resize(length, 0.0);
+    /// For factorisations of these bodies.
+    pub fn of<'a>(bodies: impl IntoIterator<Item = &'a Fronts>) -> Workspace {
+        Workspace {
+            free: Mutex::default(),
+            longest: bodies.into_iter().map(Fronts::longest).max().unwrap_or(0),
         }
-        Ok(buffer)
+    }
+
+    /// So many numbers of any value.
+    fn take(&self, length: usize) -> Result<Numbers, LinearError> {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        // Of equally good ones the last that was given back: it is likely in a cache.
+        let long_enough = (0..free.len()).rev().filter(|&i| free[i].len() >= length);
+        let best = long_enough.min_by_key(|&i| free[i].len());
+        let all = match best {
+            Some(at) => free.swap_remove(at),
+            None => zeros(length.max(self.longest)).or_else(|_| zeros(length))?,
+        };
+        Ok(Numbers { all, length })
     }
 
     /// Takes memory back.
-    pub fn give(&self, buffer: Vec<f64>) {
-        let mut free = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        free.push(buffer);
+    pub fn give(&self, numbers: Numbers) {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        free.push(numbers.all);
     }
 }
 
@@ -84,7 +113,7 @@ impl PartialFactor {
         fronts: &Arc<Fronts>,
         matrix: &BlockCsr,
         workspace: &Workspace,
-    ) -> Result<(PartialFactor, Vec<f64>), LinearError> {
+    ) -> Result<(PartialFactor, Numbers), LinearError> {
         let shape = (matrix.points(), matrix.block_size());
         assert_eq!(shape, fronts.shape, "not the matrix analysed");
         let work = Work {
@@ -132,11 +161,11 @@ fn smaller(a: Pivot, b: Pivot) -> Pivot {
 
 impl Work<'_> {
     /// All pieces, and the root.
-    fn run(&self) -> Result<(Vec<f64>, Pivot), LinearError> {
+    fn run(&self) -> Result<(Numbers, Pivot), LinearError> {
         let fronts = self.fronts;
         let order = fronts.root.len();
         let mut smallest = (0, f64::INFINITY);
-        let mut schur: Option<Vec<f64>> = None;
+        let mut schur: Option<Numbers> = None;
         let last: Vec<usize> = (0..fronts.pieces.len())
             .filter(|&at| fronts.pieces[at].last)
             .collect();
@@ -151,13 +180,13 @@ impl Work<'_> {
                     _ => {
                         if schur.is_none() {
                             let mut root = self.buffers.take(order * order)?;
-                            root[..order * order].fill(0.0);
+                            root.fill(0.0);
                             schur = Some(root);
                         }
                         let values = &contribution;
                         let child = Child { targets, values };
                         if let Some(root) = &mut schur {
-                            dense::add_to_root(&mut root[..order * order], order, child);
+                            dense::add_to_root(root, order, child);
                         }
                         self.buffers.give(contribution);
                     }
@@ -166,9 +195,12 @@ impl Work<'_> {
         }
         let mut schur = match schur {
             Some(schur) => schur,
-            None => zeros(order * order)?,
+            None => {
+                let mut schur = self.buffers.take(order * order)?;
+                schur.fill(0.0);
+                schur
+            }
         };
-        schur.truncate(order * order);
         for (j, column) in schur.chunks_exact_mut(order.max(1)).enumerate() {
             column[..j].fill(0.0);
             let position = fronts.interior.len() + j;
@@ -184,7 +216,7 @@ impl Work<'_> {
     }
 
     /// Several pieces and what is below them, in any order; their contributions in the given one.
-    fn pieces(&self, pieces: &[usize]) -> Vec<Result<(Vec<f64>, Pivot), LinearError>> {
+    fn pieces(&self, pieces: &[usize]) -> Vec<Result<(Numbers, Pivot), LinearError>> {
         match pieces {
             [] => Vec::new(),
             [one] => vec![self.piece(*one)],
@@ -193,7 +225,7 @@ impl Work<'_> {
     }
 
     /// The contribution of a piece and of all below it, and their smallest pivot.
-    fn piece(&self, at: usize) -> Result<(Vec<f64>, Pivot), LinearError> {
+    fn piece(&self, at: usize) -> Result<(Numbers, Pivot), LinearError> {
         let fronts = self.fronts;
         let piece = &fronts.pieces[at];
         let below: Vec<usize> = piece.children.iter().map(|&child| child as usize).collect();
@@ -210,10 +242,8 @@ impl Work<'_> {
             columns * (columns + rows)
         };
         let total: usize = piece.fronts.clone().map(area).sum();
-        let mut panels: Vec<f64> = Vec::new();
-        (panels.try_reserve_exact(total)).map_err(|_| LinearError::OutOfMemory {
-            bytes: 8 * total as u64,
-        })?;
+        let mut panels = zeros(total)?;
+        let mut filled = 0;
         let square = |front: usize| fronts.sizes(front).1.pow(2);
         let [even, odd] = piece.stacks(&fronts.tree, square);
         let mut stacks = [self.buffers.take(even)?, self.buffers.take(odd)?];
@@ -243,9 +273,10 @@ impl Work<'_> {
                     children.push(Child { targets, values });
                 }
             }
-            let start = panels.len();
-            panels.resize(start + area(front), 0.0);
-            let panel = &mut panels[start..];
+            let panel = &mut panels[filled..filled + area(front)];
+            filled += panel.len();
+            // A page that is read before it is written to is mapped twice.
+            panel.chunks_mut(PAGE).for_each(|page| page[0] = 0.0);
             let target = if front == piece.top() {
                 &mut top[..square(front)]
             } else {

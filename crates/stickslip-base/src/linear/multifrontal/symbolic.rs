@@ -226,6 +226,17 @@ impl Fronts {
         4 * words as u64
     }
 
+    /// The most numbers that a factorisation asks of its workspace at once.
+    pub(super) fn longest(&self) -> usize {
+        let square = |front: usize| self.sizes(front).1.pow(2);
+        let of_piece = |piece: &Piece| {
+            let [even, odd] = piece.stacks(&self.tree, square);
+            even.max(odd).max(square(piece.top()))
+        };
+        let pieces = self.pieces.iter().map(of_piece);
+        pieces.max().unwrap_or(0).max(self.root.len().pow(2))
+    }
+
     /// About the memory a factorisation needs at most, the Schur complement and the factor included \[bytes\].
     pub fn peak_bytes(&self) -> u64 {
         let blocks: u64 = (0..self.len())

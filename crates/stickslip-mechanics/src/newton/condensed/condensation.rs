@@ -194,7 +194,8 @@ impl Condensation {
         library: &Library,
     ) -> Result<(Condensation, Effort), LinearError> {
         let Plan { parts, mut effort } = plan;
-        let workspace = Workspace::default();
+        let new = parts.iter().filter(|part| part.known.is_none());
+        let workspace = Workspace::of(new.map(|part| &*part.fronts));
         let made: Result<Vec<Got>, LinearError> = parts
             .into_par_iter()
             .map(|part| match part.known {
