@@ -82,48 +82,50 @@ impl LoadModel for Centrifugal {
         };
         let dofs = domain.dofs();
         let mut entries = Vec::new();
-        let mut add = |p: usize, mass: f64, x: Vec3| {
-            let a = acceleration(x);
-            entries.extend((0..dofs.dim).map(|i| (dofs.of(p, i), mass * a[i])));
+        let mut add = |p: usize, force: Vec3| {
+            entries.extend((0..dofs.dim).map(|i| (dofs.of(p, i), force[i])));
         };
         for (index, block) in domain.mesh.blocks.iter().enumerate() {
             let chosen = cells.iter().filter(|c| c.block == index).map(|c| c.cell);
             let density = domain.densities.get(index).copied().unwrap_or(0.0);
             by_nodes!(
                 block.kind,
-                masses(
+                forces(
                     (domain.mesh, domain.space, density),
-                    block,
-                    &mut chosen.into_iter(),
+                    (block, &mut chosen.into_iter()),
+                    &acceleration,
                     &mut add
                 )
             );
         }
         for (p, mass) in domain.masses_at(cells) {
-            add(p, mass, domain.mesh.points[p]);
+            add(p, scale(mass, acceleration(domain.mesh.points[p])));
         }
         Ok(Action::Forces(combine(entries)))
     }
 }
 
-/// Visits `ρ N_i dV` at the quadrature points of the chosen cells of a block, node by node, with the place of the point.
-fn masses<const N: usize>(
+/// Visits `∫ ρ N_i a dV` of every node of the chosen cells of a block, with the acceleration `a` given by the place `[m/s²]`.
+fn forces<const N: usize>(
     (mesh, space, density): (&Mesh, Space, f64),
-    block: &Block,
-    cells: &mut dyn Iterator<Item = usize>,
-    add: &mut dyn FnMut(usize, f64, Vec3),
+    (block, cells): (&Block, &mut dyn Iterator<Item = usize>),
+    acceleration: &dyn Fn(Vec3) -> Vec3,
+    add: &mut dyn FnMut(usize, Vec3),
 ) {
     let table = Table::<N>::with_rule(block.kind, &mass_rule(block.kind));
     for cell in cells {
         let x = coordinates(&mesh.points, block, cell);
-        let nodes = &block.connectivity[cell * N..(cell + 1) * N];
+        let mut forces = [[0.0; 3]; N];
         for (q, n) in table.values.iter().enumerate() {
             let mass = density * point(&table, q, &x, space).volume;
             let place = x.map(|row| row.iter().zip(n).map(|(x, n)| x * n).sum());
-            for (&p, n) in nodes.iter().zip(n) {
-                add(p, n * mass, place);
+            let a = acceleration(place);
+            for (force, n) in forces.iter_mut().zip(n) {
+                *force = add_scaled(*force, n * mass, a);
             }
         }
+        let nodes = &block.connectivity[cell * N..(cell + 1) * N];
+        nodes.iter().zip(forces).for_each(|(&p, f)| add(p, f));
     }
 }
 
