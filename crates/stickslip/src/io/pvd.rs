@@ -51,18 +51,46 @@ impl Collection {
     /// [`Error::Io`] if it cannot be written.
     pub fn push(&mut self, t: f64, file: &str) -> Result<(), Error> {
         self.entries.push((t, file.to_string()));
-        let mut text = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
-        );
-        for (t, file) in &self.entries {
-            text += &format!(
-                "<DataSet timestep=\"{t:?}\" part=\"0\" file=\"{}\"/>\n",
-                escape(file)
-            );
-        }
-        text += "</Collection>\n</VTKFile>\n";
-        write_atomically(&self.path, text.as_bytes())
+        let lines = self.entries.iter();
+        let lines = lines.map(|(t, file)| line(*t, "part=\"0\"", file));
+        write_lines(&self.path, lines)
     }
+}
+
+fn line(t: f64, which: &str, file: &str) -> String {
+    let file = escape(file);
+    format!("<DataSet timestep=\"{t:?}\" {which} file=\"{file}\"/>\n")
+}
+
+fn write_lines(path: &Path, lines: impl Iterator<Item = String>) -> Result<(), Error> {
+    let mut text = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+    );
+    text.extend(lines);
+    text += "</Collection>\n</VTKFile>\n";
+    write_atomically(path, text.as_bytes())
+}
+
+/// Writes a collection of which every time has the same named parts: a block each. `file` says which file holds a part, by its name and that of the whole.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be written.
+pub fn write_parts(
+    path: &Path,
+    entries: &[(f64, String)],
+    parts: &[String],
+    file: impl Fn(&str, &str) -> String,
+) -> Result<(), Error> {
+    let each = entries.iter().flat_map(|(t, whole)| {
+        parts.iter().enumerate().map({
+            let file = &file;
+            move |(i, part)| {
+                let which = format!("part=\"{i}\" name=\"{}\"", escape(part));
+                line(*t, &which, &file(part, whole))
+            }
+        })
+    });
+    write_lines(path, each)
 }
 
 /// Reads a collection: time and file of each entry, in the order of the file. Names are as they are written, relative to the
@@ -71,6 +99,26 @@ impl Collection {
 /// # Errors
 /// [`Error::Io`] if the file cannot be read, is malformed, or an entry has no time or no file.
 pub fn read(path: &Path) -> Result<Vec<(f64, String)>, Error> {
+    let parts = read_parts(path)?.into_iter();
+    Ok(parts.map(|part| (part.time, part.file)).collect())
+}
+
+/// A file of a collection.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its time `[time]`.
+    pub time: f64,
+    /// The name of the block; empty where it has none.
+    pub name: String,
+    /// The file, relative to the collection.
+    pub file: String,
+}
+
+/// Reads a collection with the names of its blocks.
+///
+/// # Errors
+/// As [`read()`].
+pub fn read_parts(path: &Path) -> Result<Vec<Part>, Error> {
     let bytes = super::input::read(path, super::input::TEXT).map_err(|e| Error::io(path, e))?;
     parse(&bytes).map_err(|message| {
         Error::Io(IoError {
@@ -80,7 +128,21 @@ pub fn read(path: &Path) -> Result<Vec<(f64, String)>, Error> {
     })
 }
 
-fn parse(bytes: &[u8]) -> Result<Vec<(f64, String)>, String> {
+/// The names of the blocks, each once, in the order of the file.
+///
+/// # Errors
+/// As [`read()`].
+pub fn parts(path: &Path) -> Result<Vec<String>, Error> {
+    let mut names = Vec::new();
+    for part in read_parts(path)? {
+        if !names.contains(&part.name) {
+            names.push(part.name);
+        }
+    }
+    Ok(names)
+}
+
+fn parse(bytes: &[u8]) -> Result<Vec<Part>, String> {
     let mut scanner = Scanner::new(bytes);
     let (mut entries, mut collection) = (Vec::new(), false);
     while let Some(event) = scanner.next()? {
@@ -97,7 +159,12 @@ fn parse(bytes: &[u8]) -> Result<Vec<(f64, String)>, String> {
                 let time = text.trim().parse::<f64>().ok().filter(|t| t.is_finite());
                 let time =
                     time.ok_or_else(|| scanner.fault(format!("the time `{text}` is no number")))?;
-                entries.push((time, find("file")?.to_string()));
+                let name = attributes.iter().find(|(k, _)| *k == "name");
+                entries.push(Part {
+                    time,
+                    name: name.map_or_else(String::new, |(_, name)| name.clone()),
+                    file: find("file")?.to_string(),
+                });
             }
             _ => {}
         }
@@ -126,6 +193,20 @@ mod tests {
             (1e-9, "fields/a&b.vtu".to_string()),
         ];
         assert_eq!(read(&path).unwrap(), expected);
+        let blocks = ["a&b".to_string(), "c".to_string()];
+        write_parts(&path, collection.entries(), &blocks, |part, whole| {
+            format!("{part}/{whole}")
+        })
+        .unwrap();
+        assert_eq!(parts(&path).unwrap(), blocks);
+        let listed = read_parts(&path).unwrap();
+        assert_eq!(listed.len(), 4);
+        let second = Part {
+            time: 0.0,
+            name: "c".into(),
+            file: "c/fields/0000.vtu".into(),
+        };
+        assert_eq!(listed[1], second);
         std::fs::remove_file(path).unwrap();
     }
 

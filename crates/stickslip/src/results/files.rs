@@ -1,4 +1,4 @@
-//! The result directory: `fields.pvd` and `.vtu` files, `history.csv`, `interfaces/*.csv`, `summary.json`,
+//! The result directory: `fields.pvd` and `.vtu` files, `interfaces.pvd` and `interfaces/*.vtp`, `interfaces/*.csv`, `history.csv`, `summary.json`,
 //! an `.frd` file where the problem asks for one, and `culprits.vtu` where the doctor found something.
 
 use std::path::Path;
@@ -6,13 +6,14 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use super::analysis::Analysis;
-use super::folder::{Claim, Folder, FolderClaim, INTERFACES};
+use super::folder::{Claim, Folder, FolderClaim, INTERFACES, SURFACES, surface_name};
 use super::frd;
 use super::observer::{Event, Observer, Snapshot};
 use super::saved::{self, Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
+use crate::contact::interface::Sheet;
 use crate::error::Error;
 use crate::io::frd::end_again;
 use crate::io::{csv, pvd, vtu, write_atomically};
@@ -67,8 +68,8 @@ impl ResultFiles {
         saved::drop_later(directory, saved.snapshot.increments)?;
         let positions = &saved.positions;
         positions.restore(directory)?;
-        let known = |name: &str| positions.fields.iter().any(|(_, known)| known == name);
-        folder.drop_fields(|name| !known(name))?;
+        folder.keep_fields(&positions.fields)?;
+        keep_surfaces(directory, &positions.fields)?;
         let history = directory.join("history.csv");
         let frd = directory.join(&claim.frd.name);
         match positions.frd {
@@ -143,26 +144,30 @@ impl ResultFiles {
         let mesh = Arc::clone(self.mesh.get_or_insert_with(mesh));
         let fields = fields(view);
         let interfaces = view.contact.interfaces.iter();
-        let tables: Vec<(String, csv::Table)> = interfaces
+        let (u, time) = (&view.frame.state.u, view.frame.state.t);
+        let tables: Vec<(String, csv::Table, Sheet)> = interfaces
             .map(|interface| {
-                let (names, columns) = interface.table(&view.frame.state.u);
-                (interface.name.clone(), csv::Table { names, columns })
+                let (names, columns) = interface.table(u);
+                let table = csv::Table { names, columns };
+                (interface.name.clone(), table, interface.sheet(u, time))
             })
             .collect();
+        let parts: Vec<String> = tables.iter().map(|(name, ..)| name.clone()).collect();
         let path = self.folder.directory.join(&name);
         let folder = self.folder.directory.join(INTERFACES);
         let frd = self
             .frd
             .job(view, &self.folder.directory, || owners(view))?;
-        let file = path.clone();
+        let (file, fields_name) = (path.clone(), name.clone());
         let write = move || {
             mesh.write(&path, &fields)?;
             frd.map_or(Ok(()), |frd| frd.write(&fields))?;
             if !tables.is_empty() {
                 std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
             }
-            for (name, table) in &tables {
-                csv::write(&folder.join(format!("{name}.csv")), table)?;
+            for (interface, table, sheet) in &tables {
+                csv::write(&folder.join(format!("{interface}.csv")), table)?;
+                write_sheet(&folder.join(surface_name(interface, &fields_name)), sheet)?;
             }
             Ok(())
         };
@@ -170,6 +175,7 @@ impl ResultFiles {
         self.writing = Some(Writing {
             time: view.frame.state.t,
             name,
+            parts,
             thread: thread.map_err(|e| Error::io(&file, e))?,
         });
         Ok(())
@@ -177,15 +183,25 @@ impl ResultFiles {
 
     /// Waits for the files that are being written, and enters them into the list of all.
     fn written(&mut self) -> Result<(), Error> {
-        let Some(Writing { time, name, thread }) = self.writing.take() else {
+        let Some(writing) = self.writing.take() else {
             return Ok(());
         };
+        let Writing {
+            time,
+            name,
+            parts,
+            thread,
+        } = writing;
         match thread.join() {
             Ok(outcome) => outcome?,
             Err(panic) => std::panic::resume_unwind(panic),
         }
         self.frd.written();
-        self.pvd.push(time, &name)
+        self.pvd.push(time, &name)?;
+        match parts.is_empty() {
+            true => Ok(()),
+            false => list_surfaces(&self.folder.directory, self.pvd.entries(), &parts),
+        }
     }
 
     fn end(&mut self, summary: &Summary) -> Result<(), Error> {
@@ -203,6 +219,36 @@ impl ResultFiles {
     }
 }
 
+/// Lists the surfaces of interfaces, a block each at every time.
+fn list_surfaces(
+    directory: &Path,
+    fields: &[(f64, String)],
+    parts: &[String],
+) -> Result<(), Error> {
+    let file = |part: &str, whole: &str| format!("{INTERFACES}/{}", surface_name(part, whole));
+    pvd::write_parts(&directory.join(SURFACES), fields, parts, file)
+}
+
+/// Cuts the list of surfaces back to the fields that are known: which interfaces there are it says itself.
+fn keep_surfaces(directory: &Path, fields: &[(f64, String)]) -> Result<(), Error> {
+    let path = directory.join(SURFACES);
+    match path.is_file() {
+        true if !fields.is_empty() => list_surfaces(directory, fields, &pvd::parts(&path)?),
+        _ => remove(&path),
+    }
+}
+
+fn write_sheet(path: &Path, sheet: &Sheet) -> Result<(), Error> {
+    let surface = vtu::Surface {
+        points: &sheet.points,
+        nodes: &sheet.nodes,
+        faces: &sheet.faces,
+        cells: &sheet.cells,
+        fields: &sheet.fields,
+    };
+    vtu::write_surface(path, &surface)
+}
+
 /// Removes a file that need not be there.
 fn remove(path: &Path) -> Result<(), Error> {
     match std::fs::remove_file(path) {
@@ -217,6 +263,8 @@ struct Writing {
     time: f64,
     /// The file of fields.
     name: String,
+    /// The interfaces whose surfaces go with it.
+    parts: Vec<String>,
     thread: JoinHandle<Result<(), Error>>,
 }
 

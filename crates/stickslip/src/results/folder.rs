@@ -1,6 +1,7 @@
 //! The folder of results: it belongs to one run at a time, what an earlier run left there goes before the first file is written, and no
 //! file is touched that a run of this program did not write.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -120,12 +121,19 @@ impl Folder {
         Ok(())
     }
 
-    /// Removes files of fields.
-    pub fn drop_fields(&self, unwanted: impl Fn(&str) -> bool) -> Result<(), Error> {
-        for path in files(&self.directory, |name| is_field(name) && unwanted(name))? {
-            fs::remove_file(&path).map_err(|e| Error::io(&path, e))?;
+    /// Removes files of fields, and surfaces that go with none of those that are known.
+    pub fn keep_fields(&self, known: &[(f64, String)]) -> Result<(), Error> {
+        let numbers: BTreeSet<&str> = known.iter().filter_map(|(_, f)| number_of(f)).collect();
+        let unknown = |name: &str| number_of(name).is_none_or(|n| !numbers.contains(n));
+        remove(&files(&self.directory, |name| {
+            is_field(name) && unknown(name)
+        })?)?;
+        let tables = self.directory.join(INTERFACES);
+        let surface = |name: &str| name.ends_with(".vtp") && is_of_interface(name) && unknown(name);
+        match tables.is_dir() {
+            true => remove(&files(&tables, surface)?),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// Removes results that a run which was killed had written in part, aside.
@@ -135,7 +143,7 @@ impl Folder {
         };
         remove(&files(&self.directory, own)?)?;
         let tables = self.directory.join(INTERFACES);
-        let table = |name: &str| meant_by(name).is_some_and(|name| name.ends_with(".csv"));
+        let table = |name: &str| meant_by(name).is_some_and(is_of_interface);
         match tables.is_dir() {
             true => remove(&files(&tables, table)?),
             false => Ok(()),
@@ -221,13 +229,35 @@ pub fn running(directory: &Path) -> Option<String> {
     Lock::holder(directory).map(|holder| holder.to_string())
 }
 
-/// The folder of the tables of interfaces.
+/// The folder of what is known of interfaces.
 pub(crate) const INTERFACES: &str = "interfaces";
+
+/// The collection of their surfaces.
+pub(crate) const SURFACES: &str = "interfaces.pvd";
+
+/// The file of the surface of an interface that goes with a file of fields, in the folder of interfaces: `joint_00007.vtp`.
+pub(crate) fn surface_name(interface: &str, fields: &str) -> String {
+    format!("{interface}{}.vtp", number_of(fields).unwrap_or_default())
+}
+
+/// The number of a file of fields or of a surface, with what parts it from the name: `_00007`.
+fn number_of(name: &str) -> Option<&str> {
+    let stem = name.strip_suffix(".vtu").or(name.strip_suffix(".vtp"))?;
+    let number = &stem[stem.rfind('_')?..];
+    let whole = number.len() > 5 && number[1..].bytes().all(|byte| byte.is_ascii_digit());
+    whole.then_some(number)
+}
+
+/// Whether a file in the folder of interfaces has the name of a result.
+fn is_of_interface(name: &str) -> bool {
+    name.ends_with(".csv") || (name.ends_with(".vtp") && number_of(name).is_some())
+}
 
 const FILES: &[&str] = &[
     "summary.json",
     "history.csv",
     "fields.pvd",
+    SURFACES,
     "culprits.vtu",
     "problem.toml",
     "report.html",
@@ -253,10 +283,10 @@ fn remove(paths: &[PathBuf]) -> Result<(), Error> {
 }
 
 fn is_field(name: &str) -> bool {
-    let number = name
-        .strip_prefix("fields_")
-        .and_then(|n| n.strip_suffix(".vtu"));
-    number.is_some_and(|n| n.len() >= 5 && n.bytes().all(|byte| byte.is_ascii_digit()))
+    let rest = name
+        .strip_prefix("fields")
+        .filter(|rest| rest.ends_with(".vtu"));
+    rest.is_some_and(|rest| rest.rfind('_') == Some(0) && number_of(rest).is_some())
 }
 
 /// All files in the folder that have names of results.
@@ -264,7 +294,7 @@ fn results(directory: &Path, claim: &Claim) -> Result<Vec<PathBuf>, Error> {
     let mut out = files(directory, |name| is_result(name, claim))?;
     let tables = directory.join(INTERFACES);
     if tables.is_dir() {
-        out.extend(files(&tables, |name| name.ends_with(".csv"))?);
+        out.extend(files(&tables, is_of_interface)?);
     }
     out.sort();
     Ok(out)
@@ -293,7 +323,7 @@ fn spare(directory: &Path, input: &Path, claim: &Claim) -> Result<(), Error> {
     let name = name.unwrap_or_default();
     let replaced = match file.parent() {
         Some(parent) if parent == folder => is_result(name, claim),
-        Some(parent) if parent == folder.join(INTERFACES) => name.ends_with(".csv"),
+        Some(parent) if parent == folder.join(INTERFACES) => is_of_interface(name),
         _ => false,
     };
     match replaced {

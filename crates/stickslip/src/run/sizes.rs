@@ -36,7 +36,7 @@ pub struct Sizes {
     pub checkpoint: u64,
     /// One that is written where a run is asked to stop, with the increments that wait for their interiors `[bytes]`.
     pub last_checkpoint: u64,
-    /// A file of fields before compression `[bytes]`.
+    /// A file of fields, with those of the surfaces of interfaces, before compression `[bytes]`.
     pub fields: u64,
     /// What the `.frd` file grows by with each, nothing if there is none `[bytes]`.
     pub frd: u64,
@@ -86,7 +86,14 @@ impl Simulation {
             .sum::<usize>()
             + 4 * mesh.points.len()
             + of_mesh.sum::<usize>();
-        sizes.fields = (8 * numbers + 10_000) as u64;
+        let state = &view.frame.state;
+        let surfaces = (view.contact.interfaces.iter()).map(|i| i.sheet(&state.u, state.t));
+        let surfaces = surfaces.map(|s| {
+            let values = s.fields.all.iter().map(|f| f.values.len());
+            // Coordinates and numbers of points, pieces of quadratic faces.
+            8 * (values.sum::<usize>() + 4 * s.points.len() + 25 * s.faces.len()) + 5_000
+        });
+        sizes.fields = (8 * numbers + surfaces.sum::<usize>() + 10_000) as u64;
         let frd = match plan.frd {
             None => [0, 0],
             Some(Encoding::Text) => [FRD_TEXT, 10_000],

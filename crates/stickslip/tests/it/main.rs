@@ -32,6 +32,7 @@ mod rigid;
 mod schema;
 mod starts;
 mod suggestions;
+mod surfaces;
 mod threads;
 mod units;
 mod wear;

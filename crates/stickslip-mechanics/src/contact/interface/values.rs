@@ -12,6 +12,10 @@ pub(super) struct PointValues {
     pub shear: [f64; 2],
     pub slip: [f64; 2],
     pub gap: f64,
+    /// Out of the primary.
+    pub normal: Vec3,
+    /// What acts on the secondary `[Pa]`, its shear alone, and the slip, as vectors.
+    pub vectors: [Vec3; 3],
     /// 0 open, 1 stick, 2 slip.
     pub status: f64,
     pub area: f64,
@@ -58,6 +62,8 @@ impl Interface {
             shear: frame.map(|e| dot(shear, e)),
             slip: frame.map(|e| dot(slip, e)),
             gap: h.gap,
+            normal,
+            vectors: [add_scaled(shear, h.pressure, normal), shear, slip],
             status: match h.status {
                 Status::Open => 0.0,
                 Status::Stick => 1.0,

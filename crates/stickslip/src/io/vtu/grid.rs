@@ -10,7 +10,7 @@ use crate::shape::ElementKind;
 
 use super::array::Array;
 use super::kinds::{Cell, cell};
-use super::read::{Outline, Piece, outline};
+use super::read::{GRID, Outline, Piece, outline};
 
 /// Names of arrays that hold the user's numbers of points, ours first.
 const POINT_IDS: [&str; 3] = ["NODE_ID", "GlobalNodeId", "GlobalPointIds"];
@@ -71,7 +71,7 @@ fn damaged(message: String) -> MeshError {
 }
 
 fn mesh(bytes: &[u8]) -> Result<Mesh, MeshError> {
-    let outline = outline(bytes).map_err(damaged)?;
+    let outline = outline(bytes, GRID).map_err(damaged)?;
     let mut grid = Grid::default();
     for piece in &outline.pieces {
         grid.append(&outline, piece)?;

@@ -1,4 +1,4 @@
-//! Result files: VTK XML unstructured grids (`.vtu`), written for ParaView and read back.
+//! Result files: VTK XML unstructured grids (`.vtu`) and surfaces (`.vtp`), written for ParaView and read back.
 //!
 //! What is written: arrays appended raw and compressed by zlib in blocks (*VTK XML formats*, `vtkZLibDataCompressor`),
 //! with 64-bit headers in little-endian order.
@@ -13,6 +13,7 @@ mod grid;
 mod kinds;
 mod read;
 mod stream;
+mod surface;
 mod whole;
 mod write;
 mod xml;
@@ -24,6 +25,7 @@ mod tests;
 
 pub use grid::{parse_mesh, read_mesh};
 pub use read::{PointArray, PointFields, parse, read};
+pub use surface::{Surface, read_surface, write_surface};
 pub use whole::{Grid, read_grid};
 pub use write::{PackedMesh, write, write_mesh, write_vertices};
 

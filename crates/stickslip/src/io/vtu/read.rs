@@ -68,6 +68,8 @@ pub(super) struct Piece<'a> {
     pub points: usize,
     /// Number of cells.
     pub cells: usize,
+    /// Number of cells of a surface, by [`KINDS`].
+    pub faces: [usize; 3],
     /// Coordinates.
     pub coordinates: Option<Array<'a>>,
     /// Point data.
@@ -79,7 +81,7 @@ pub(super) struct Piece<'a> {
 }
 
 pub(super) fn point_fields(bytes: &[u8]) -> Result<PointFields, String> {
-    let outline = outline(bytes)?;
+    let outline = outline(bytes, GRID)?;
     let mut all = PointFields::default();
     for piece in &outline.pieces {
         let next = outline.read(piece)?;
@@ -94,7 +96,15 @@ pub(super) fn point_fields(bytes: &[u8]) -> Result<PointFields, String> {
 
 const FOREIGN: &str = "this is no VTK file: it does not begin with <VTKFile>";
 
-pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
+/// The type of data set that a `.vtu` file holds, and that of a `.vtp` file.
+pub(super) const GRID: &str = "UnstructuredGrid";
+pub(super) const SURFACE: &str = "PolyData";
+
+/// The cells of a surface by their kinds.
+pub(super) const KINDS: [&str; 3] = ["Verts", "Lines", "Polys"];
+
+/// The tags of a file that holds this type of data set.
+pub(super) fn outline<'a>(bytes: &'a [u8], kind: &str) -> Result<Outline<'a>, String> {
     if !bytes.trim_ascii_end().ends_with(b"</VTKFile>") {
         let begun = bytes.windows(8).any(|w| w == b"<VTKFile");
         return Err(match begun {
@@ -113,10 +123,10 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
         let fault = |message: String| scanner.fault(message);
         match (event, scanner.path()) {
             (Event::Open(attributes), ["VTKFile"]) => {
-                root = Some(packing(&attributes).map_err(fault)?);
+                root = Some(packing(&attributes, kind).map_err(fault)?);
             }
             (Event::Open(_), [_]) | (Event::Text(_), []) => return Err(FOREIGN.into()),
-            (Event::Open(attributes), ["VTKFile", "UnstructuredGrid", "Piece"]) => {
+            (Event::Open(attributes), ["VTKFile", of, "Piece"]) if *of == kind => {
                 let line = line(bytes, scanner.position());
                 pieces.push(Piece::new(line, &attributes).map_err(fault)?);
             }
@@ -124,12 +134,13 @@ pub(super) fn outline(bytes: &[u8]) -> Result<Outline<'_>, String> {
                 event,
                 [
                     "VTKFile",
-                    "UnstructuredGrid",
+                    of,
                     "Piece",
-                    section @ ("PointData" | "Points" | "Cells" | "CellData"),
+                    section @ ("PointData" | "Points" | "Cells" | "CellData" | "Verts" | "Lines"
+                    | "Polys"),
                     "DataArray" | "Array",
                 ],
-            ) => {
+            ) if *of == kind => {
                 if let Some(piece) = pieces.last_mut() {
                     piece.take(section, event, &scanner)?;
                 }
@@ -156,6 +167,11 @@ impl<'a> Piece<'a> {
             line,
             points: count(attributes, "NumberOfPoints", None)?,
             cells: count(attributes, "NumberOfCells", Some(0))?,
+            faces: [
+                count(attributes, "NumberOfVerts", Some(0))?,
+                count(attributes, "NumberOfLines", Some(0))?,
+                count(attributes, "NumberOfPolys", Some(0))?,
+            ],
             coordinates: None,
             data: Vec::new(),
             topology: Vec::new(),
@@ -187,6 +203,11 @@ impl<'a> Piece<'a> {
                     }
                     "PointData" => self.data.push(array?),
                     "Cells" => self.topology.push(array),
+                    // Each kind of cells of a surface has arrays of these names.
+                    kind if KINDS.contains(&kind) => self.topology.push(array.map(|mut array| {
+                        array.name = format!("{kind}/{}", array.name);
+                        array
+                    })),
                     // Texts, for one, are no values that a cell could have.
                     _ => self.cell_data.extend(array),
                 }
@@ -196,8 +217,8 @@ impl<'a> Piece<'a> {
                 let array = match section {
                     "Points" => self.coordinates.as_mut(),
                     "PointData" => self.data.last_mut(),
-                    "Cells" => self.topology.last_mut().and_then(|a| a.as_mut().ok()),
-                    _ => self.cell_data.last_mut(),
+                    "CellData" => self.cell_data.last_mut(),
+                    _ => self.topology.last_mut().and_then(|a| a.as_mut().ok()),
                 };
                 // Text may be parted by elements that describe the array; the values are in the first part.
                 if let Some(array) = array.filter(|array| array.text.is_empty()) {
@@ -211,13 +232,14 @@ impl<'a> Piece<'a> {
 }
 
 /// What the root says, if all of it can be read.
-fn packing(attributes: &[(&str, String)]) -> Result<Packing, String> {
+fn packing(attributes: &[(&str, String)], wanted: &str) -> Result<Packing, String> {
     match attribute(attributes, "type") {
-        Some("UnstructuredGrid") => {}
+        Some(kind) if kind == wanted => {}
         other => {
             let kind = other.unwrap_or("data set without a type");
+            let article = if wanted == GRID { "an" } else { "a" };
             return Err(format!(
-                "the file holds a {kind}; only an UnstructuredGrid is read"
+                "the file holds a {kind}; only {article} {wanted} is read"
             ));
         }
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Error, IoError};
 
 use super::array::Array;
-use super::read::{Outline, Piece, PointArray, PointFields, outline};
+use super::read::{GRID, Outline, Piece, PointArray, PointFields, outline};
 
 /// A whole unstructured grid: points, cells, and the data on both.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -46,7 +46,7 @@ pub fn read_grid(path: &Path) -> Result<Grid, Error> {
 }
 
 pub(super) fn parse_grid(bytes: &[u8]) -> Result<Grid, String> {
-    let outline = outline(bytes)?;
+    let outline = outline(bytes, GRID)?;
     let mut all = Grid::default();
     for (i, piece) in outline.pieces.iter().enumerate() {
         let next = read_piece(&outline, piece)?;
@@ -61,44 +61,8 @@ pub(super) fn parse_grid(bytes: &[u8]) -> Result<Grid, String> {
 
 fn read_piece(outline: &Outline, piece: &Piece) -> Result<Grid, String> {
     let points = outline.read(piece)?;
-    let find = |name: &str| {
-        let known = piece.topology.iter().filter_map(|a| a.as_ref().ok());
-        known.into_iter().find(|a| a.name == name)
-    };
-    let whole = |name: &str, count: usize| -> Result<Vec<usize>, String> {
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        let array = find(name).ok_or_else(|| format!("a piece has no array `{name}`"))?;
-        if array.components != 1 {
-            return Err(format!(
-                "array `{name}` has {} components, not 1",
-                array.components
-            ));
-        }
-        let values = outline.values(array, count)?;
-        values
-            .into_iter()
-            .map(|v| match v >= 0.0 && v.fract() == 0.0 && v < 9e15 {
-                true => Ok(v as usize),
-                false => Err(format!(
-                    "array `{name}` has the value {v}, which is no index"
-                )),
-            })
-            .collect()
-    };
-    let offsets = whole("offsets", piece.cells)?;
-    if !offsets.is_sorted() {
-        return Err("array `offsets` decreases".into());
-    }
-    let connectivity = whole("connectivity", offsets.last().copied().unwrap_or(0))?;
-    let count = points.points.len();
-    if let Some(wrong) = connectivity.iter().find(|&&p| p >= count) {
-        return Err(format!(
-            "a cell refers to point {wrong}, and there are {count}"
-        ));
-    }
-    let types = whole("types", piece.cells)?;
+    let (offsets, connectivity) = cells(outline, piece, "", piece.cells)?;
+    let types = indices(outline, piece, "types", piece.cells)?;
     let types = types
         .into_iter()
         .map(|t| u8::try_from(t).map_err(|_| format!("VTK has no cells of type {t}")))
@@ -119,7 +83,61 @@ fn read_piece(outline: &Outline, piece: &Piece) -> Result<Grid, String> {
     })
 }
 
-fn values(outline: &Outline, array: &Array, count: usize) -> Result<PointArray, String> {
+/// The array of indices of this name in the topology of a piece.
+fn indices(
+    outline: &Outline,
+    piece: &Piece,
+    name: &str,
+    count: usize,
+) -> Result<Vec<usize>, String> {
+    if count == 0 {
+        return Ok(Vec::new());
+    }
+    let mut known = piece.topology.iter().filter_map(|a| a.as_ref().ok());
+    let array = known
+        .find(|a| a.name == name)
+        .ok_or_else(|| format!("a piece has no array `{name}`"))?;
+    if array.components != 1 {
+        return Err(format!(
+            "array `{name}` has {} components, not 1",
+            array.components
+        ));
+    }
+    let values = outline.values(array, count)?;
+    values
+        .into_iter()
+        .map(|v| match v >= 0.0 && v.fract() == 0.0 && v < 9e15 {
+            true => Ok(v as usize),
+            false => Err(format!(
+                "array `{name}` has the value {v}, which is no index"
+            )),
+        })
+        .collect()
+}
+
+/// Where the points of each of so many cells end, and these points; `kind` stands before the names of the arrays.
+pub(super) fn cells(
+    outline: &Outline,
+    piece: &Piece,
+    kind: &str,
+    count: usize,
+) -> Result<(Vec<usize>, Vec<usize>), String> {
+    let offsets = indices(outline, piece, &format!("{kind}offsets"), count)?;
+    if !offsets.is_sorted() {
+        return Err(format!("array `{kind}offsets` decreases"));
+    }
+    let total = offsets.last().copied().unwrap_or(0);
+    let connectivity = indices(outline, piece, &format!("{kind}connectivity"), total)?;
+    if let Some(wrong) = connectivity.iter().find(|&&p| p >= piece.points) {
+        return Err(format!(
+            "a cell refers to point {wrong}, and there are {}",
+            piece.points
+        ));
+    }
+    Ok((offsets, connectivity))
+}
+
+pub(super) fn values(outline: &Outline, array: &Array, count: usize) -> Result<PointArray, String> {
     Ok(PointArray {
         components: array.components,
         values: outline.values(array, count)?,

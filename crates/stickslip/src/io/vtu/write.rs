@@ -195,24 +195,46 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
 
 /// The header of the file and the data that follow it.
 #[derive(Default)]
-struct Writer {
-    text: String,
+pub(super) struct Writer {
+    pub text: String,
     appended: Vec<u8>,
 }
 
 impl Writer {
     fn begin(&mut self, points: usize, cells: usize) {
+        self.head("UnstructuredGrid");
+        self.text += &format!("<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n");
+    }
+
+    /// The head of a surface with so many vertices, lines and faces.
+    pub fn begin_surface(&mut self, points: usize, [verts, lines, polys]: [usize; 3]) {
+        self.head("PolyData");
         self.text += &format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-             compressor=\"vtkZLibDataCompressor\">\n\
-             <UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
+            "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"{lines}\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">\n"
         );
     }
 
     /// The whole file, after the cells.
     fn end(mut self) -> Vec<u8> {
-        self.text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+        self.text += "</Cells>\n";
+        self.close("UnstructuredGrid")
+    }
+
+    /// The whole file of a surface.
+    pub fn end_surface(self) -> Vec<u8> {
+        self.close("PolyData")
+    }
+
+    fn head(&mut self, kind: &str) {
+        self.text += &format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">\n<{kind}>\n"
+        );
+    }
+
+    fn close(mut self, kind: &str) -> Vec<u8> {
+        self.text += &format!("</Piece>\n</{kind}>\n<AppendedData encoding=\"raw\">\n_");
         let mut bytes = self.text.into_bytes();
         bytes.append(&mut self.appended);
         bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
@@ -227,7 +249,7 @@ impl Writer {
         self.add(&Array::integers(name, values));
     }
 
-    fn add(&mut self, array: &Array) {
+    pub fn add(&mut self, array: &Array) {
         self.text += &format!(
             "<DataArray {} format=\"appended\" offset=\"{}\"/>\n",
             array.attributes,
@@ -238,7 +260,7 @@ impl Writer {
 }
 
 /// An array as it stands in a file.
-struct Array {
+pub(super) struct Array {
     /// Type, name and components.
     attributes: String,
     /// How many values it has.
@@ -268,12 +290,12 @@ impl Array {
         }
     }
 
-    fn floats(name: &str, components: usize, values: &[f64]) -> Array {
+    pub fn floats(name: &str, components: usize, values: &[f64]) -> Array {
         let bytes: Vec<[u8; 8]> = values.iter().map(|v| v.to_le_bytes()).collect();
         Array::new("Float64", name, components, bytes.as_flattened())
     }
 
-    fn integers(name: &str, values: impl Iterator<Item = i64>) -> Array {
+    pub fn integers(name: &str, values: impl Iterator<Item = i64>) -> Array {
         let bytes: Vec<[u8; 8]> = values.map(i64::to_le_bytes).collect();
         Array::new("Int64", name, 1, bytes.as_flattened())
     }
