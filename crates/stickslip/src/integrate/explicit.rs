@@ -302,7 +302,8 @@ impl Explicit {
         let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));
         let t = frame.state.t + AFTER * (step.end - step.start);
         let couplings = (contact.couplings).highest_frequency(t, &self.inverse, links);
-        (squared + couplings, rate)
+        let dashpots = (contact.couplings).highest_rate(t, &self.inverse, links);
+        (squared + couplings, rate + dashpots)
     }
 
     /// The longest increment that is stable where nothing touches, with its safety.

@@ -181,8 +181,8 @@ impl Implicit {
         for (interface, tried) in contact.interfaces.iter_mut().zip(&after) {
             interface.adopt(tried);
         }
-        let (u, at) = (&frame.state.u, t + AFTER * dt);
-        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, u, out);
+        let (u, v, at) = (&frame.state.u, &frame.state.v, t + AFTER * dt);
+        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, (u, v), out);
         let known = coupling_forces(&contact.couplings, &model.links, u.len(), add);
         Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
     }
@@ -264,7 +264,8 @@ pub(crate) fn initial_contact(
         frame.ledger.initial += stored;
         frame.ledger.contact += stored;
     }
-    (contact.couplings).add_initial(t, u, &mut forces);
+    contact.couplings.begin_motion(t, &frame.state.v);
+    (contact.couplings).add_initial(t, (u, &frame.state.v), &mut forces);
     model.links.transfer(&mut forces);
     Ok(forces)
 }

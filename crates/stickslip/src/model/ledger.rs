@@ -9,7 +9,7 @@ use crate::system::Energy;
 pub(crate) struct Flow {
     /// Work of loads and reactions.
     pub work: f64,
-    /// Dissipated by Rayleigh damping.
+    /// Dissipated by Rayleigh damping and dashpots.
     pub damped: f64,
     /// Dissipated by the scheme.
     pub numerical: f64,
@@ -35,7 +35,7 @@ pub struct EnergyLedger {
     pub friction: f64,
     /// Dissipated by damping of the interfaces, and by impacts of masses on what does not give way.
     pub contact_damping: f64,
-    /// Dissipated by Rayleigh damping.
+    /// Dissipated by Rayleigh damping and dashpots.
     pub rayleigh_damping: f64,
     /// Dissipated by the scheme that integrates the motion; negative if it fed energy in.
     pub numerical: f64,

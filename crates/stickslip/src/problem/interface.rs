@@ -77,6 +77,10 @@ pub struct Interface {
     #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_distance: Option<f64>,
+    /// What the gap counts as at the start where `initial = "offset"` takes hold of it `[length]`: a clearance, whatever the meshes say; below zero an
+    /// overlap. Default: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_gap: Option<f64>,
     /// Points to which `snap` is restricted: `body.set` or a `[set.NAME]`. Default: all of the secondary.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_set: Option<String>,

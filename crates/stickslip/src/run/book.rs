@@ -54,6 +54,7 @@ pub(crate) fn ledger_after(
     let (stored, coupled) = (couplings.energy().stored, couplings.work());
     let flow = Flow {
         work: accepted.flow.work + coupled,
+        damped: accepted.flow.damped + couplings.damped(),
         ..accepted.flow
     };
     let interfaces: Vec<_> = contact.interfaces.iter().map(|i| i.energy()).collect();

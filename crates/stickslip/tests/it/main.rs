@@ -31,6 +31,7 @@ mod restep;
 mod rigid;
 mod schema;
 mod starts;
+mod stops;
 mod suggestions;
 mod surfaces;
 mod threads;

@@ -14,6 +14,46 @@ pub enum Tie {
         /// Its stiffness `[N/m]`.
         stiffness: f64,
     },
+    /// No sum falls below minus the clearance.
+    Gap {
+        /// How far the sum may fall `[m]`.
+        clearance: f64,
+        /// Stiffness of what it meets there `[N/m]`; nothing that gives way if not given.
+        stiffness: Option<f64>,
+    },
+    /// A force in proportion to its rate acts against every sum, in motion.
+    Dashpot {
+        /// Force per velocity `[N s/m]`.
+        coefficient: f64,
+    },
+}
+
+impl Tie {
+    /// Whether it holds by a multiplier.
+    pub(super) fn firm(self) -> bool {
+        match self {
+            Tie::Equation { .. } => true,
+            Tie::Gap { stiffness, .. } => stiffness.is_none(),
+            Tie::Spring { .. } | Tie::Dashpot { .. } => false,
+        }
+    }
+
+    /// Its own stiffness `[N/m]`; zero if it has none.
+    pub(super) fn stiffness(self) -> f64 {
+        match self {
+            Tie::Spring { stiffness } => stiffness,
+            Tie::Gap { stiffness, .. } => stiffness.unwrap_or(0.0),
+            Tie::Equation { .. } | Tie::Dashpot { .. } => 0.0,
+        }
+    }
+
+    /// Of a sum what its spring is deformed by `[m]`.
+    pub(super) fn stretch(self, sum: f64) -> f64 {
+        match self {
+            Tie::Gap { clearance, .. } => (sum + clearance).min(0.0),
+            _ => sum,
+        }
+    }
 }
 
 /// Rows with what they do, and when.
@@ -35,7 +75,8 @@ pub struct Coupling {
 ///
 /// An equation has a multiplier `λ`, the force that acts along its row. It is an unknown of Newton's method, eliminated row by row with a stiffness
 /// `ω` much above that of the bodies: `λ` goes on by `ω (g + B du)`, `g` what the equation is off. At the solution `g` is zero whatever `ω`, and equations
-/// that repeat others do no harm. That is the method of multipliers with an update in every iteration, where the constraints are linear.
+/// that repeat others do no harm. That is the method of multipliers with an update in every iteration, where the constraints are linear. A gap is
+/// an equation where `λ + ω g < 0`, and where not `λ` goes to zero.
 #[derive(Debug, Clone, Default)]
 pub struct Couplings {
     pub(super) all: Vec<Coupling>,
@@ -66,18 +107,21 @@ pub struct CouplingsMemory {
     pub(super) multipliers: Vec<f64>,
     /// Forces along the rows, those of springs as well `[N]`.
     pub(super) forces: Vec<f64>,
-    /// What the sums of equations had to be, and the stiffness of springs, by row.
+    /// What the sums of equations had to be, the stiffness of springs and the coefficient of dashpots, by row.
     pub(super) targets: Vec<f64>,
     /// Energy in springs `[J]`.
     pub(super) stored: f64,
     /// Work over the increment of equations whose value changes, and of springs whose stiffness does `[J]`.
     pub(super) work: f64,
+    /// What dashpots took over the increment `[J]`.
+    pub(super) damped: f64,
 }
 
 /// Multipliers of an attempt.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Iterate {
-    /// At the last iterate, with what the equations are off there, and now.
+    /// At the last iterate, with what the equations are off there, and now. Gaps that are open are off by infinity; the multiplier of a dashpot is its
+    /// force.
     pub last: Vec<f64>,
     pub off: Vec<f64>,
     pub now: Vec<f64>,
@@ -86,7 +130,7 @@ pub(super) struct Iterate {
 
 /// Stiffness by which multipliers are eliminated, relative to that of the bodies at the points of a row. Every iteration leaves about its inverse of
 /// what an equation is off; what rounding of displacements leaves of forces grows with it.
-const FIRM: f64 = 1e4;
+pub(super) const FIRM: f64 = 1e4;
 
 impl Couplings {
     /// Couplings of the points of a space of this dimension.
@@ -95,13 +139,12 @@ impl Couplings {
         let none = vec![0.0; rows];
         let mut targets = Vec::with_capacity(rows);
         for coupling in &all {
-            let first = match coupling.tie {
-                Tie::Equation { .. } => 0.0,
-                Tie::Spring { stiffness } => {
-                    let first = coupling.schedule.pieces.first();
-                    stiffness * first.map_or(1.0, |p| coupling.schedule.at(p.start))
-                }
+            let own = match coupling.tie {
+                Tie::Dashpot { coefficient } => coefficient,
+                tie => tie.stiffness(),
             };
+            let first = coupling.schedule.pieces.first();
+            let first = own * first.map_or(1.0, |p| coupling.schedule.at(p.start));
             targets.extend(coupling.rows.iter().map(|_| first));
         }
         Couplings {
@@ -150,17 +193,24 @@ impl Couplings {
         rows.enumerate().map(|(i, (c, r))| (i, c, r))
     }
 
-    /// The rows that hold something at time `t`.
+    /// The rows that hold something at time `t`: not those of dashpots, nor of gaps that are open.
     pub fn acting(&self, t: f64) -> impl Iterator<Item = &Row> {
-        self.rows()
-            .filter_map(move |(_, c, row)| c.schedule.active(t).then_some(row))
+        self.rows().filter_map(move |(i, c, row)| {
+            let holds = match c.tie {
+                Tie::Dashpot { .. } => false,
+                Tie::Gap { clearance, .. } => clearance <= 0.0 || self.memory.forces[i] < 0.0,
+                Tie::Equation { .. } | Tie::Spring { .. } => true,
+            };
+            (holds && c.schedule.active(t)).then_some(row)
+        })
     }
 
-    /// What the sum of an equation has to be at time `t` `[m]`, or the stiffness of a spring then `[N/m]`.
+    /// What the sum of an equation has to be at time `t` `[m]`, or the stiffness of a spring then `[N/m]`, or the coefficient of a dashpot.
     pub(super) fn target(&self, i: usize, coupling: &Coupling, t: f64) -> f64 {
         let s = coupling.schedule.at(t);
         match coupling.tie {
-            Tie::Spring { stiffness } => s * stiffness,
+            Tie::Spring { .. } | Tie::Gap { .. } => s * coupling.tie.stiffness(),
+            Tie::Dashpot { coefficient } => s * coefficient,
             Tie::Equation { value } if coupling.table => s * value,
             Tie::Equation { value } => self.start[i] + s * (value - self.start[i]),
         }
@@ -178,7 +228,7 @@ impl Couplings {
         for coupling in &self.all {
             let rows = first..first + coupling.rows.len();
             first = rows.end;
-            if !matches!(coupling.tie, Tie::Equation { .. }) {
+            if !coupling.tie.firm() {
                 continue;
             }
             let was = before.is_some_and(|t| coupling.schedule.active(t));
@@ -200,10 +250,7 @@ impl Couplings {
 
     /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
     pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
-        let springs = self.all.iter().map(|c| match c.tie {
-            Tie::Spring { stiffness } => stiffness,
-            Tie::Equation { .. } => 0.0,
-        });
+        let springs = self.all.iter().map(|c| c.tie.stiffness());
         let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
         // Where nothing has a stiffness any will do.
         let typical = if typical > 0.0 { typical } else { 1.0 };
@@ -233,24 +280,48 @@ impl Couplings {
         self.hold = hold;
     }
 
-    /// Adds the forces of the last accepted state, which is at `u`, to the internal ones, by dof.
-    pub fn add_initial(&self, t: f64, u: &[f64], out: &mut [f64]) {
-        self.add_forces(&self.memory.multipliers, (t, u), out);
+    /// Begins motion at velocities `v`: the forces that dashpots have there.
+    pub fn begin_motion(&mut self, t: f64, v: &[f64]) {
+        let mut forces = std::mem::take(&mut self.memory.forces);
+        for (i, coupling, row) in self.rows() {
+            if matches!(coupling.tie, Tie::Dashpot { .. }) && !v.is_empty() {
+                let acts = coupling.schedule.active(t);
+                forces[i] = if acts {
+                    self.target(i, coupling, t) * row.sum(v)
+                } else {
+                    0.0
+                };
+            }
+        }
+        self.memory.forces = forces;
+    }
+
+    /// Adds the forces of the last accepted state, which is at `u` with velocities `v`, to the internal ones, by dof.
+    pub fn add_initial(&self, t: f64, (u, v): (&[f64], &[f64]), out: &mut [f64]) {
+        self.add_forces(&self.memory.multipliers, (t, u, Some(v)), out);
     }
 
     /// The same for the last attempt, which ended at `u`.
     pub fn add_tried(&self, t: f64, u: &[f64], out: &mut [f64]) {
-        self.add_forces(&self.iterate.now, (t, u), out);
+        self.add_forces(&self.iterate.now, (t, u, None), out);
     }
 
-    fn add_forces(&self, multipliers: &[f64], (t, u): (f64, &[f64]), out: &mut [f64]) {
+    fn add_forces(
+        &self,
+        multipliers: &[f64],
+        (t, u, v): (f64, &[f64], Option<&[f64]>),
+        out: &mut [f64],
+    ) {
         for (i, coupling, row) in self.rows() {
             if !coupling.schedule.active(t) {
                 continue;
             }
-            let force = match coupling.tie {
-                Tie::Equation { .. } => multipliers.get(i).copied().unwrap_or(0.0),
-                Tie::Spring { .. } => self.target(i, coupling, t) * row.sum(u),
+            let force = match (coupling.tie, v) {
+                (Tie::Dashpot { .. }, Some([])) => 0.0,
+                (Tie::Dashpot { .. }, Some(v)) => self.target(i, coupling, t) * row.sum(v),
+                (Tie::Dashpot { .. }, None) => multipliers.get(i).copied().unwrap_or(0.0),
+                (tie, _) if tie.firm() => multipliers.get(i).copied().unwrap_or(0.0),
+                (tie, _) => self.target(i, coupling, t) * tie.stretch(row.sum(u)),
             };
             row.terms().for_each(|(dof, a)| out[dof] += a * force);
         }
@@ -259,6 +330,11 @@ impl Couplings {
     /// Work over the last increment of equations whose value changes, and of springs whose stiffness does `[J]`.
     pub fn work(&self) -> f64 {
         self.memory.work
+    }
+
+    /// What dashpots took over the last increment `[J]`.
+    pub fn damped(&self) -> f64 {
+        self.memory.damped
     }
 
     /// Multipliers take over from springs: they have the forces that these had. The energy of the springs that is gone, negative.
@@ -270,12 +346,12 @@ impl Couplings {
         for (i, coupling, _) in self.rows() {
             let target = memory.targets[i];
             match coupling.tie {
-                Tie::Spring { .. } if target > 0.0 => {
-                    memory.stored += 0.5 * memory.forces[i].powi(2) / target;
-                }
-                Tie::Spring { .. } => {}
                 // The way back to where the equation holds costs work.
                 Tie::Equation { .. } => memory.targets[i] += self.iterate.off_now[i],
+                Tie::Spring { .. } | Tie::Gap { .. } if target > 0.0 => {
+                    memory.stored += 0.5 * memory.forces[i].powi(2) / target;
+                }
+                _ => {}
             }
         }
         let change = memory.stored - before;
@@ -287,8 +363,9 @@ impl Couplings {
     pub fn begin_analysis(&mut self, t: f64, u: &[f64]) -> f64 {
         let mut stored = 0.0;
         for (i, coupling, row) in self.rows() {
-            if let Tie::Spring { .. } = coupling.tie {
-                stored += 0.5 * self.target(i, coupling, t) * row.sum(u).powi(2);
+            if coupling.tie.stiffness() > 0.0 {
+                let stretch = coupling.tie.stretch(row.sum(u));
+                stored += 0.5 * self.target(i, coupling, t) * stretch.powi(2);
             }
         }
         self.memory.stored = stored;
@@ -345,7 +422,8 @@ crate::keep!(CouplingsMemory {
     forces,
     targets,
     stored,
-    work
+    work,
+    damped
 });
 crate::keep!(Iterate {
     last,

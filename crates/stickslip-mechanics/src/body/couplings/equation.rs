@@ -47,7 +47,7 @@ fn is_one(x: &f64) -> bool {
     *x == 1.0
 }
 
-fn is_zero(x: &f64) -> bool {
+pub(super) fn is_zero(x: &f64) -> bool {
     *x == 0.0
 }
 

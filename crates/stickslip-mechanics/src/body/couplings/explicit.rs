@@ -1,7 +1,9 @@
 //! Explicit dynamics: springs in place of multipliers.
 
+use std::collections::BTreeMap;
+
 use super::all::{Hold, moved_by};
-use super::{Couplings, Tie};
+use super::{Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
 impl Couplings {
@@ -23,13 +25,13 @@ impl Couplings {
     pub fn fit_springs(&mut self, inverse_mass: &[f64], highest: f64, links: &Links) {
         let mut hold = std::mem::take(&mut self.hold);
         // Equations at the same place, or on the same rigid body, share what there is.
-        let mut met = std::collections::BTreeMap::<(bool, usize), usize>::new();
+        let mut met = BTreeMap::<(bool, usize), usize>::new();
         let place = |dof: usize| match links.of_point(dof / self.dim) {
             Some(body) => (true, body),
             None => (false, dof),
         };
         for (_, coupling, row) in self.rows() {
-            if matches!(coupling.tie, Tie::Equation { .. }) {
+            if coupling.tie.firm() {
                 row.terms()
                     .for_each(|(dof, _)| *met.entry(place(dof)).or_default() += 1);
             }
@@ -63,20 +65,35 @@ impl Couplings {
     /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof: by the rows of the
     /// stiffness (Gershgorin).
     pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
-        let mut rows = std::collections::BTreeMap::<usize, f64>::new();
+        let mut rows = BTreeMap::new();
         for (i, coupling, row) in self.rows() {
             if !coupling.schedule.active(t) {
                 continue;
             }
-            let stiffness = match coupling.tie {
-                Tie::Equation { .. } => self.hold[i].stiffness,
-                Tie::Spring { stiffness } => stiffness * most(&coupling.schedule),
+            let stiffness = match coupling.tie.firm() {
+                true => self.hold[i].stiffness,
+                false => coupling.tie.stiffness() * most(&coupling.schedule),
             };
-            let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
-            for (dof, a) in row.terms() {
-                *rows.entry(dof).or_default() += stiffness * a.abs() * all;
+            add_row(&mut rows, row, stiffness);
+        }
+        self.largest(rows, inverse_mass, links)
+    }
+
+    /// An upper bound of the rate `[1/s]` at which all dashpots that act from `t` on take velocity away, found alike.
+    pub fn highest_rate(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
+        let mut rows = BTreeMap::new();
+        for (_, coupling, row) in self.rows() {
+            if let Tie::Dashpot { coefficient } = coupling.tie
+                && coupling.schedule.active(t)
+            {
+                add_row(&mut rows, row, coefficient * most(&coupling.schedule));
             }
         }
+        self.largest(rows, inverse_mass, links)
+    }
+
+    /// The largest sum of a row of a matrix over the mass, those of a rigid body together.
+    fn largest(&self, rows: BTreeMap<usize, f64>, inverse_mass: &[f64], links: &Links) -> f64 {
         let mut highest = 0.0_f64;
         let mut rigid = vec![0.0; links.all().len()];
         for (dof, k) in rows {
@@ -87,6 +104,14 @@ impl Couplings {
             }
         }
         rigid.into_iter().fold(highest, f64::max)
+    }
+}
+
+/// Adds the sizes in the rows of the matrix of one row with a stiffness.
+fn add_row(rows: &mut BTreeMap<usize, f64>, row: &Row, stiffness: f64) {
+    let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
+    for (dof, a) in row.terms() {
+        *rows.entry(dof).or_default() += stiffness * a.abs() * all;
     }
 }
 

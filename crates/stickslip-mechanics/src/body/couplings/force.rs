@@ -1,5 +1,6 @@
 //! Couplings as a force.
 
+use super::all::FIRM;
 use super::{Couplings, Row, Tie};
 use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
 
@@ -15,6 +16,7 @@ impl Force for Couplings {
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         let mut off_now = std::mem::take(&mut self.iterate.off_now);
+        let mut now = std::mem::take(&mut self.iterate.now);
         let mut scratch = Scratch::default();
         let mut failure = None;
         let u = &stage.at.u;
@@ -28,25 +30,65 @@ impl Force for Couplings {
             let norm = row.norm();
             let (force, stiffness) = match coupling.tie {
                 Tie::Spring { .. } => (target * sum, target),
-                Tie::Equation { .. } => {
-                    let off = sum - target;
+                Tie::Gap {
+                    clearance,
+                    stiffness: Some(_),
+                } => {
+                    let closed = sum + clearance <= 0.0;
+                    let force = target * coupling.tie.stretch(sum);
+                    (force, if closed { target } else { 0.0 })
+                }
+                Tie::Dashpot { .. } => {
+                    let force = target * self.rate_of(row, stage);
+                    now[i] = force;
+                    scratch.push(row, force, out);
+                    out.add_coupling(&row.dofs);
+                    if let Some(rate) = &stage.rate {
+                        let gain = |k: usize| target * rate.gain[row.dofs[k]] / stage.dt;
+                        scratch.add(row, gain, out);
+                    }
+                    continue;
+                }
+                Tie::Equation { .. } | Tie::Gap { .. } => {
+                    let gap = match coupling.tie {
+                        Tie::Gap { clearance, .. } => Some(sum + clearance),
+                        _ => None,
+                    };
+                    let off = gap.unwrap_or(sum - target);
                     off_now[i] = off;
                     if hold.idle {
-                        let size = row.size(u).max(target.abs());
-                        if off.abs() > AGREED * size {
+                        let size = row.size(u).max((sum - off).abs());
+                        let wrong = if gap.is_some() { -off } else { off.abs() };
+                        if wrong > AGREED * size {
                             failure.get_or_insert_with(|| contradiction(&coupling.name, off));
                         }
                         continue;
                     }
                     let pull = hold.stiffness * off;
+                    let known = match self.explicit {
+                        true => self.memory.multipliers[i],
+                        false => now[i],
+                    };
+                    let open = gap.is_some() && known + pull > 0.0;
                     if self.explicit {
-                        (self.memory.multipliers[i] + pull, hold.stiffness)
+                        match open {
+                            true => (0.0, 0.0),
+                            false => (known + pull, hold.stiffness),
+                        }
                     } else {
+                        // The multiplier of a gap that is open goes to zero.
+                        let pull = if open { -known } else { pull };
                         row.terms()
                             .for_each(|(dof, a)| out.condensed[dof] += a * pull);
-                        let pull = norm * pull.abs();
-                        out.multiplier_residual = out.multiplier_residual.max(pull);
-                        (self.iterate.now[i], hold.stiffness)
+                        let size = norm * pull.abs();
+                        // A gap that has just closed is off by far more than what it will bear.
+                        let fresh = gap.is_some() && known == 0.0;
+                        let size = if fresh { size / FIRM } else { size };
+                        out.multiplier_residual = out.multiplier_residual.max(size);
+                        if open {
+                            off_now[i] = f64::INFINITY;
+                        }
+                        (known, if open { 0.0 } else { hold.stiffness })
                     }
                 }
             };
@@ -55,9 +97,12 @@ impl Force for Couplings {
             out.rounding += rounding * rounding;
             out.add_coupling(&row.dofs);
             scratch.push(row, force, out);
-            scratch.add(row, stiffness, out);
+            if stiffness != 0.0 {
+                scratch.add(row, |_| stiffness, out);
+            }
         }
         self.iterate.off_now = off_now;
+        self.iterate.now = now;
         if !out.tentative {
             self.settle();
         }
@@ -72,10 +117,14 @@ impl Force for Couplings {
     fn update_internal(&mut self, du: &[f64], step: f64) {
         let mut now = std::mem::take(&mut self.iterate.now);
         for (i, coupling, row) in self.rows() {
-            if matches!(coupling.tie, Tie::Equation { .. }) && !self.hold[i].idle {
-                let to_go = self.iterate.off[i] + row.sum(du);
-                now[i] = self.iterate.last[i] + step * self.hold[i].stiffness * to_go;
+            if !coupling.tie.firm() || self.hold[i].idle {
+                continue;
             }
+            let (last, off) = (self.iterate.last[i], self.iterate.off[i]);
+            now[i] = match off.is_finite() {
+                true => last + step * self.hold[i].stiffness * (off + row.sum(du)),
+                false => (1.0 - step) * last,
+            };
         }
         self.iterate.now = now;
     }
@@ -85,9 +134,10 @@ impl Force for Couplings {
         let (u, before) = (&stage.at.u, &stage.from.u);
         memory.stored = 0.0;
         memory.work = 0.0;
+        memory.damped = 0.0;
         for (i, coupling, row) in self.rows() {
             let active = coupling.schedule.active(stage.at.t);
-            let sum = row.sum(u);
+            let (sum, sum_before) = (row.sum(u), row.sum(before));
             let target = self.target(i, coupling, stage.at.t);
             let was = std::mem::replace(&mut memory.targets[i], target);
             match coupling.tie {
@@ -107,11 +157,45 @@ impl Force for Couplings {
                     memory.forces[i] = force;
                 }
                 Tie::Equation { .. } => {}
-                Tie::Spring { .. } => {
-                    let mean = 0.5 * (sum.powi(2) + row.sum(before).powi(2));
-                    memory.work += 0.5 * mean * (target - was);
-                    memory.stored += 0.5 * target * sum * sum;
-                    memory.forces[i] = target * sum;
+                Tie::Dashpot { .. } => {
+                    let force = match stage.rate {
+                        // The force of the half-step, at which velocities are known there.
+                        None => self.iterate.now[i],
+                        Some(_) => target * self.rate_of(row, stage),
+                    };
+                    let force = if active { force } else { 0.0 };
+                    memory.damped += 0.5 * (memory.forces[i] + force) * (sum - sum_before);
+                    memory.forces[i] = force;
+                }
+                Tie::Gap {
+                    clearance,
+                    stiffness: None,
+                } => {
+                    let (held, hold) = (memory.multipliers[i], self.hold[i]);
+                    let force = match (active && !hold.idle, self.explicit) {
+                        (false, _) => 0.0,
+                        (true, true) => (held + hold.stiffness * (sum + clearance)).min(0.0),
+                        (true, false) => self.iterate.now[i],
+                    };
+                    if self.explicit && !hold.idle && hold.stiffness > 0.0 {
+                        memory.stored += (force * force - held * held) / (2.0 * hold.stiffness);
+                    } else {
+                        memory.multipliers[i] = force;
+                    }
+                    let forces = [std::mem::replace(&mut memory.forces[i], force), force];
+                    memory.work += self.missed(stage, forces, (sum - sum_before, 0.0));
+                }
+                Tie::Spring { .. } | Tie::Gap { .. } => {
+                    let [x, y] = [sum, sum_before].map(|s| coupling.tie.stretch(s));
+                    memory.work += 0.25 * (x * x + y * y) * (target - was);
+                    memory.stored += 0.5 * target * x * x;
+                    if matches!(coupling.tie, Tie::Gap { .. }) {
+                        let mean = 0.5 * (target + was);
+                        let stored = 0.5 * mean * (x * x - y * y);
+                        let way = (sum - sum_before, stored);
+                        memory.work += self.missed(stage, [mean * y, mean * x], way);
+                    }
+                    memory.forces[i] = target * x;
                 }
             }
         }
@@ -125,6 +209,29 @@ impl Couplings {
         Energy {
             stored: self.memory.stored,
             ..Energy::default()
+        }
+    }
+
+    /// What the sum of a row changes at per time: as the scheme of the increment has it, or as it is known. Nothing where inertia plays no part.
+    fn rate_of(&self, row: &Row, stage: &Stage) -> f64 {
+        let Some(rate) = &stage.rate else {
+            return match self.explicit {
+                true => row.sum(&stage.at.v),
+                false => 0.0,
+            };
+        };
+        let (u, from) = (&stage.at.u, &stage.from.u);
+        let moved = |dof: usize| rate.gain[dof] * (u[dof] - from[dof]) + rate.shift[dof];
+        let sum: f64 = row.terms().map(|(dof, a)| a * moved(dof)).sum();
+        sum / stage.dt
+    }
+
+    /// Work on the bodies that the trapezoidal rule counts over a way on which a gap opens or closes, less that along the way, which stores this much:
+    /// what drives the bodies has done as much more than that rule says. In motion it is an error of the scheme.
+    fn missed(&self, stage: &Stage, [from, to]: [f64; 2], (way, stored): (f64, f64)) -> f64 {
+        match stage.rate.is_none() && !self.explicit {
+            true => stored - 0.5 * (from + to) * way,
+            false => 0.0,
         }
     }
 }
@@ -153,21 +260,25 @@ impl Scratch {
         out.add_residual(&row.dofs, &self.change);
     }
 
-    fn add(&mut self, row: &Row, stiffness: f64, out: &mut Assembler) {
+    /// Adds the tangent of a row whose force grows by `stiffness` with each of its displacements, the factor apart.
+    fn add(&mut self, row: &Row, stiffness: impl Fn(usize) -> f64, out: &mut Assembler) {
         if !out.wants_tangent {
             return;
         }
         let n = row.factors.len();
-        for (to, scale) in [(&mut self.rows, 1.0), (&mut self.change, stiffness)] {
-            to.clear();
-            to.extend(row.factors.iter().map(|a| scale * a));
+        self.rows.clear();
+        self.rows.extend(&row.factors);
+        self.change.clear();
+        let change = row.factors.iter().enumerate();
+        self.change.extend(change.map(|(k, a)| stiffness(k) * a));
+        for to in [&mut self.rows, &mut self.change] {
             to.resize(3 * n, 0.0);
         }
         self.surrogate.clear();
         if out.wants_surrogate {
             for a in &row.factors {
-                let scaled = row.factors.iter().map(|b| stiffness * a * b);
-                self.surrogate.extend(scaled);
+                self.surrogate
+                    .extend(self.change[..n].iter().map(|c| a * c));
             }
         }
         let tangent = Tangent {

@@ -14,9 +14,11 @@
 
 mod all;
 mod axial_spring;
+mod dashpot;
 mod equation;
 mod explicit;
 mod force;
+mod gap;
 mod model;
 mod motion;
 mod row;
@@ -24,7 +26,9 @@ mod spring;
 
 pub use all::{Coupling, Couplings, CouplingsMemory, CouplingsState, Tie};
 pub use axial_spring::AxialSpring;
+pub use dashpot::Dashpot;
 pub use equation::{Equation, Term};
+pub use gap::Gap;
 pub use model::CouplingModel;
 pub use row::Row;
 pub use spring::Spring;
@@ -38,5 +42,9 @@ crate::family! {
         Spring(Spring) = "spring",
         /// A spring along the line between two points.
         AxialSpring(AxialSpring) = "axial-spring",
+        /// A weighted sum of displacements does not fall below a value.
+        Gap(Gap) = "gap",
+        /// A damper against the rate of a weighted sum of displacements.
+        Dashpot(Dashpot) = "dashpot",
     }
 }

@@ -29,7 +29,7 @@ impl Interface {
         self.history.start.offset = points
             .map(|(&gap, point)| {
                 if gap <= largest.of(point.size) {
-                    gap
+                    gap - self.initial.gap
                 } else {
                     0.0
                 }

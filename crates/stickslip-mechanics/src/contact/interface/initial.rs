@@ -15,7 +15,7 @@ pub enum Start {
     /// Points of the secondary within the tolerance are moved onto the primary before anything is computed: another mesh, without strain.
     Snap,
     /// The gap counts from its initial value where that is within the tolerance, or where the surfaces overlap: contact that is closed
-    /// from the start, whatever the meshes say.
+    /// from the start, whatever the meshes say, or open by `initial-gap`.
     Offset,
     /// Overlap is resolved in proportion to time over the first step in which the interface acts: a shrink fit.
     Ramp,
@@ -28,6 +28,8 @@ pub struct Initial {
     pub start: Start,
     /// Gap up to which points are moved, count as closed or are glued; what is usual if not given.
     pub within: Option<Within>,
+    /// What the gap counts as where it does not count as it is `[m]`.
+    pub gap: f64,
     /// Points of the mesh that may be moved, ascending; all if not given.
     pub only: Option<Vec<usize>>,
 }
@@ -72,6 +74,7 @@ impl Initial {
         Initial {
             start,
             within,
+            gap: 0.0,
             only: None,
         }
     }

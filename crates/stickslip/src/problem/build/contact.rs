@@ -144,6 +144,7 @@ impl Make<'_> {
     fn initial(&self, key: &str) -> Result<Initial, Error> {
         let table = self.table;
         let mut initial = Initial::new(table.initial, table.within());
+        initial.gap = table.initial_gap.unwrap_or(0.0);
         if let Some(set) = &table.initial_set {
             let key = key.rsplit_once('.').map_or(key, |(table, _)| table);
             initial.only = Some(self.sets.points(set, &format!("{key}.initial-set"))?);

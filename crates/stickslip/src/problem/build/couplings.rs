@@ -34,8 +34,14 @@ pub(super) fn build(
             rows: rows.map_err(|e| problem_error(vec![e.under(&key)]))?,
             tie,
             schedule: match tie {
-                Tie::Equation { .. } => timeline.equation(problem, name, amplitude),
-                Tie::Spring { .. } => timeline.spring(problem, name, amplitude),
+                // What holds by a multiplier acts or does not.
+                Tie::Equation { .. }
+                | Tie::Gap {
+                    stiffness: None, ..
+                } => timeline.equation(problem, name, amplitude),
+                Tie::Spring { .. } | Tie::Gap { .. } | Tie::Dashpot { .. } => {
+                    timeline.spring(problem, name, amplitude)
+                }
             },
             table: amplitude.is_some(),
         });

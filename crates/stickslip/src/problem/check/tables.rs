@@ -246,6 +246,14 @@ fn initial(findings: &mut Findings, table: &[&str], interface: &Interface) {
             "the one is a fraction of the height of cells, the other a length",
         );
     }
+    if interface.initial_gap.is_some() && interface.initial != Start::Offset {
+        let message = "gaps count as they are unless `initial = \"offset\"`";
+        add(
+            "initial-gap",
+            message,
+            "add initial = \"offset\", or remove the key",
+        );
+    }
     if interface.initial_set.is_some() && interface.initial != Start::Snap {
         let message = "only `initial = \"snap\"` moves points";
         add(
