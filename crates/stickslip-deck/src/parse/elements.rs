@@ -43,6 +43,7 @@ impl Reader<'_> {
     pub(super) fn judge_bounding(&mut self) {
         for (kind, place) in std::mem::take(&mut self.bounding) {
             let flat = kind.starts_with("T") || kind.starts_with("B");
+            let unsupported = abaqus::element_type(&kind).err();
             let cells = self.deck.elements.values().any(|e| {
                 abaqus::element_type(&e.kind).is_ok_and(|t| flat || t.space == abaqus::Space::Solid)
             });
@@ -51,11 +52,13 @@ impl Reader<'_> {
                 let mut all = deck.element_sets.get(&s.set).into_iter().flatten();
                 all.any(|e| deck.elements.get(e).is_some_and(|e| e.kind == kind))
             });
+            let sectioned = sectioned || unsupported.is_some_and(|u| self.has_beyond(u.what));
             if cells && !sectioned {
                 self.note(place, format!("elements of type {kind} have no section: they are taken as lines or faces of the cells, for their sets"));
-            } else if let Err(why) = abaqus::element_type(&kind) {
-                let message = format!("elements of type {kind} ({}) are not supported", why.what);
-                self.error(place, message, why.help);
+            } else if let Some(why) = unsupported {
+                let all = self.deck.elements.values();
+                let count = all.filter(|e| e.kind == kind).count();
+                self.elements_beyond((&kind, count), (why.what, why.help), place);
             }
         }
     }
@@ -77,8 +80,11 @@ impl Reader<'_> {
                 bounding(kind)
             }
             (None, Err(why)) => {
-                let message = format!("elements of type {kind} ({}) are not supported", why.what);
-                self.error(card.place, message, why.help);
+                // The lines that begin an element have as many fields as the first.
+                let wide =
+                    |d: &&Data| Some(d.fields.len()) == card.data.first().map(|f| f.fields.len());
+                let count = card.data.iter().filter(wide).count();
+                self.elements_beyond((kind, count), (why.what, why.help), card.place);
                 let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
                 let ids = ids.map(|n| self.deck.numbering.of(self.scope, n));
                 self.skipped.extend(ids);

@@ -69,7 +69,7 @@ impl Reader<'_> {
         {
             // Nothing is in the model; what has been said may be why.
             self.structure.hollow = true;
-            if self.errors.is_empty() {
+            if self.sound() {
                 self.error(
                     *place,
                     format!("the part {name} has no instance, nor has any other"),

@@ -52,6 +52,10 @@ impl Reader<'_> {
             };
             self.error(data.place, message, &help);
         }
-        self.errors.len() == before
+        let sound = self.errors.len() == before;
+        if !sound {
+            self.formal.insert(card.place);
+        }
+        sound
     }
 }

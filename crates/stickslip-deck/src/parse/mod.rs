@@ -1,5 +1,6 @@
 //! Cards to a [`Deck`].
 
+mod beyond;
 mod cards;
 mod elements;
 mod fields;
@@ -22,6 +23,7 @@ mod step;
 mod structure;
 mod surfaces;
 mod times;
+mod uncomputed;
 mod unused;
 
 use std::path::Path;
@@ -76,17 +78,16 @@ impl Reader<'_> {
             self.close_all();
         }
         if self.stopped || self.structure.hollow {
-            self.sort_errors();
             return Err(DeckError {
-                findings: self.errors,
+                findings: self.verdict(),
             });
         }
         self.judge_bounding();
         self.judge_absent();
-        if self.deck.nodes.is_empty() && self.errors.is_empty() {
+        if self.deck.nodes.is_empty() && self.sound() {
             self.error(end, "the deck has no nodes", "give them with *NODE");
         }
-        if self.deck.elements.is_empty() && self.errors.is_empty() {
+        if self.deck.elements.is_empty() && self.sound() {
             self.error(
                 end,
                 "the deck has no elements",
@@ -100,12 +101,11 @@ impl Reader<'_> {
         }
         self.check_names();
         self.deck.unused = unused::unused(self.source);
-        if self.errors.is_empty() {
-            Ok(self.deck)
-        } else {
-            Err(DeckError {
-                findings: self.errors,
-            })
+        match self.sound() {
+            true => Ok(self.deck),
+            false => Err(DeckError {
+                findings: self.verdict(),
+            }),
         }
     }
 
@@ -117,6 +117,7 @@ impl Reader<'_> {
                 None => "it is no keyword of CalculiX or Abaqus that stickslip knows; comments begin with **".into(),
             };
             let message = format!("unknown keyword {}", card.written);
+            self.formal.insert(card.place);
             self.error(card.place, message, &help);
             return None;
         };
@@ -128,11 +129,7 @@ impl Reader<'_> {
             Fate::Refused(help) => {
                 // One finding a cause: the step has a procedure, if not one of ours.
                 self.procedure |= cards::OTHER_PROCEDURES.contains(&card.keyword.as_str());
-                self.error(
-                    card.place,
-                    format!("{} is not supported", card.written),
-                    help,
-                );
+                self.card_beyond(card, help);
             }
         }
         None
@@ -159,6 +156,10 @@ impl Reader<'_> {
         if !(sound || cards::NAMES.contains(&card.keyword.as_str())) {
             // What follows builds on what is not there.
             self.stopped = card.keyword == "RESTART";
+            if self.stopped {
+                self.beyond.clear();
+                self.errors.retain(|f| f.line == card.place.line);
+            }
             return;
         }
         if self.record(card) {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::structure::Structure;
+use super::uncomputed::Beyond;
 use crate::card::Place;
 use crate::deck::{Action, Deck};
 use crate::finding::{Finding, Severity};
@@ -26,6 +27,12 @@ pub(super) struct Reader<'a> {
     pub(super) source: &'a Source,
     pub(super) deck: Deck,
     pub(super) errors: Vec<Finding>,
+    /// What is not computed, by kind.
+    pub(super) beyond: Vec<Beyond>,
+    /// Keywords as they were first written.
+    pub(super) written: BTreeMap<String, String>,
+    /// Lines that are wrong whatever else there is: misspelt keywords and parameters.
+    pub(super) formal: BTreeSet<Place>,
     pub(super) context: Context,
     pub(super) in_step: bool,
     /// Whether the step has its procedure.
@@ -70,6 +77,9 @@ impl<'a> Reader<'a> {
             source,
             deck,
             errors: Vec::new(),
+            beyond: Vec::new(),
+            written: Default::default(),
+            formal: Default::default(),
             context: Context::None,
             in_step: false,
             procedure: false,

@@ -101,7 +101,7 @@ impl Reader<'_> {
             SurfaceParts::Faces(f) => f.is_empty(),
             SurfaceParts::Nodes(n) => n.is_empty(),
         };
-        if empty && self.errors.is_empty() {
+        if empty && self.sound() {
             self.error(
                 card.place,
                 format!("the surface {name} is empty"),

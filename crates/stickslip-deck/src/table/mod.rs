@@ -5,6 +5,7 @@
 //! call read, and the row calls none read that the parser does not ask for; a test holds the two together.
 
 mod contact;
+mod kinds;
 mod material;
 mod mesh;
 mod output;
@@ -14,6 +15,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use kinds::*;
 use row::nearest_of;
 pub(crate) use row::{Fate, Row};
 

@@ -2,10 +2,10 @@
 
 use super::row::{Row, refused_card};
 
-const TIME: &str = "only *STATIC and *DYNAMIC steps are computed";
-const HEAT: &str = "temperatures are not computed: take the thermal part out, or prescribe what it does as displacements and loads";
+pub(super) const TIME: &str = "only *STATIC and *DYNAMIC steps are computed";
+pub(super) const HEAT: &str = "temperatures are not computed: take the thermal part out, or prescribe what it does as displacements and loads";
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
-const LAW: &str =
+pub(super) const LAW: &str =
     "bodies are linear elastic (*ELASTIC): replace the material, or use another program";
 const LINK: &str = "express it by *EQUATION, *TIE or *RIGID BODY";
 
