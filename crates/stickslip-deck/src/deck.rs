@@ -6,9 +6,11 @@ use std::path::PathBuf;
 use stickslip::io::frd::Encoding;
 use stickslip::results::Quantity;
 
-use crate::card::Place;
+pub use crate::axes::{Local, Transform};
+use crate::card::{Data, Place};
 use crate::finding::Finding;
 use crate::numbering::Numbering;
+use crate::taken::Taken;
 
 /// A deck that was read. Names are in capitals, as both programs take them, unless they were quoted.
 #[derive(Debug, Clone, Default)]
@@ -37,6 +39,8 @@ pub struct Deck {
     pub sections: Vec<Section>,
     /// `*ORIENTATION`s.
     pub orientations: BTreeMap<String, Orientation>,
+    /// `*DISTRIBUTION`s.
+    pub distributions: BTreeMap<String, Distribution>,
     /// `*TRANSFORM`s by node; the last card counts.
     pub transforms: BTreeMap<u64, Transform>,
     /// `*AMPLITUDE`s.
@@ -55,6 +59,10 @@ pub struct Deck {
     pub rigid: Vec<Rigid>,
     /// `*SPRING`s: stiffness of sets of spring elements.
     pub springs: Vec<SpringSection>,
+    /// `*DASHPOT`s: coefficients of sets of dashpot elements.
+    pub dashpots: Vec<SpringSection>,
+    /// `*GAP`s.
+    pub gaps: Vec<GapSection>,
     /// `*MASS`es: mass of sets of mass elements, each `(set, mass, place)`.
     pub masses: Vec<(String, f64, Place)>,
     /// `*INITIAL CONDITIONS`.
@@ -63,7 +71,7 @@ pub struct Deck {
     pub temperatures: Vec<Temperature>,
     /// `*TIME POINTS` by name.
     pub time_points: BTreeMap<String, TimePoints>,
-    /// `*BOUNDARY` before the first step.
+    /// `*BOUNDARY` before the first step, which acts as if it stood in that.
     pub supports: Vec<Boundary>,
     /// The steps.
     pub steps: Vec<Step>,
@@ -155,23 +163,31 @@ pub struct Section {
 /// `*ORIENTATION`: the axes 1, 2 and 3 of the material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orientation {
-    /// Rows are the axes.
-    pub axes: [[f64; 3]; 3],
-    /// Whether they are the same everywhere; cylindrical ones are not.
-    pub uniform: bool,
+    /// Those of most elements.
+    pub local: Local,
+    /// Those of elements with axes of their own, by `*DISTRIBUTION`.
+    pub elements: BTreeMap<u64, Local>,
+    pub(crate) taken: Taken,
     /// Where.
     pub place: Place,
 }
 
-/// `*TRANSFORM`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Transform {
-    /// Cylindrical (radial, tangential, axial) about the line from `a` to `b`; otherwise `a` is a point of the local x axis and `b` one of the xy plane.
-    pub cylindrical: bool,
-    /// First point.
-    pub a: [f64; 3],
-    /// Second point.
-    pub b: [f64; 3],
+/// `*DISTRIBUTION`: points of axes by element; the first line is of all other elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    pub(crate) lines: Vec<DistributionLine>,
+    /// Where.
+    pub place: Place,
+}
+
+/// A line of a `*DISTRIBUTION`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DistributionLine {
+    /// An element or a set of elements; none in the first line.
+    pub elements: Option<Target>,
+    /// Two points and the origin.
+    pub points: [[f64; 3]; 3],
+    pub data: Data,
 }
 
 /// `*AMPLITUDE`.
@@ -342,14 +358,29 @@ pub struct Rigid {
     pub place: Place,
 }
 
-/// `*SPRING`.
+/// `*GAP`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapSection {
+    /// Set of gap elements.
+    pub set: String,
+    /// How far they are open.
+    pub clearance: f64,
+    /// Along which they open, from the first node to the second; of length one, or zero for the line between them.
+    pub direction: [f64; 3],
+    /// Stiffness once they are closed (CalculiX), if given.
+    pub stiffness: Option<f64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*SPRING` or `*DASHPOT`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringSection {
     /// Set of spring elements.
     pub set: String,
     /// Directions at the first and second node, 0 to 2 (`SPRING1`, `SPRING2`).
     pub directions: Vec<usize>,
-    /// Stiffness.
+    /// Stiffness, or force per velocity.
     pub stiffness: f64,
     /// Where.
     pub place: Place,
@@ -490,6 +521,26 @@ pub enum Action {
     ChangeFriction(String, Friction, Place),
     /// `*CHANGE SURFACE BEHAVIOR`.
     ChangeBehavior(String, Behavior, Place),
+    /// `*MODEL CHANGE` of a contact pair.
+    ChangePair {
+        /// Slave surface.
+        slave: String,
+        /// Master surface.
+        master: String,
+        /// `ADD`, otherwise `REMOVE`.
+        add: bool,
+        /// Where.
+        place: Place,
+    },
+    /// A line of `*EQUATION, REMOVE`; no nodes mean all equations.
+    RemoveEquations {
+        /// Nodes of the dependent, first terms.
+        target: Option<Target>,
+        /// Their directions, 0 to 2.
+        components: Vec<usize>,
+        /// Where.
+        place: Place,
+    },
 }
 
 /// A distributed load.
@@ -585,6 +636,13 @@ pub enum Print {
         totals: Totals,
         /// In global axes where elements have an `*ORIENTATION`; CalculiX prints along the local ones otherwise.
         global: bool,
+        /// When.
+        when: When,
+    },
+    /// What a surface carries.
+    Section {
+        /// Surface.
+        surface: String,
         /// When.
         when: When,
     },

@@ -8,7 +8,7 @@
 //!   deck; [`Numbering`] tells whose a number is.
 //! - [`translate`](Deck::translate) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
 //! - [`Translation::frd`] says what `*NODE FILE`, `*EL FILE` and `*CONTACT FILE` ask for in the `.frd` file, which the library writes.
-//! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
+//! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT`, `*SECTION PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
 //!   Abaqus's columns.
 //!
 //! Where the two programs differ the meaning is CalculiX's; the differences are named at the items.
@@ -35,13 +35,16 @@ mod axes;
 mod card;
 mod deck;
 mod finding;
+mod fortran;
 mod motion;
 mod numbering;
 mod parse;
 mod print;
+mod section;
 pub mod source;
 mod status;
 mod table;
+mod taken;
 mod text;
 mod translate;
 

@@ -14,7 +14,9 @@ use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::results::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
+use crate::fortran::{row, time};
 use crate::numbering::Numbering;
+use crate::section;
 use crate::translate::Translation;
 
 /// Writes the `.dat` file of a deck while it runs: what an increment prints is in the file when its fields are.
@@ -26,6 +28,7 @@ pub struct Printer {
     prints: Vec<Vec<Print>>,
     node_sets: BTreeMap<String, Vec<u64>>,
     element_sets: BTreeMap<String, Vec<u64>>,
+    surfaces: BTreeMap<String, Vec<(u64, usize)>>,
     pairs: Vec<(String, String, String)>,
     numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.
@@ -41,47 +44,6 @@ pub struct Printer {
     /// Increment that was printed last.
     done: Option<(usize, usize)>,
     last: bool,
-}
-
-/// A number as in CalculiX's files, `1p,e13.6`.
-fn e(x: f64) -> String {
-    fortran(x, 6, 13)
-}
-
-/// A number with so many digits behind the point, right-aligned.
-fn fortran(x: f64, digits: usize, width: usize) -> String {
-    let text = format!("{:.*e}", digits, x + 0.0);
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let sign = if exponent < 0 { '-' } else { '+' };
-    format!(
-        "{:>width$}",
-        format!("{mantissa}E{sign}{:02}", exponent.abs())
-    )
-}
-
-/// A time as CalculiX writes it, `0.1000000E+01`.
-fn time(t: f64) -> String {
-    if t == 0.0 {
-        return " 0.0000000E+00".into();
-    }
-    let mut exponent = t.abs().log10().floor() as i32 + 1;
-    let mut mantissa = t / 10f64.powi(exponent);
-    if format!("{mantissa:.7}").starts_with('1') {
-        exponent += 1;
-        mantissa /= 10.0;
-    }
-    let sign = if exponent < 0 { '-' } else { '+' };
-    format!("{mantissa:>10.7}E{sign}{:02}", exponent.abs())
-}
-
-fn row(out: &mut String, head: &str, values: &[f64]) {
-    out.push_str(head);
-    for v in values {
-        out.push(' ');
-        out.push_str(&e(*v));
-    }
-    out.push('\n');
 }
 
 /// Step and increment that stand last in a file.
@@ -112,6 +74,7 @@ impl Printer {
                 prints: translation.prints.clone(),
                 node_sets: translation.node_sets.clone(),
                 element_sets: translation.element_sets.clone(),
+                surfaces: translation.surfaces.clone(),
                 pairs: translation.pairs.clone(),
                 numbering: translation.numbering.clone(),
                 times: translation.times.clone(),
@@ -187,6 +150,10 @@ impl Printer {
                     when,
                 } if self.due(when) => {
                     self.elements(analysis, &mut out, (set, keys, *totals, *global));
+                }
+                Print::Section { surface, when } if self.due(when) => {
+                    let faces = self.surfaces.get(surface).map_or(&[][..], Vec::as_slice);
+                    section::print(analysis, &mut out, (surface, faces), self.time);
                 }
                 Print::Contact {
                     pair,

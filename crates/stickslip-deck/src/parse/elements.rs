@@ -1,5 +1,7 @@
 //! Elements: cells, springs, masses, and lines and faces that bound cells.
 
+use std::ops::Range;
+
 use stickslip::io::abaqus;
 
 use super::reader::Reader;
@@ -14,8 +16,8 @@ const NODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
 /// Nodes of element types that are not cells.
 fn other_nodes(kind: &str) -> Option<usize> {
     match kind {
-        "SPRINGA" | "SPRING2" => Some(2),
-        "SPRING1" | "MASS" => Some(1),
+        "SPRINGA" | "SPRING2" | "DASHPOTA" | "DASHPOT2" | "GAPUNI" => Some(2),
+        "SPRING1" | "DASHPOT1" | "MASS" => Some(1),
         _ => None,
     }
 }
@@ -136,11 +138,15 @@ impl Reader<'_> {
                 continue;
             };
             let mut nodes = Vec::with_capacity(count);
-            self.members(data, 1, &mut nodes);
+            // What is filled up with zeros ends before them.
+            let zeros = data.fields.iter().rev().take_while(|f| *f == "0").count();
+            let filled = zeros.min(data.fields.len().saturating_sub(count + 1));
+            let end = data.fields.len() - filled;
+            self.members(data, 1..end, &mut nodes);
             // An element goes on until it has its nodes.
             while nodes.len() < count {
                 let Some(more) = lines.next() else { break };
-                self.members(more, 0, &mut nodes);
+                self.members(more, 0..more.fields.len(), &mut nodes);
             }
             // CalculiX reads as many numbers as the type has nodes. As many as another type has say that the type is another.
             if nodes.len() > count && !NODES.contains(&nodes.len()) {
@@ -178,8 +184,9 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn members(&mut self, data: &Data, from: usize, out: &mut Vec<u64>) {
-        for i in from..data.fields.len() {
+    /// The numbers of some fields.
+    fn members(&mut self, data: &Data, fields: Range<usize>, out: &mut Vec<u64>) {
+        for i in fields {
             if let Some(n) = self.number_at(data, i) {
                 out.push(n);
             }

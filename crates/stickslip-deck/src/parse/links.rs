@@ -2,16 +2,20 @@
 
 use super::reader::Reader;
 use crate::card::Card;
-use crate::deck::{Equation, Rigid, SpringSection, Term};
+use crate::deck::{Action, Equation, GapSection, Rigid, SpringSection, Term};
 use crate::text::clip;
 
 impl Reader<'_> {
     pub(super) fn equation(&mut self, card: &Card) {
+        if card.has("REMOVE") || card.has("REMOVEALL") {
+            self.remove_equations(card);
+            return;
+        }
         if self.in_step {
             self.error(
                 card.place,
-                "equations cannot change from step to step",
-                "give *EQUATION before the first *STEP",
+                "equations begin before the first step",
+                "give *EQUATION before the first *STEP; *EQUATION, REMOVE in a step ends them",
             );
             return;
         }
@@ -66,6 +70,42 @@ impl Reader<'_> {
         }
     }
 
+    /// Equations that hold no longer from this step on.
+    fn remove_equations(&mut self, card: &Card) {
+        if self.own_step(card).is_none() {
+            return;
+        }
+        let all = card.has("REMOVEALL") || card.get("REMOVE") == Some("ALL");
+        if all {
+            self.only(card, 0, &[]);
+            self.act(Action::RemoveEquations {
+                target: None,
+                components: Vec::new(),
+                place: card.place,
+            });
+            return;
+        }
+        if card.data.is_empty() {
+            self.line(card);
+        }
+        for data in &card.data {
+            let (Some(target), Some(first)) = (self.target(data, 0), self.direction(data, 1, 3))
+            else {
+                continue;
+            };
+            let last = match data.fields.get(2).filter(|f| !f.is_empty()) {
+                Some(_) => self.direction(data, 2, 3).unwrap_or(first),
+                None => first,
+            };
+            self.no_more(data, 3, "*EQUATION, REMOVE");
+            self.act(Action::RemoveEquations {
+                target: Some(target),
+                components: (first..=last).collect(),
+                place: data.place,
+            });
+        }
+    }
+
     pub(super) fn rigid_body(&mut self, card: &Card) {
         if card.get("POSITION").is_some_and(|p| p != "INPUT") {
             self.error(
@@ -102,9 +142,15 @@ impl Reader<'_> {
         self.deck.rigid.push(rigid);
     }
 
+    /// Stiffnesses of springs, or coefficients of dashpots.
     pub(super) fn spring(&mut self, card: &Card) {
         let Some(set) = self.required_name(card, "ELSET") else {
             return;
+        };
+        let damper = card.keyword == "DASHPOT";
+        let (thing, constant) = match damper {
+            true => ("a dashpot", "coefficient"),
+            false => ("a spring", "stiffness"),
         };
         let kind = self
             .elements_named(&set, &set, card.place)
@@ -112,7 +158,8 @@ impl Reader<'_> {
             .map(|e| self.deck.elements[e].kind.clone());
         // The first line has directions; for SPRINGA it is empty, and empty lines are not kept.
         let (mut directions, mut data) = (Vec::new(), card.data.as_slice());
-        if matches!(kind.as_deref(), Some("SPRING1" | "SPRING2")) {
+        let along_axes = ["SPRING1", "SPRING2", "DASHPOT1", "DASHPOT2"];
+        if kind.as_deref().is_some_and(|k| along_axes.contains(&k)) {
             let Some(line) = self.line(card) else { return };
             for i in 0..line.fields.len() {
                 directions.extend(self.direction(line, i, 3));
@@ -125,23 +172,62 @@ impl Reader<'_> {
         if let Some(more) = more {
             self.error(
                 more.place,
-                "a spring has one stiffness",
-                "springs are linear and do not depend on temperature: give one stiffness",
+                format!("{thing} has one {constant}"),
+                &format!("they are linear and depend on neither frequency nor temperature: give one {constant}"),
             );
         }
         let Some(line) = line else {
             self.error(
                 card.place,
-                "*SPRING has no stiffness",
-                "the line after the directions has the stiffness",
+                format!("{} has no {constant}", card.written),
+                &format!("the line after the directions has the {constant}"),
             );
             return;
         };
         let stiffness = self.number(line, 0, 0.0);
-        self.deck.springs.push(SpringSection {
+        let section = SpringSection {
             set,
             directions,
             stiffness,
+            place: card.place,
+        };
+        match damper {
+            true => self.deck.dashpots.push(section),
+            false => self.deck.springs.push(section),
+        }
+    }
+
+    pub(super) fn gap(&mut self, card: &Card) {
+        let Some(set) = self.required_name(card, "ELSET") else {
+            return;
+        };
+        self.elements_named(&set, &set, card.place);
+        let Some(line) = self.line(card) else { return };
+        let v: Vec<f64> = (0..7).map(|i| self.number(line, i, 0.0)).collect();
+        let given = [v[1], v[2], v[3]];
+        let direction = stickslip::math::normalize(given).unwrap_or_default();
+        let length = stickslip::math::norm(given);
+        if length > 0.0 && (length - 1.0).abs() > 1e-3 {
+            self.warn(
+                line.place,
+                format!(
+                    "the direction of the gap has the length {length:.4}: it is taken with length 1"
+                ),
+                "write a direction of length 1",
+            );
+        }
+        if v[6] > 0.0 {
+            self.warn(
+                line.place,
+                "the tension of open gaps is left out: force begins where a gap closes, and grows with the stiffness",
+                "leave the last field out, or make it small against the forces",
+            );
+        }
+        self.deck.gaps.push(GapSection {
+            set,
+            clearance: v[0],
+            direction,
+            stiffness: Some(v[5]).filter(|k| *k > 0.0),
             place: card.place,
         });
     }

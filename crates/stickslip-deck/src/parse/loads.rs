@@ -117,14 +117,6 @@ impl Reader<'_> {
                 continue;
             };
             let value = self.number(data, 3, 0.0);
-            if !self.in_step && value != 0.0 {
-                self.error(
-                    data.place,
-                    "before the first step only zero displacements are prescribed",
-                    "move the line into a *STEP",
-                );
-                continue;
-            }
             let boundary = Boundary {
                 target,
                 components,

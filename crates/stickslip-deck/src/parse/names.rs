@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::fields::absent;
+use super::fields::{absent, listing};
 use super::reader::Reader;
 use crate::card::Place;
 use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target};
@@ -17,6 +17,7 @@ impl Reader<'_> {
     /// Looks all names up.
     pub(super) fn check_names(&mut self) {
         self.settle_orientations();
+        self.settle_distributions();
         let mut missing = Missing {
             deck: &self.deck,
             found: Vec::new(),
@@ -120,6 +121,26 @@ impl Missing<'_> {
         self.named("surface interaction", name, place, &self.deck.interactions);
     }
 
+    /// The surfaces of a contact pair.
+    fn pair(&mut self, slave: &str, master: &str, place: Place) {
+        let pairs = &self.deck.pairs;
+        if pairs.iter().any(|p| p.slave == slave && p.master == master) {
+            return;
+        }
+        let turned = pairs.iter().any(|p| p.slave == master && p.master == slave);
+        let help = match turned {
+            true => format!("there is one of {master} and {slave}: the slave surface stands first"),
+            false => {
+                let all = pairs
+                    .iter()
+                    .map(|p| format!("{} and {}", p.slave, p.master));
+                listing("contact pairs", all)
+            }
+        };
+        let message = format!("no contact pair has the surfaces {slave} and {master}");
+        self.found.push((place, message, help));
+    }
+
     /// Nodes of everything.
     fn nodes(&mut self) {
         let deck = self.deck;
@@ -143,7 +164,12 @@ impl Missing<'_> {
         for a in deck.steps.iter().flat_map(|s| &s.actions) {
             match a {
                 Action::Boundary(b) => self.target(&b.target, b.place),
-                Action::Force { target, place, .. } => self.target(target, *place),
+                Action::Force { target, place, .. }
+                | Action::RemoveEquations {
+                    target: Some(target),
+                    place,
+                    ..
+                } => self.target(target, *place),
                 _ => {}
             }
         }
@@ -197,6 +223,12 @@ impl Missing<'_> {
                 Action::ChangeFriction(name, _, place) | Action::ChangeBehavior(name, _, place) => {
                     self.interaction(name, *place);
                 }
+                Action::ChangePair {
+                    slave,
+                    master,
+                    place,
+                    ..
+                } => self.pair(slave, master, *place),
                 _ => {}
             }
             if let Action::Distributed {

@@ -3,10 +3,10 @@
 use stickslip::io::frd::Encoding;
 use stickslip::results::Quantity;
 
-use super::fields::{keys, parameter};
+use super::fields::{absent, keys, parameter};
 use super::reader::Reader;
 use crate::card::Card;
-use crate::deck::{Deck, FieldsOf, Filed, Print, Totals, When};
+use crate::deck::{Deck, FieldsOf, Filed, Print, SurfaceParts, Totals, When};
 use crate::text::clip;
 
 impl Reader<'_> {
@@ -82,6 +82,7 @@ impl Reader<'_> {
             Print::Node { .. } => "NODEPRINT",
             Print::Element { .. } => "ELPRINT",
             Print::Contact { .. } => "CONTACTPRINT",
+            Print::Section { .. } => "SECTIONPRINT",
         };
         if self.asked.insert(card.keyword.clone())
             && let Some(step) = self.deck.steps.last_mut()
@@ -139,6 +140,54 @@ impl Reader<'_> {
         };
         if let (Some(print), Some(step)) = (print, self.deck.steps.last_mut()) {
             step.prints.push(print);
+        }
+    }
+
+    /// What surfaces carry. A card takes the place of those in earlier steps.
+    pub(super) fn section_print(&mut self, card: &Card) {
+        if self.own_step(card).is_none() {
+            return;
+        }
+        let first = self.asked.insert(card.keyword.clone());
+        if let (true, Some(step)) = (first, self.deck.steps.last_mut()) {
+            step.prints.retain(|p| !matches!(p, Print::Section { .. }));
+        }
+        let Some(surface) = self.required_name(card, "SURFACE") else {
+            return;
+        };
+        let (sums, others): (Vec<String>, Vec<String>) = keys(card)
+            .into_iter()
+            .partition(|k| ["SOF", "SOM", "SOAREA"].contains(&k.as_str()));
+        for key in others {
+            let message = format!(
+                "{}: {} is left out: it is not printed",
+                card.written,
+                clip(&key)
+            );
+            self.note(card.place, message);
+        }
+        match self.deck.surfaces.get(&surface).map(|s| &s.parts) {
+            Some(SurfaceParts::Faces(_)) => {}
+            Some(SurfaceParts::Nodes(_)) => {
+                self.error(
+                    card.place,
+                    format!("the surface {surface} consists of nodes"),
+                    "*SECTION PRINT sums up what faces carry",
+                );
+                return;
+            }
+            None => {
+                let known = self.deck.surfaces.keys();
+                let (message, help) = absent(&self.deck.numbering, "surface", &surface, known);
+                self.error(card.place, message, &help);
+                return;
+            }
+        }
+        // Each of the keys prints all of it.
+        if let (false, Some(when)) = (sums.is_empty(), self.when(card))
+            && let Some(step) = self.deck.steps.last_mut()
+        {
+            step.prints.push(Print::Section { surface, when });
         }
     }
 

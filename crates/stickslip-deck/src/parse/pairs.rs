@@ -3,7 +3,7 @@
 use super::fields::parameter;
 use super::reader::Reader;
 use crate::card::{Card, Data};
-use crate::deck::{Adjust, Clearance, Pair, Tie};
+use crate::deck::{Action, Adjust, Clearance, Pair, Tie};
 use crate::text::{clip, number};
 
 impl Reader<'_> {
@@ -87,6 +87,61 @@ impl Reader<'_> {
                 adjust: adjust.clone(),
                 place: data.place,
             });
+        }
+    }
+
+    /// Contact pairs that act from this step on, or no longer.
+    pub(super) fn model_change(&mut self, card: &Card) {
+        if self.own_step(card).is_none() {
+            return;
+        }
+        match card.get("TYPE").unwrap_or("ELEMENT") {
+            "CONTACTPAIR" => {}
+            "ELEMENT" => {
+                self.error(
+                    card.place,
+                    "*MODEL CHANGE of elements is not supported",
+                    "contact pairs can be removed and added (TYPE=CONTACT PAIR), elements cannot: leave them out of the deck, or make a body of \
+                     their own of them that a contact pair holds in some steps",
+                );
+                return;
+            }
+            other => {
+                let message = format!("*MODEL CHANGE of type {} is not supported", clip(other));
+                self.error(card.place, message, "the type is CONTACT PAIR");
+                return;
+            }
+        }
+        if card.get("ADD").is_some_and(|v| !v.is_empty()) {
+            let message = "*MODEL CHANGE: contact pairs are added as they are";
+            self.error(card.place, message, "write ADD without a value");
+            return;
+        }
+        let add = card.has("ADD");
+        if add == card.has("REMOVE") {
+            self.error(
+                card.place,
+                "*MODEL CHANGE needs either ADD or REMOVE",
+                "write *MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE, or ADD",
+            );
+            return;
+        }
+        if card.data.is_empty() {
+            self.line(card);
+        }
+        for data in &card.data {
+            let one = Card {
+                data: vec![data.clone()],
+                ..card.clone()
+            };
+            if let Some((slave, master)) = self.surfaces(&one) {
+                self.act(Action::ChangePair {
+                    slave,
+                    master,
+                    add,
+                    place: data.place,
+                });
+            }
         }
     }
 

@@ -74,7 +74,7 @@ pub(super) const STRUCTURE: [&str; 6] = [
 ];
 
 /// Cards of a part or of an instance.
-const MESH: [&str; 14] = [
+const MESH: [&str; 18] = [
     "NODE",
     "ELEMENT",
     "NSET",
@@ -84,10 +84,14 @@ const MESH: [&str; 14] = [
     "TRANSFORM",
     "NORMAL",
     "ORIENTATION",
+    "DISTRIBUTION",
+    "DISTRIBUTIONTABLE",
     "SOLIDSECTION",
     "EQUATION",
     "RIGIDBODY",
     "SPRING",
+    "DASHPOT",
+    "GAP",
     "MASS",
 ];
 

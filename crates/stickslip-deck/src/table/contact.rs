@@ -119,6 +119,23 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
+        "MODELCHANGE",
+        Data::Any,
+        &[
+            read("TYPE"),
+            read("ADD"),
+            read("REMOVE"),
+            refused(
+                "ACTIVATE",
+                "contact pairs need not be announced: write ADD or REMOVE in the step",
+            ),
+            refused(
+                "MECHSTRAINTORESIDUAL",
+                "bodies are elastic and keep no strains: leave it out",
+            ),
+        ],
+    ),
+    card(
         "CLEARANCE",
         Data::Nothing,
         &[

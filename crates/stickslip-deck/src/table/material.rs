@@ -123,6 +123,16 @@ pub(super) const ROWS: &[Row] = &[
         "elements under reduced integration have stickslip's own hourglass control",
     ),
     card(
+        "DISTRIBUTION",
+        Data::Any,
+        &[
+            read("NAME"),
+            read("LOCATION"),
+            idle("TABLE", "*DISTRIBUTION TABLE is held against what is read"),
+        ],
+    ),
+    card("DISTRIBUTIONTABLE", Data::Any, &[read("NAME")]),
+    card(
         "ORIENTATION",
         Data::Lines("ax, ay, az, bx, by, bz, cx, cy, cz"),
         &[

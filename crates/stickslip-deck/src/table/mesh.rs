@@ -102,13 +102,7 @@ pub(super) const ROWS: &[Row] = &[
     card(
         "EQUATION",
         Data::Any,
-        &[
-            refused(
-                "REMOVE",
-                "equations cannot change from step to step: give those that hold throughout before the first *STEP",
-            ),
-            INPUT,
-        ],
+        &[read("REMOVE"), read("REMOVEALL"), INPUT],
     ),
     card(
         "RIGIDBODY",
@@ -147,6 +141,24 @@ pub(super) const ROWS: &[Row] = &[
             refused("COMPLEXSTIFFNESS", "springs are elastic"),
             refused("RTOL", "springs are linear: give one stiffness"),
         ],
+    ),
+    card(
+        "DASHPOT",
+        Data::Any,
+        &[
+            read("ELSET"),
+            refused(
+                "ORIENTATION",
+                "dashpots are along the axes, or along the line of a DASHPOTA",
+            ),
+            refused("NONLINEAR", "dashpots are linear: give one coefficient"),
+            refused("RTOL", "dashpots are linear: give one coefficient"),
+        ],
+    ),
+    card(
+        "GAP",
+        Data::Line("clearance, x, y, z, area, stiffness, tension"),
+        &[read("ELSET")],
     ),
     card(
         "MASS",

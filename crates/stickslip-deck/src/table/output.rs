@@ -1,6 +1,6 @@
 //! What is printed and written.
 
-use super::row::{Data, Fate, Parameter, Row, card, harmless, harmless_card, read, refused};
+use super::row::{Data, Fate, Parameter, Row, card, harmless, harmless_card, idle, read, refused};
 
 const VIEW: &str = "it only chooses what is written";
 
@@ -72,6 +72,26 @@ pub(super) const ROWS: &[Row] = &[
             ),
         ],
     ),
+    card(
+        "SECTIONPRINT",
+        Data::Any,
+        &[
+            read("SURFACE"),
+            read("FREQUENCY"),
+            read("FREQUENCYF"),
+            read("TIMEPOINTS"),
+            idle("NAME", "it is used for nothing"),
+            harmless(
+                "AXES",
+                "forces and moments are printed along the global axes",
+            ),
+            harmless(
+                "ANCHOR",
+                "moments are printed about the origin and about the centre of the surface",
+            ),
+            harmless("UPDATE", "surfaces are as they were at first"),
+        ],
+    ),
     fields("NODEFILE"),
     fields("ELFILE"),
     fields("CONTACTFILE"),
@@ -108,12 +128,8 @@ pub(super) const ROWS: &[Row] = &[
         "resultants of interfaces and supports are in history.csv",
     ),
     harmless_card(
-        "SECTIONPRINT",
-        "sections are not printed; resultants of interfaces and supports are in history.csv",
-    ),
-    harmless_card(
         "SECTIONFILE",
-        "sections are not printed; resultants of interfaces and supports are in history.csv",
+        "*SECTION PRINT prints what a surface carries; resultants of interfaces and supports are in history.csv",
     ),
     harmless_card(
         "NOANALYSIS",

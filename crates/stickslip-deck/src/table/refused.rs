@@ -75,21 +75,12 @@ pub(super) const ROWS: &[Row] = &[
         "prescribe the displacements of the cut by *BOUNDARY",
     ),
     refused_card(
-        "DASHPOT",
-        "dashpots are not computed; *DAMPING gives bodies damping of their own, *CONTACT DAMPING interfaces",
-    ),
-    refused_card("GAP", "model the gap as two surfaces with a *CONTACT PAIR"),
-    refused_card(
         "CONTACT",
         "general contact is not computed: name the pairs of surfaces with *CONTACT PAIR",
     ),
     refused_card(
         "CONTACTINCLUSIONS",
         "general contact is not computed: name the pairs of surfaces with *CONTACT PAIR",
-    ),
-    refused_card(
-        "MODELCHANGE",
-        "contact pairs and elements cannot be taken away or added by *MODEL CHANGE: write a stickslip problem file, where steps list `interfaces`",
     ),
     refused_card(
         "CHANGECONTACTTYPE",
@@ -115,10 +106,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("RETAINEDNODALDOFS", TIME),
     refused_card("DESIGNRESPONSE", TIME),
     refused_card("PARAMETER", "write numbers in place of parameters"),
-    refused_card(
-        "DISTRIBUTIONTABLE",
-        "give each set of elements an *ORIENTATION of its own",
-    ),
     refused_card("MOHRCOULOMBHARDENING", LAW),
     refused_card("RATEDEPENDENT", LAW),
     refused_card("CONCRETE", LAW),
@@ -130,10 +117,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("NMAP", "write the nodes out"),
     refused_card("ELGEN", "write the elements out"),
     refused_card("ELCOPY", "write the elements out"),
-    refused_card(
-        "DISTRIBUTION",
-        "give each set of elements an *ORIENTATION of its own",
-    ),
     refused_card("ADDRESTRAINT", "use *BOUNDARY"),
     refused_card("VIEWFACTOR", HEAT),
     refused_card("INITIALSTRAININCREASE", TIME),

@@ -11,7 +11,7 @@ use crate::finding::{Finding, Severity};
 
 /// What stands before the card that is looked at: all that it may refer to.
 const MODEL: &str = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 2., 2., 2.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n\
-    *ELEMENT, TYPE=MASS, ELSET=EM\n2, 1\n*ELEMENT, TYPE=SPRINGA, ELSET=ES\n3, 1, 2\n*SURFACE, NAME=S\nE, S1\n*SURFACE, NAME=T\nE, S2\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*TIME POINTS, NAME=P\n.5\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n\
+    *ELEMENT, TYPE=MASS, ELSET=EM\n2, 1\n*ELEMENT, TYPE=SPRINGA, ELSET=ES\n3, 1, 2\n*ELEMENT, TYPE=DASHPOTA, ELSET=ED\n4, 1, 2\n*ELEMENT, TYPE=GAPUNI, ELSET=EG\n5, 1, 2\n*SURFACE, NAME=S\nE, S1\n*SURFACE, NAME=T\nE, S2\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*TIME POINTS, NAME=P\n.5\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n\
     *MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.\n";
 
 /// A part and the beginning of an assembly.
@@ -55,6 +55,8 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "EQUATION" => ("", "", "2\n1, 1, 1., 2, 1, 1.\n"),
         "RIGIDBODY" => ("", "REFNODE=5, ELSET=E", ""),
         "SPRING" => ("", "ELSET=ES", "\n1.\n"),
+        "DASHPOT" => ("", "ELSET=ED", "\n1.\n"),
+        "GAP" => ("", "ELSET=EG", "0., 1., 0., 0.\n"),
         "MASS" => ("", "ELSET=EM", "1.\n"),
         "INITIALCONDITIONS" => ("", "TYPE=VELOCITY", "N, 1, 1.\n"),
         "AMPLITUDE" => ("", "NAME=X", "0., 0., 1., 1.\n"),
@@ -64,6 +66,13 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "DENSITY" => ("*MATERIAL, NAME=X\n", "", "1.\n"),
         "DAMPING" => ("*MATERIAL, NAME=X\n", "", ""),
         "SOLIDSECTION" => ("", "ELSET=E, MATERIAL=M", ""),
+        "DISTRIBUTION" => (
+            "",
+            "NAME=X",
+            ", 1., 0., 0., 0., 1., 0.\n1, 0., 1., 0., 0., 0., 1.\n",
+        ),
+        "DISTRIBUTIONTABLE" => ("", "NAME=X", "COORD3D, COORD3D\n"),
+        "SECTIONPRINT" => ("*STEP\n*STATIC\n", "SURFACE=S", "SOF\n"),
         "ORIENTATION" => ("", "NAME=X", "1., 0., 0., 0., 1., 0.\n"),
         "SURFACEINTERACTION" => ("", "NAME=X", ""),
         "SURFACEBEHAVIOR" => (
@@ -75,6 +84,11 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "CHANGEFRICTION" | "CHANGESURFACEBEHAVIOR" => ("*STEP\n*STATIC\n", "INTERACTION=I", ""),
         "CONTACTDAMPING" => ("*SURFACE INTERACTION, NAME=X\n", "", "1.\n"),
         "CONTACTPAIR" => ("", "INTERACTION=I", "S, T\n"),
+        "MODELCHANGE" => (
+            "*CONTACT PAIR, INTERACTION=I\nS, T\n*STEP\n*STATIC\n",
+            "TYPE=CONTACT PAIR, ADD",
+            "S, T\n",
+        ),
         "CLEARANCE" => ("", "MASTER=T, SLAVE=S, VALUE=0.", ""),
         "TIE" => ("", "", "S, T\n"),
         "STEP" => ("", "", "*STATIC\n"),
@@ -119,6 +133,7 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
         (_, "POSITION") => "=INPUT",
         ("RIGIDBODY", "NSET") => "=N",
         ("RIGIDBODY", "ROTNODE") => "=5",
+        (_, "LOCATION") => "=ELEMENT",
         ("ORIENTATION", "SYSTEM") => "=RECTANGULAR",
         ("ORIENTATION", "DEFINITION") => "=COORDINATES",
         ("AMPLITUDE", "DEFINITION") => "=TABULAR",
@@ -131,12 +146,24 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
         ("FRICTION", "ROUGH" | "EXPONENTIALDECAY")
         | (_, "NLGEOM" | "DIRECT" | "EXPLICIT" | "FIXED" | "SMALLSLIDING") => "",
         (_, "FREQUENCY" | "FREQUENCYF") => "=1",
+        (_, "REMOVE" | "REMOVEALL") => "",
         _ => "=0.",
     }
 }
 
-fn deck(row: &Row, more: &str, data: &str) -> String {
+/// The same where a parameter makes another card of it.
+fn sample_with<'a>(row: &Row, more: &str, data: &'a str) -> (&'static str, &'static str, &'a str) {
     let (before, needs, _) = sample(row);
+    match (row.keyword, more.split('=').next()) {
+        ("EQUATION", Some("REMOVE")) => ("*STEP\n*STATIC\n", needs, "1, 1\n"),
+        ("EQUATION", Some("REMOVEALL")) => ("*STEP\n*STATIC\n", needs, ""),
+        ("MODELCHANGE", Some("REMOVE")) => (before, "TYPE=CONTACT PAIR", data),
+        _ => (before, needs, data),
+    }
+}
+
+fn deck(row: &Row, more: &str, data: &str) -> String {
+    let (before, needs, data) = sample_with(row, more, data);
     let comma = |text: &str| {
         if text.is_empty() {
             String::new()

@@ -21,6 +21,16 @@ pub(super) struct Body {
     pub place: Place,
 }
 
+/// A material as elements have it: one of the deck, turned into axes.
+#[derive(Debug)]
+pub(super) struct Turned {
+    pub name: String,
+    /// Section of the first element.
+    pub section: usize,
+    /// Rows are the axes; none where the material has no directions.
+    pub axes: Option<[[f64; 3]; 3]>,
+}
+
 /// All bodies.
 #[derive(Debug)]
 pub(super) struct Bodies {
@@ -37,6 +47,9 @@ pub(super) struct Bodies {
     pub rigid_nodes: BTreeMap<usize, Vec<u64>>,
     /// Section of an element: index into the deck's.
     pub section: BTreeMap<u64, usize>,
+    /// Materials as elements have them, and which of them an element has.
+    pub materials: Vec<Turned>,
+    pub material: BTreeMap<u64, usize>,
 }
 
 impl Bodies {
@@ -273,6 +286,8 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
         of_face,
         rigid_nodes: BTreeMap::new(),
         section: BTreeMap::new(),
+        materials: Vec::new(),
+        material: BTreeMap::new(),
     })
 }
 

@@ -8,7 +8,7 @@ use stickslip::io::abaqus::{self, Integration, Space};
 use super::bodies::{Bodies, Body};
 use super::job::Job;
 use super::sets::Sets;
-use super::{materials, toml};
+use super::toml;
 use crate::card::Place;
 use crate::deck::Section;
 
@@ -98,11 +98,9 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
         ));
         let mut regions: BTreeMap<String, Vec<u64>> = BTreeMap::new();
         for e in &body.elements {
-            if let Some(s) = bodies.section.get(e) {
-                regions
-                    .entry(materials::of(deck, &deck.sections[*s]))
-                    .or_default()
-                    .push(*e);
+            if let Some(m) = bodies.material.get(e) {
+                let name = bodies.materials[*m].name.clone();
+                regions.entry(name).or_default().push(*e);
             }
         }
         match regions.len() {

@@ -89,10 +89,16 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                         pair.slave, bodies.all[*s].name, pair.master, bodies.all[*p].name
                     ),
                 };
-                let name = job.fresh("interface", &toml::name(&wanted));
-                interface(job, (bodies, sets), &name, pair, (from, to));
-                job.pairs
-                    .push((name, pair.slave.clone(), pair.master.clone()));
+                for (interaction, steps) in phases(job, pair) {
+                    let name = job.fresh("interface", &toml::name(&wanted));
+                    interface(job, (bodies, sets), &name, (pair, &interaction), (from, to));
+                    let present = present(deck, pair);
+                    let acts = present.iter().zip(&steps).map(|(a, b)| *a && *b);
+                    job.active
+                        .push(("interfaces", name.clone(), acts.collect()));
+                    job.pairs
+                        .push((name, pair.slave.clone(), pair.master.clone()));
+                }
             }
         }
     }
@@ -100,7 +106,24 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     changes(job);
 }
 
-/// Clearances are checked only: those of zero say what holds anyway.
+/// The steps in which a pair acts: in all until `*MODEL CHANGE` says otherwise.
+fn present(deck: &Deck, pair: &Pair) -> Vec<bool> {
+    let mut on = true;
+    let steps = deck.steps.iter().map(|step| {
+        for action in &step.actions {
+            match action {
+                Action::ChangePair {
+                    slave, master, add, ..
+                } if *slave == pair.slave && *master == pair.master => on = *add,
+                _ => {}
+            }
+        }
+        on
+    });
+    steps.collect()
+}
+
+/// Clearances are of contact pairs.
 fn clearances(job: &mut Job) {
     let deck = job.deck;
     for c in &deck.clearances {
@@ -116,12 +139,6 @@ fn clearances(job: &mut Job) {
                     c.slave, c.master
                 ),
                 "*CLEARANCE names the surfaces of a *CONTACT PAIR",
-            );
-        } else if c.value != 0.0 {
-            job.error(
-                c.place,
-                "clearances other than 0 are not supported",
-                "move the body by the clearance, or let the meshes have it",
             );
         }
     }
@@ -227,13 +244,10 @@ fn interface(
     job: &mut Job,
     (bodies, sets): (&Bodies, &mut Sets),
     name: &str,
-    pair: &Pair,
+    (pair, interaction): (&Pair, &Interaction),
     (from, to): (&str, &str),
 ) {
     let deck = job.deck;
-    let Some(interaction) = deck.interactions.get(&pair.interaction) else {
-        return;
-    };
     job.table("interface", name, pair.place);
     job.out.line(&format!("secondary = {}", toml::text(from)));
     job.out.line(&format!("primary = {}", toml::text(to)));
@@ -283,10 +297,14 @@ fn interface(
         .clearances
         .iter()
         .find(|c| c.slave == pair.slave && c.master == pair.master);
-    if clearance.is_some() {
-        // Whatever gap the meshes have counts as none.
+    if let Some(clearance) = clearance {
+        // Whatever gap the meshes have counts as this.
         job.out.line("initial = \"offset\"");
         job.out.line("initial-tolerance = 1e3");
+        if clearance.value != 0.0 {
+            job.out
+                .line(&format!("initial-gap = {}", toml::number(clearance.value)));
+        }
     } else {
         adjust(job, bodies, sets, pair);
     }
@@ -504,39 +522,75 @@ fn enforcement(job: &mut Job, interaction: &Interaction) {
     }
 }
 
-fn changes(job: &mut Job) {
-    let deck = job.deck;
-    let mut current: BTreeMap<&String, Interaction> = deck
-        .interactions
-        .iter()
-        .map(|(n, i)| (n, i.clone()))
-        .collect();
-    for (step, s) in deck.steps.iter().enumerate() {
-        for action in &s.actions {
-            let (name, place) = match action {
-                Action::ChangeFriction(name, _, place) | Action::ChangeBehavior(name, _, place) => {
-                    (name, *place)
-                }
-                _ => continue,
-            };
-            let Some(interaction) = current.get_mut(name) else {
-                continue;
-            };
-            if matches!(interaction.behavior, Some(Behavior::Tied(_))) {
-                job.error(
-                    place,
-                    format!("the interaction {name} is TIED and cannot change"),
-                    "use LINEAR with a high stiffness where surfaces come apart in a later step",
-                );
-                continue;
-            }
-            let before = interaction.clone();
+/// The interaction of a name in each step, with the place of what changed it there.
+fn courses(deck: &Deck, name: &str) -> Vec<(Interaction, Option<Place>)> {
+    let Some(mut now) = deck.interactions.get(name).cloned() else {
+        return Vec::new();
+    };
+    let steps = deck.steps.iter().map(|step| {
+        let mut changed = None;
+        for action in &step.actions {
             match action {
-                Action::ChangeFriction(_, f, _) => interaction.friction = Some(f.clone()),
-                Action::ChangeBehavior(_, b, _) => interaction.behavior = Some(b.clone()),
+                Action::ChangeFriction(n, f, place) if n == name => {
+                    now.friction = Some(f.clone());
+                    changed = Some(*place);
+                }
+                Action::ChangeBehavior(n, b, place) if n == name => {
+                    now.behavior = Some(b.clone());
+                    changed = Some(*place);
+                }
                 _ => {}
             }
-            change(job, (step, name, place), &before, &interaction.clone());
+        }
+        (now.clone(), changed)
+    });
+    steps.collect()
+}
+
+fn is_tied(interaction: &Interaction) -> bool {
+    matches!(interaction.behavior, Some(Behavior::Tied(_)))
+}
+
+/// What a pair is over the steps: as it begins, and, if it is tied at first, what it is once it comes apart; each with the steps of it.
+fn phases(job: &Job, pair: &Pair) -> Vec<(Interaction, Vec<bool>)> {
+    let Some(first) = job.deck.interactions.get(&pair.interaction) else {
+        return Vec::new();
+    };
+    let course = courses(job.deck, &pair.interaction);
+    let apart = course.iter().position(|(i, _)| !is_tied(i));
+    match (is_tied(first), apart) {
+        // Changed before it ever acted.
+        (true, Some(0)) => vec![(course[0].0.clone(), vec![true; course.len()])],
+        (true, Some(at)) => {
+            let later: Vec<bool> = (0..course.len()).map(|i| i >= at).collect();
+            let before = later.iter().map(|l| !l).collect();
+            vec![(first.clone(), before), (course[at].0.clone(), later)]
+        }
+        _ => vec![(first.clone(), vec![true; course.len()])],
+    }
+}
+
+fn changes(job: &mut Job) {
+    let deck = job.deck;
+    let used: BTreeSet<&String> = deck.pairs.iter().map(|p| &p.interaction).collect();
+    for name in used {
+        let Some(mut before) = deck.interactions.get(name).cloned() else {
+            continue;
+        };
+        for (step, (after, changed)) in courses(deck, name).into_iter().enumerate() {
+            let Some(place) = changed else { continue };
+            match (is_tied(&before), is_tied(&after)) {
+                (false, false) => change(job, (step, name, place), &before, &after),
+                // It has an interface of its own from here on.
+                (true, false) => {}
+                (true, true) if before == after => {}
+                _ => job.error(
+                    place,
+                    format!("the interaction {name} becomes TIED, or tied otherwise, in a later step"),
+                    "surfaces are tied from the first step on, and can come apart in a later one: use LINEAR with a high stiffness and *CHANGE FRICTION",
+                ),
+            }
+            before = after;
         }
     }
 }
@@ -558,25 +612,31 @@ fn change(
     }
     let pairs = job.deck.pairs.iter().filter(|p| p.interaction == *name);
     for pair in pairs.collect::<Vec<_>>() {
-        let line = match before.behavior == after.behavior {
-            true => after.friction.as_ref().map(friction),
-            false => normal(after.behavior.as_ref(), pair.by_nodes),
-        };
-        let Some(line) = line else {
-            job.error(
-                place,
-                "an interface cannot become hard or tied in a later step",
-                "use LINEAR, EXPONENTIAL or TABULAR",
-            );
-            return;
-        };
+        let mut lines = Vec::new();
+        if before.friction != after.friction {
+            lines.extend(after.friction.as_ref().map(friction));
+        }
+        if before.behavior != after.behavior {
+            let Some(line) = normal(after.behavior.as_ref(), pair.by_nodes) else {
+                job.error(
+                    place,
+                    "an interface cannot become hard in a later step",
+                    "use LINEAR, EXPONENTIAL or TABULAR",
+                );
+                return;
+            };
+            lines.push(line);
+        }
         let interfaces = job
             .pairs
             .iter()
             .filter(|(_, s, m)| *s == pair.slave && *m == pair.master);
         let interfaces: Vec<String> = interfaces.map(|(n, ..)| n.clone()).collect();
-        for i in interfaces {
-            job.changes.push((step, i, line.clone()));
+        for (i, line) in interfaces
+            .iter()
+            .flat_map(|i| lines.iter().map(move |l| (i, l)))
+        {
+            job.changes.push((step, i.clone(), line.clone()));
         }
     }
 }

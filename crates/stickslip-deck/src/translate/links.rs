@@ -8,12 +8,14 @@ use super::sets::Sets;
 use super::{supports, toml};
 use crate::axes;
 use crate::card::Place;
+use crate::deck::Action;
 use crate::numbering::Numbering;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let ground = ground(job, bodies);
     equations(job, bodies, sets, &ground);
     springs(job, bodies, sets, &ground);
+    gaps(job, bodies, sets, &ground);
     masses(job, bodies, sets);
 }
 
@@ -84,6 +86,26 @@ fn on_bodies(
     true
 }
 
+/// The steps in which the equation of a dependent displacement, a node and its direction, has not been removed.
+fn held(job: &Job, (node, component): (u64, usize)) -> Vec<bool> {
+    let mut on = true;
+    let removes = |a: &Action| match a {
+        Action::RemoveEquations { target: None, .. } => true,
+        Action::RemoveEquations {
+            target: Some(t),
+            components,
+            ..
+        } => components.contains(&component) && job.nodes(t).contains(&node),
+        _ => false,
+    };
+    let steps = job.deck.steps.iter();
+    let after = steps.map(|s| {
+        on &= !s.actions.iter().any(removes);
+        on
+    });
+    after.collect()
+}
+
 fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     for (i, e) in job.deck.equations.iter().enumerate() {
         let nodes: Vec<Vec<u64>> = e.terms.iter().map(|t| job.nodes(&t.target)).collect();
@@ -108,93 +130,215 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
             if !on_bodies(job, bodies, list.iter().map(|t| t.0), e.place) {
                 break;
             }
+            let dependent = match (e.terms.first(), nodes.first()) {
+                (Some(t), Some(n)) => (if n.len() == 1 { n[0] } else { n[k] }, t.component),
+                _ => continue,
+            };
             let name = job.fresh("coupling", &format!("equation-{}", i + 1));
             let terms = terms(bodies, sets, &job.deck.numbering, &list);
             job.table("coupling", &name, e.place);
             job.out.line(&format!("equation = {{ terms = {terms} }}"));
+            let steps = held(job, dependent);
+            if steps.contains(&false) {
+                job.active.push(("couplings", name, steps));
+            }
         }
     }
+}
+
+/// An element between one or two nodes, of which some may be the ground.
+struct Link<'a> {
+    element: u64,
+    kind: &'a str,
+    nodes: &'a [u64],
+    place: Place,
+}
+
+/// The elements of a set that act on something that moves.
+fn links<'a>(
+    job: &mut Job<'a>,
+    bodies: &Bodies,
+    set: &str,
+    ground: &BTreeSet<u64>,
+) -> Vec<Link<'a>> {
+    let deck = job.deck;
+    let mut out = Vec::new();
+    for id in deck.element_sets.get(set).into_iter().flatten() {
+        let e = &deck.elements[id];
+        let moving: Vec<u64> = e
+            .nodes
+            .iter()
+            .copied()
+            .filter(|n| !ground.contains(n))
+            .collect();
+        if !moving.is_empty() && on_bodies(job, bodies, moving, e.place) {
+            out.push(Link {
+                element: *id,
+                kind: &e.kind,
+                nodes: &e.nodes,
+                place: e.place,
+            });
+        }
+    }
+    out
+}
+
+/// The direction from the first node of an element to the second; it is an error if they lie at the same place.
+fn line(job: &mut Job, link: &Link, help: &str) -> Option<[f64; 3]> {
+    let [a, b] = [link.nodes[0], link.nodes[1]].map(|n| job.deck.nodes[&n]);
+    let line = stickslip::math::normalize(stickslip::math::sub(b, a));
+    if line.is_none() {
+        let label = job.deck.label(link.element);
+        let message = format!(
+            "the nodes of element {label} ({}) lie at the same place",
+            link.kind
+        );
+        job.error(link.place, message, help);
+    }
+    line
+}
+
+/// The elongation of a spring or dashpot as terms.
+fn elongation(job: &mut Job, link: &Link, directions: &[usize]) -> Option<Vec<Term>> {
+    let direction = |k: usize| {
+        directions
+            .get(k)
+            .or(directions.first())
+            .copied()
+            .unwrap_or(0)
+    };
+    let along = |k: usize, factor| {
+        let node = link.nodes[k];
+        (node, along(job, node, direction(k), factor))
+    };
+    match link.kind {
+        "SPRING1" | "DASHPOT1" => Some(vec![along(0, 1.0)]),
+        "SPRING2" | "DASHPOT2" => Some(vec![along(0, 1.0), along(1, -1.0)]),
+        _ => {
+            let help = "use SPRING2 or DASHPOT2, with directions";
+            let line = line(job, link, help)?;
+            Some(vec![
+                (link.nodes[0], line.map(|c| -c)),
+                (link.nodes[1], line),
+            ])
+        }
+    }
+}
+
+/// A coupling between the nodes of an element: `what = { terms, more }`.
+fn couple(
+    job: &mut Job,
+    (bodies, sets): (&Bodies, &mut Sets),
+    (link, ground): (&Link, &BTreeSet<u64>),
+    mut list: Vec<Term>,
+    (what, more): (&str, &str),
+) {
+    list.retain(|t| !ground.contains(&t.0));
+    let label = job.deck.label(link.element);
+    let name = job.fresh("coupling", &toml::name(&format!("{what}-{label}")));
+    let terms = terms(bodies, sets, &job.deck.numbering, &list);
+    job.table("coupling", &name, link.place);
+    job.out
+        .line(&format!("{what} = {{ terms = {terms}, {more} }}"));
+}
+
+/// It is an error if an element is not of a kind that its card is for.
+fn is_of(job: &mut Job, link: &Link, kinds: &[&str], (card, place): (&str, Place)) -> bool {
+    let known = kinds.contains(&link.kind);
+    if !known {
+        let label = job.deck.label(link.element);
+        job.error(
+            place,
+            format!("element {label} ({}) is none of {card}", link.kind),
+            &format!("{card} is for {}", kinds.join(", ")),
+        );
+    }
+    known
 }
 
 fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     let deck = job.deck;
     for s in &deck.springs {
-        for id in deck.element_sets.get(&s.set).into_iter().flatten() {
-            let e = &deck.elements[id];
-            let moving = e.nodes.iter().copied().filter(|n| !ground.contains(n));
-            let moving: Vec<u64> = moving.collect();
-            if moving.is_empty() || !on_bodies(job, bodies, moving.iter().copied(), e.place) {
+        for link in links(job, bodies, &s.set, ground) {
+            let kinds = ["SPRINGA", "SPRING1", "SPRING2"];
+            if !is_of(job, &link, &kinds, ("*SPRING", s.place)) {
                 continue;
             }
-            let name = job.fresh(
-                "coupling",
-                &toml::name(&format!("spring-{}", deck.label(*id))),
-            );
-            let stiffness = toml::number(s.stiffness);
-            let direction = |k: usize| {
-                s.directions
-                    .get(k)
-                    .or(s.directions.first())
-                    .copied()
-                    .unwrap_or(0)
+            let stiffness = format!("stiffness = {}", toml::number(s.stiffness));
+            let both = link.nodes.iter().all(|n| !ground.contains(n));
+            if link.kind == "SPRINGA" && both {
+                let label = |n: u64| toml::name(&format!("node-{}", deck.label(n)));
+                let [a, b] = [0, 1].map(|k| {
+                    let node = link.nodes[k];
+                    sets.points(bodies, &label(node), &[node])
+                });
+                let name = job.fresh(
+                    "coupling",
+                    &toml::name(&format!("spring-{}", deck.label(link.element))),
+                );
+                job.table("coupling", &name, link.place);
+                job.out.line(&format!(
+                    "axial-spring = {{ from = {}, to = {}, {stiffness} }}",
+                    toml::text(&a),
+                    toml::text(&b)
+                ));
+            } else if let Some(list) = elongation(job, &link, &s.directions) {
+                couple(
+                    job,
+                    (bodies, sets),
+                    (&link, ground),
+                    list,
+                    ("spring", &stiffness),
+                );
+            }
+        }
+    }
+    for s in &deck.dashpots {
+        for link in links(job, bodies, &s.set, ground) {
+            let kinds = ["DASHPOTA", "DASHPOT1", "DASHPOT2"];
+            if !is_of(job, &link, &kinds, ("*DASHPOT", s.place)) {
+                continue;
+            }
+            if let Some(list) = elongation(job, &link, &s.directions) {
+                let coefficient = format!("coefficient = {}", toml::number(s.stiffness));
+                couple(
+                    job,
+                    (bodies, sets),
+                    (&link, ground),
+                    list,
+                    ("dashpot", &coefficient),
+                );
+            }
+        }
+    }
+}
+
+fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
+    let deck = job.deck;
+    for g in &deck.gaps {
+        for link in links(job, bodies, &g.set, ground) {
+            if !is_of(job, &link, &["GAPUNI"], ("*GAP", g.place)) {
+                continue;
+            }
+            let given = (g.direction != [0.0; 3]).then_some(g.direction);
+            let help = "give *GAP the direction in which the gap opens";
+            let Some(along) = given.or_else(|| line(job, &link, help)) else {
+                continue;
             };
-            let line = match e.kind.as_str() {
-                "SPRINGA" if moving.len() < 2 => {
-                    // To the ground: along the line to it.
-                    let [a, b] = [e.nodes[0], e.nodes[1]].map(|n| deck.nodes[&n]);
-                    let Some(line) = stickslip::math::normalize(stickslip::math::sub(b, a)) else {
-                        job.error(
-                            e.place,
-                            format!("spring {id} has no length"),
-                            "use SPRING2 with directions",
-                        );
-                        continue;
-                    };
-                    format!(
-                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &deck.numbering, &[(moving[0], line)])
-                    )
-                }
-                "SPRINGA" => {
-                    let label = |n: u64| toml::name(&format!("node-{}", deck.label(n)));
-                    let a = sets.points(bodies, &label(e.nodes[0]), &e.nodes[..1]);
-                    let b = sets.points(bodies, &label(e.nodes[1]), &e.nodes[1..2]);
-                    format!(
-                        "axial-spring = {{ from = {}, to = {}, stiffness = {stiffness} }}",
-                        toml::text(&a),
-                        toml::text(&b)
-                    )
-                }
-                "SPRING1" => {
-                    let list = [(e.nodes[0], along(job, e.nodes[0], direction(0), 1.0))];
-                    format!(
-                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &deck.numbering, &list)
-                    )
-                }
-                "SPRING2" => {
-                    let list = [
-                        (e.nodes[0], along(job, e.nodes[0], direction(0), 1.0)),
-                        (e.nodes[1], along(job, e.nodes[1], direction(1), -1.0)),
-                    ];
-                    let list: Vec<Term> =
-                        list.into_iter().filter(|t| moving.contains(&t.0)).collect();
-                    format!(
-                        "spring = {{ terms = {}, stiffness = {stiffness} }}",
-                        terms(bodies, sets, &deck.numbering, &list)
-                    )
-                }
-                _ => {
-                    job.error(
-                        s.place,
-                        format!("element {} ({}) is no spring", deck.label(*id), e.kind),
-                        "*SPRING is for SPRINGA, SPRING1 and SPRING2",
-                    );
-                    continue;
-                }
-            };
-            job.table("coupling", &name, e.place);
-            job.out.line(&line);
+            let list = vec![(link.nodes[0], along.map(|c| -c)), (link.nodes[1], along)];
+            if bodies.dim() == 2 && along[0] == 0.0 && along[1] == 0.0 {
+                job.error(
+                    g.place,
+                    "a gap along z in the plane",
+                    "gaps open along x and y",
+                );
+                continue;
+            }
+            let mut more = format!("clearance = {}", toml::number(g.clearance));
+            if let Some(k) = g.stiffness {
+                more += &format!(", stiffness = {}", toml::number(k));
+            }
+            couple(job, (bodies, sets), (&link, ground), list, ("gap", &more));
         }
     }
 }

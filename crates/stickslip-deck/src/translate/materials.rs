@@ -1,37 +1,92 @@
 //! Materials, turned into the axes of their orientation.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, Turned};
 use super::job::Job;
 use super::toml;
-use crate::deck::{Deck, Elastic, Material, Orientation, Section};
+use crate::deck::{Deck, Elastic, Local, Material, Section};
 
-/// The name of the material of a section: with an orientation it is one of its own, unless the material has no directions.
-pub(super) fn of(deck: &Deck, section: &Section) -> String {
-    let turned = section.orientation.as_ref().filter(|_| {
-        let elastic = deck
-            .materials
-            .get(&section.material)
-            .and_then(|m| m.elastic.as_ref());
-        !matches!(elastic, Some(Elastic::Isotropic(_)) | None)
+/// The local axes of an element in its section: those at its centre, where they turn with the place.
+pub(super) fn axes_of(deck: &Deck, element: u64, section: &Section) -> Option<[[f64; 3]; 3]> {
+    let orientation = deck.orientations.get(section.orientation.as_ref()?)?;
+    let own = orientation.elements.get(&element);
+    let nodes = &deck.elements.get(&element)?.nodes;
+    let sum = nodes.iter().fold([0.0; 3], |sum: [f64; 3], n| {
+        let x = deck.nodes.get(n).copied().unwrap_or_default();
+        std::array::from_fn(|i| sum[i] + x[i])
     });
-    match turned {
-        Some(o) => toml::name(&format!("{}-{o}", section.material)),
-        None => toml::name(&section.material),
+    own.unwrap_or(&orientation.local)
+        .at(sum.map(|c| c / nodes.len() as f64))
+}
+
+/// The materials of all elements, and which of them each has. One with an orientation is one of its own, unless the material has no directions; where
+/// axes turn with the place there is one for each direction.
+pub(super) fn assign(
+    job: &mut Job,
+    section_of: &BTreeMap<u64, usize>,
+) -> (Vec<Turned>, BTreeMap<u64, usize>) {
+    let deck = job.deck;
+    let (mut all, mut of): (Vec<Turned>, BTreeMap<u64, usize>) = Default::default();
+    let mut known: BTreeMap<(String, [i64; 9]), usize> = BTreeMap::new();
+    let mut taken = BTreeSet::new();
+    let mut centred = BTreeSet::new();
+    for (element, index) in section_of {
+        let section = &deck.sections[*index];
+        let material = deck.materials.get(&section.material);
+        let directed = !matches!(
+            material.and_then(|m| m.elastic.as_ref()),
+            Some(Elastic::Isotropic(_)) | None
+        );
+        let orientation = section.orientation.as_ref().filter(|_| directed);
+        let axes = orientation.and_then(|_| axes_of(deck, *element, section));
+        let wanted = match orientation {
+            Some(o) => toml::name(&format!("{}-{o}", section.material)),
+            None => toml::name(&section.material),
+        };
+        if let Some(o) = orientation.and_then(|o| deck.orientations.get(o)) {
+            let round = matches!(
+                o.elements.get(element).unwrap_or(&o.local),
+                Local::Cylinder(_)
+            );
+            if round && centred.insert(o.place) {
+                job.note(
+                    o.place,
+                    "cylindrical axes are taken at the centre of each element, as in CalculiX; Abaqus takes them at the points of integration",
+                );
+            }
+        }
+        // Axes are alike to so many digits.
+        let bits = |c: f64| (c * 1e12).round() as i64;
+        let key: [i64; 9] = std::array::from_fn(|i| axes.map_or(0, |a| bits(a[i / 3][i % 3])));
+        let at = *known.entry((wanted.clone(), key)).or_insert_with(|| {
+            let more = (2..).map(|i| format!("{wanted}-{i}"));
+            let mut names = std::iter::once(wanted.clone()).chain(more);
+            let name = names.find(|n| !taken.contains(n)).unwrap_or_default();
+            taken.insert(name.clone());
+            all.push(Turned {
+                name,
+                section: *index,
+                axes,
+            });
+            all.len() - 1
+        });
+        of.insert(*element, at);
     }
+    (all, of)
 }
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies) {
     let deck = job.deck;
-    let mut used: BTreeMap<String, &Section> = BTreeMap::new();
-    for (e, s) in &bodies.section {
-        if bodies.of_element.contains_key(e) {
-            let section = &deck.sections[*s];
-            used.entry(of(deck, section)).or_insert(section);
-        }
-    }
-    for (name, section) in used {
+    let used: BTreeSet<usize> = (bodies.material.iter())
+        .filter(|(e, _)| bodies.of_element.contains_key(e))
+        .map(|(_, m)| *m)
+        .collect();
+    let mut used: Vec<&Turned> = used.into_iter().map(|m| &bodies.materials[m]).collect();
+    used.sort_by(|a, b| a.name.cmp(&b.name));
+    for turned_by in used {
+        let (name, axes) = (&turned_by.name, &turned_by.axes);
+        let section = &deck.sections[turned_by.section];
         let Some(material) = deck.materials.get(&section.material) else {
             continue;
         };
@@ -45,18 +100,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             _ => continue,
         };
         let elastic = &elastic;
-        let axes = section
-            .orientation
-            .as_ref()
-            .and_then(|o| deck.orientations.get(o));
-        if let Some(o) = axes
-            && !o.uniform
-            && !matches!(elastic, Elastic::Isotropic(_))
-        {
-            job.error(o.place, "the axes of an orientation must be the same everywhere; cylindrical ones turn with the place", "use SYSTEM=RECTANGULAR");
-            continue;
-        }
-        job.table("material", &name, material.place);
+        job.table("material", name, material.place);
         let density = match density {
             Some(d) => format!(", density = {}", toml::number(d)),
             None => String::new(),
@@ -79,8 +123,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
                 if let Some(o) = axes {
                     parts.push(format!(
                         "axes = [{}, {}]",
-                        toml::numbers(&o.axes[0]),
-                        toml::numbers(&o.axes[1])
+                        toml::numbers(&o[0]),
+                        toml::numbers(&o[1])
                     ));
                 }
                 job.out.line(&format!(
@@ -89,7 +133,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
                 ));
             }
             Elastic::Full(c) => {
-                let c = turned(c, axes);
+                let c = turned(c, axes.as_ref());
                 let rows: Vec<String> = c.iter().map(|row| toml::numbers(row)).collect();
                 job.out.line(&format!(
                     "anisotropic = {{ stiffness = [{}]{density} }}",
@@ -170,7 +214,7 @@ impl Elastic {
 }
 
 /// The stiffness in the global axes and in the order xx yy zz xy yz xz, from one in the order 11 22 33 12 13 23 of the material.
-fn turned(c: &[[f64; 6]; 6], axes: Option<&Orientation>) -> [[f64; 6]; 6] {
+fn turned(c: &[[f64; 6]; 6], axes: Option<&[[f64; 3]; 3]>) -> [[f64; 6]; 6] {
     let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     let ours = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     let at = |i: usize, j: usize| {
@@ -180,7 +224,7 @@ fn turned(c: &[[f64; 6]; 6], axes: Option<&Orientation>) -> [[f64; 6]; 6] {
             .unwrap_or(0)
     };
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let a = axes.map_or(identity, |o| o.axes);
+    let a = axes.copied().unwrap_or(identity);
     let mut out = [[0.0; 6]; 6];
     for (row, &(i, j)) in ours.iter().enumerate() {
         for (column, &(k, l)) in ours.iter().enumerate() {

@@ -43,9 +43,10 @@ impl Deck {
         let mut job = Job::new(self);
         let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
         let mesh_name = PathBuf::from(format!("{}.msh", stem.as_deref().unwrap_or("job")));
-        let Some(bodies) = bodies::find(&mut job) else {
+        let Some(mut bodies) = bodies::find(&mut job) else {
             return Err(job.failed());
         };
+        (bodies.materials, bodies.material) = materials::assign(&mut job, &bodies.section);
         let mut sets = Sets::new(self, &bodies);
         job.out.line("format = 1");
         if let Some(title) = self.title.as_deref().filter(|t| !t.trim().is_empty()) {
@@ -73,9 +74,8 @@ impl Deck {
             Some((*n, axes::at_node(t, x)?))
         });
         let element_axes = bodies.section.iter().filter_map(|(e, s)| {
-            let o = self.sections[*s].orientation.as_ref()?;
-            let o = self.orientations.get(o).filter(|o| o.uniform)?;
-            Some((*e, o.axes))
+            let axes = materials::axes_of(self, *e, &self.sections[*s])?;
+            Some((*e, axes))
         });
         Ok(Translation {
             elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
@@ -91,6 +91,7 @@ impl Deck {
             filed: self.steps.iter().map(|s| s.filed.clone()).collect(),
             node_sets: printed(self, &self.node_sets),
             element_sets: printed(self, &self.element_sets),
+            surfaces: carried(self, &bodies),
             pairs: job.pairs,
             numbering: self.numbering.clone(),
             path: path.to_path_buf(),
@@ -138,12 +139,28 @@ fn unprinted(job: &mut Job, bodies: &Bodies) {
 fn printed(deck: &Deck, sets: &BTreeMap<String, Vec<u64>>) -> BTreeMap<String, Vec<u64>> {
     let name = |p: &Print| match p {
         Print::Node { set, .. } | Print::Element { set, .. } => Some(set.clone()),
-        Print::Contact { .. } => None,
+        Print::Contact { .. } | Print::Section { .. } => None,
     };
     let names = deck.steps.iter().flat_map(|s| &s.prints).filter_map(name);
     names
         .filter_map(|n| Some((n.clone(), sets.get(&n)?.clone())))
         .collect()
+}
+
+/// The faces of the surfaces whose forces are printed: element, and face from 0.
+fn carried(deck: &Deck, bodies: &Bodies) -> BTreeMap<String, Vec<(u64, usize)>> {
+    let name = |p: &Print| match p {
+        Print::Section { surface, .. } => Some(surface.clone()),
+        _ => None,
+    };
+    let mesh = bodies.mesh();
+    let faces = |name: &String| -> Vec<(u64, usize)> {
+        let by = deck.surfaces.get(name).map(|s| bodies.faces(&s.parts));
+        let all = by.into_iter().flat_map(BTreeMap::into_values).flatten();
+        all.map(|f| (mesh.cell_id(f.cell), f.face)).collect()
+    };
+    let names = deck.steps.iter().flat_map(|s| &s.prints).filter_map(name);
+    names.map(|n| (n.clone(), faces(&n))).collect()
 }
 
 /// Times of `*TIME POINTS` that are asked for, in the time of the analysis.

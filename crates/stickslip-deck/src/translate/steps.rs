@@ -39,19 +39,22 @@ pub(super) fn write(job: &mut Job) {
 
 /// The tables that act in a step, where some do not act in all.
 fn acting(job: &mut Job, step: usize) {
-    for kind in ["supports", "loads", "couplings"] {
+    for (kind, table) in [
+        ("supports", None),
+        ("loads", None),
+        ("interfaces", Some("interface.")),
+        ("couplings", Some("coupling.")),
+    ] {
         let all: Vec<&(&str, String, Vec<bool>)> =
             job.active.iter().filter(|a| a.0 == kind).collect();
         if all.iter().any(|a| a.2.contains(&false)) {
             let on = all.iter().filter(|a| a.2[step]);
             let mut names: Vec<String> = on.map(|a| a.1.clone()).collect();
-            if kind == "couplings" {
-                // Equations and springs act in every step.
+            if let Some(table) = table {
+                // What says nothing of steps acts in all.
                 let listed = |n: &str| all.iter().any(|a| a.1 == n);
-                let always = job
-                    .places
-                    .iter()
-                    .filter_map(|(k, _)| k.strip_prefix("coupling."));
+                let always = job.places.iter();
+                let always = always.filter_map(|(k, _)| k.strip_prefix(table));
                 names.extend(always.filter(|n| !listed(n)).map(str::to_string));
             }
             job.out.line(&format!("{kind} = {}", toml::texts(&names)));
@@ -161,12 +164,13 @@ pub(super) fn points(deck: &Deck, name: &str, [start, length]: [f64; 2]) -> Vec<
 fn output(job: &mut Job) {
     let deck = job.deck;
     let of = |p: &Print| match p {
-        Print::Node { when, .. } | Print::Element { when, .. } | Print::Contact { when, .. } => {
-            match when {
-                When::Every(n) => Some(*n),
-                When::Times(_) => None,
-            }
-        }
+        Print::Node { when, .. }
+        | Print::Element { when, .. }
+        | Print::Section { when, .. }
+        | Print::Contact { when, .. } => match when {
+            When::Every(n) => Some(*n),
+            When::Times(_) => None,
+        },
     };
     let every = deck
         .steps

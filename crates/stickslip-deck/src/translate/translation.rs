@@ -35,6 +35,8 @@ pub struct Translation {
     pub node_sets: BTreeMap<String, Vec<u64>>,
     /// Elements of the printed sets.
     pub element_sets: BTreeMap<String, Vec<u64>>,
+    /// Faces of the surfaces whose forces are printed: element, and face of the cell from 0.
+    pub surfaces: BTreeMap<String, Vec<(u64, usize)>>,
     /// Interfaces by slave and master, in the order of the deck: `(name, slave, master)`.
     pub pairs: Vec<(String, String, String)>,
     /// How numbers of the mesh are written in the deck.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stickslip_deck::{Deck, Severity};
+use stickslip_deck::{Deck, Local, Severity};
 
 use crate::support::{Run, cube, near, near3, run, sections, translate};
 
@@ -309,7 +309,10 @@ fn sections_have_the_orientation_of_their_part_or_of_the_model() {
     let axes = "*Orientation, name=O\n1., 0., 0., 0., 1., 0.\n";
     let axis = |d: &Deck| {
         let name = d.sections[0].orientation.clone().expect("an orientation");
-        d.orientations[&name].axes[0]
+        match &d.orientations[&name].local {
+            Local::Axes(axes) => axes[0],
+            other => panic!("{other:?}"),
+        }
     };
     near3(axis(&deck(&text(axes, ""))), [0.0, 1.0, 0.0], 1e-15);
     near3(axis(&deck(&text("", axes))), [1.0, 0.0, 0.0], 1e-15);

@@ -2,11 +2,14 @@
 
 mod beyond;
 mod cards;
+mod changes;
 mod elements;
 mod instances;
 mod instances_wrong;
 mod loads;
 mod malformed;
+mod orientations;
+mod points;
 mod reading;
 mod steps;
 mod styles;

@@ -106,6 +106,8 @@ fn what_calculix_forgives_is_forgiven_where_it_changes_nothing() {
         );
     }
     // Numbers behind the nodes of an element, unless they are those of another type.
+    let filled = TET.replace("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 0, 0, 0, 0\n");
+    assert_eq!(read(&filled).elements[&1].nodes, [1, 2, 3, 4]);
     let wide = TET.replace("1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 1, 1, 1\n");
     let deck = read(&wide);
     assert_eq!(deck.elements[&1].nodes, [1, 2, 3, 4]);
