@@ -4,6 +4,7 @@
 //! 130 interrupted.
 //! Results and listings go to standard output, diagnostics to standard error.
 
+mod browser;
 mod closing;
 mod commands;
 mod failure;
@@ -35,6 +36,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Demo(commands::demo::Arguments),
     Run(commands::run::Arguments),
     Resume(commands::resume::Arguments),
     Sweep(commands::sweep::Arguments),
@@ -68,6 +70,7 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
         }
     };
     let outcome = match arguments.command {
+        Command::Demo(arguments) => commands::demo::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Resume(arguments) => commands::resume::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),

@@ -5,6 +5,7 @@ pub mod compare;
 pub mod completions;
 pub mod convert;
 pub mod curve;
+pub mod demo;
 pub mod explain;
 pub mod friction;
 pub mod man;

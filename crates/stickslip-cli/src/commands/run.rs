@@ -43,6 +43,20 @@ pub struct Arguments {
     manner: Manner,
 }
 
+impl Arguments {
+    /// A file as it is.
+    pub fn of(file: &Path, output: &Path, manner: Manner) -> Self {
+        Arguments {
+            file: file.to_path_buf(),
+            output: Some(output.to_path_buf()),
+            set: Vec::new(),
+            cache: None,
+            dump_failures: None,
+            manner,
+        }
+    }
+}
+
 /// How an analysis is run and what is said of it.
 #[derive(Debug, clap::Args)]
 pub struct Manner {
@@ -61,6 +75,16 @@ pub struct Manner {
 }
 
 impl Manner {
+    /// What is said to people.
+    pub fn new(threads: Option<usize>, quiet: bool) -> Self {
+        Manner {
+            threads,
+            quiet,
+            verbose: false,
+            json: false,
+        }
+    }
+
     /// A sign of life for who listens.
     pub fn heartbeat(&self, voice: &Voice) -> Option<Heartbeat> {
         match (self.json, self.quiet) {

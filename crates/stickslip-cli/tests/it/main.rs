@@ -8,6 +8,8 @@ mod commands;
 mod convert;
 mod decks;
 #[cfg(unix)]
+mod demo;
+#[cfg(unix)]
 mod faults;
 mod progress;
 mod reports;
