@@ -9,6 +9,7 @@ use stickslip::problem::{Document, Meshes, Problem};
 use stickslip_deck::{Deck, Severity, Translation};
 
 use crate::failure::{Failure, located};
+use crate::given;
 
 /// A problem with where it comes from.
 pub struct Input {
@@ -46,6 +47,7 @@ pub struct Case {
 impl Case {
     /// Reads a problem file, or a deck if the name ends in `.inp`.
     pub fn read(file: &Path) -> Result<Case, Failure> {
+        given::file(file, &["toml", "inp"])?;
         let deck = match is_deck(file) {
             true => Some(Arc::new(translate(file)?)),
             false => None,

@@ -8,6 +8,7 @@ mod browser;
 mod closing;
 mod commands;
 mod failure;
+mod given;
 mod input;
 mod interrupt;
 mod lines;

@@ -33,6 +33,13 @@ const WORDS: &[(&str, &str)] = &[
     ("A", "acceleration"),
 ];
 
+/// Names of fields and components that results mostly have.
+pub const NAMES: &[&str] = &[
+    "CPRESS", "CSTATUS", "COPEN", "CSHEAR1", "CSHEAR2", "CSLIP1", "CSLIP2", "CDISS", "CWEAR",
+    "CFORCE", "MISES", "S11", "S22", "S33", "S12", "S23", "S13", "U", "U1", "U2", "U3", "V", "A",
+    "RF",
+];
+
 /// The field that holds the status of contact: 0 open, 1 stick, 2 slip.
 pub const STATUS: &str = "CSTATUS";
 

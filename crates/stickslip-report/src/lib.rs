@@ -13,5 +13,6 @@ pub mod plot;
 mod results;
 mod skin;
 
+pub use field::NAMES;
 pub use html::{Limits, Report, page, write as report};
 pub use results::{Frame, Results};

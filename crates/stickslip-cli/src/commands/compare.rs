@@ -4,6 +4,7 @@ use std::process::ExitCode;
 use stickslip::results::compare::{Differences, compare, differences};
 
 use crate::failure::{CHECK, Failure, Outcome};
+use crate::given;
 use crate::print;
 
 /// Compare the results in a directory with expected values, or with those of another run.
@@ -15,6 +16,7 @@ Examples:
   stickslip compare before.out after.out --relative 1e-6  exit code 2 if anything differs by more")]
 pub struct Arguments {
     /// Directory of results, as written by `run`.
+    #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
     /// What is expected, `expected.toml` beside the directory if not given; or the directory of another run.
     other: Option<PathBuf>,
@@ -25,7 +27,9 @@ pub struct Arguments {
 
 /// Prints a line a check, or a line a quantity that differs; exit code 2 if one fails.
 pub fn run(arguments: &Arguments) -> Outcome {
+    given::results(&arguments.directory)?;
     if let Some(other) = arguments.other.as_ref().filter(|other| other.is_dir()) {
+        given::results(other)?;
         let found = differences(&arguments.directory, other)?;
         print::out(&format!("{found}\n"))?;
         return judge(&found, arguments.relative);
@@ -40,6 +44,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let parent = arguments.directory.parent().unwrap_or(&arguments.directory);
         parent.join("expected.toml")
     });
+    if arguments.other.is_none() && !expected.exists() {
+        return Err(Failure::Arguments(
+            format!("{}: there is no such file", expected.display()),
+            "name the file of expected values, or the folder of another run: `stickslip compare A.out B.out`".into(),
+        ));
+    }
+    given::file(&expected, &["toml"])?;
     let report = compare(&arguments.directory, &expected)?;
     print::out(&format!("{report}\n"))?;
     Ok(code(report.passes()))

@@ -1,6 +1,8 @@
+use std::ffi::OsStr;
 use std::process::ExitCode;
 
-use clap::Command;
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
+use clap::{Arg, Command};
 
 use crate::failure::Outcome;
 use crate::print;
@@ -16,6 +18,27 @@ pub struct Arguments {
     /// The shell.
     #[arg(value_enum)]
     shell: clap_complete::Shell,
+}
+
+/// The values that a shell offers for an argument, which takes others as well: what is wrong about those is said by whoever knows what is there.
+#[derive(Clone)]
+pub struct Words(pub fn() -> Vec<&'static str>);
+
+impl TypedValueParser for Words {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new((self.0)().into_iter().map(PossibleValue::new)))
+    }
 }
 
 /// Prints them; `all` is the whole command line.

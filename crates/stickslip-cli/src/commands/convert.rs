@@ -8,6 +8,7 @@ use stickslip::mesh::Mesh;
 use super::spare;
 
 use crate::failure::{Failure, Outcome};
+use crate::given;
 use crate::print;
 
 /// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) and its
@@ -54,6 +55,16 @@ impl Plane {
 pub fn run(arguments: &Arguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     spare(output, std::slice::from_ref(input))?;
+    given::file(input, &["msh", "vtu", "inp"])?;
+    if input.is_dir() {
+        return Err(Failure::Arguments(
+            format!(
+                "{}: this is a folder, and a mesh or a deck is wanted",
+                input.display()
+            ),
+            "name a file that ends in .msh, .vtu or .inp".into(),
+        ));
+    }
     if ending(output) == "toml" {
         return problem(input, output);
     }

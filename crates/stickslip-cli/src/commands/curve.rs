@@ -5,6 +5,7 @@ use stickslip::contact::law::friction::FrictionPoint;
 use stickslip::contact::law::slip::Tangential;
 
 use crate::failure::{Failure, Outcome};
+use crate::given;
 use crate::input::Input;
 use crate::print;
 
@@ -29,23 +30,19 @@ pub struct Arguments {
 /// Prints the table.
 pub fn run(arguments: &Arguments) -> Outcome {
     let problem = Input::open(&arguments.file, &arguments.set)?.problem;
-    let known = || {
-        problem
-            .interface
-            .keys()
-            .cloned()
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
+    let known: Vec<&str> = problem.interface.keys().map(String::as_str).collect();
     let interface = match &arguments.interface {
         Some(name) => problem.interface.get(name),
         None if problem.interface.len() == 1 => problem.interface.values().next(),
         None => None,
     };
     let Some(interface) = interface else {
+        if let Some(name) = &arguments.interface {
+            return Err(given::unknown("interface", name, &known));
+        }
         return Err(Failure::Arguments(
             "say which interface".into(),
-            format!("interfaces: {}", known()),
+            format!("interfaces: {}", known.join(", ")),
         ));
     };
     let (normal, friction, slip) = (

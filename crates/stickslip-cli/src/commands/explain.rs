@@ -6,6 +6,7 @@ use stickslip::assess::Figure;
 use stickslip::assess::doctor::{DoctorCause, Finding, Guilty, Severity};
 
 use crate::failure::{Failure, Outcome};
+use crate::given;
 use crate::print;
 
 /// Width of the printed text in characters.
@@ -15,6 +16,7 @@ const WIDTH: usize = 100;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The directory of the results, or its summary.json.
+    #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
     /// Print the findings as JSON.
     #[arg(long)]
@@ -23,6 +25,9 @@ pub struct Arguments {
 
 /// Prints the explanation.
 pub fn run(arguments: &Arguments) -> Outcome {
+    if !is_summary(&arguments.directory) {
+        given::results(&arguments.directory)?;
+    }
     let summary = read(&arguments.directory)?;
     let findings = findings(&summary, &arguments.directory)?;
     if arguments.json {
@@ -35,20 +40,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Whether it is a summary by itself, which may have any name.
+fn is_summary(path: &Path) -> bool {
+    path.is_file() && path.extension().is_some_and(|e| e == "json")
+}
+
 fn read(directory: &Path) -> Result<Value, Failure> {
     let path = match directory.is_dir() {
         true => directory.join("summary.json"),
         false => directory.to_path_buf(),
     };
-    if path.is_file() && path.extension().is_none_or(|e| e != "json") {
-        return Err(Failure::Arguments(
-            format!(
-                "{}: this is a file; the folder with the results of a run is needed",
-                path.display()
-            ),
-            "give the directory that `stickslip run` wrote, or the summary.json in it".into(),
-        ));
-    }
     let text = stickslip::io::input::read_text(&path).map_err(|e| {
         Failure::Arguments(
             format!("{} cannot be read: {e}", path.display()),

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::friction::{self, FrictionProblem, Solution, text};
-use stickslip::io::input;
 
 use crate::failure::{Failure, Outcome, UNSOLVED};
+use crate::given;
 use crate::print;
 
 /// Solve friction problems alone, u = W r + q with a law of friction at every point: solver, iterations and error of each.
@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// Reads a problem.
 fn problem(file: &Path) -> Result<FrictionProblem, Failure> {
-    let text = input::read_text(file).map_err(|e| Error::io(file, e))?;
+    let text = given::text(file, &["txt"])?;
     let problem = text::read(&text).map_err(|fault| {
         let place = format!("{}:{}", file.display(), fault.line);
         Failure::Arguments(format!("{place}: {}", fault.message), fault.help)

@@ -3,6 +3,7 @@ use std::process::ExitCode;
 use serde_json::Value;
 use stickslip::problem::{FamilyListing, families, nearest};
 
+use super::completions::Words;
 use crate::failure::{Failure, Outcome};
 use crate::print;
 
@@ -13,7 +14,20 @@ const WIDTH: usize = 100;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// A family (`friction`), an entry (`coulomb`), or both (`friction.coulomb`).
+    #[arg(value_parser = Words(names), hide_possible_values = true)]
     name: Option<String>,
+}
+
+/// Families and entries, for completions.
+fn names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = Vec::new();
+    for family in families() {
+        names.push(family.key);
+        names.extend(family.entries.iter().map(|e| e.name));
+    }
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// Prints the listing.

@@ -1,22 +1,26 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::ValueHint;
 use stickslip_report::plot::{self, Picture, View, When};
 
+use super::completions::Words;
 use crate::failure::{Failure, Outcome};
+use crate::given;
 use crate::print;
 
 /// Make a picture of results, PNG or SVG, or plot columns of the history.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The folder with the results of a run.
+    #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// The file to write, ending with .png or .svg; `plot.png` or `history.png` in the folder if not given.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The von Mises stress if not
     /// given.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,
     /// Which of the times at which fields were written: `last`, a number from 1, or `all`, a file each.
     #[arg(long, value_name = "last|N|all", default_value = "last", value_parser = when)]
@@ -44,6 +48,11 @@ pub struct Arguments {
         requires = "history"
     )]
     against: String,
+}
+
+/// Fields that results mostly have, for completions.
+fn fields() -> Vec<&'static str> {
+    stickslip_report::NAMES.to_vec()
 }
 
 /// A factor, or the one that suits.
@@ -83,49 +92,39 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     pair.ok_or_else(|| "width and height like 1200x900".into())
 }
 
-/// Draws.
+/// Draws, and prints where the pictures are.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let output = arguments.output.as_deref();
-    if !arguments.history.is_empty() {
-        let columns: Vec<String> = arguments
-            .history
-            .iter()
-            .filter(|name| !name.is_empty())
-            .cloned()
-            .collect();
-        if columns.is_empty() {
-            return Err(Failure::Arguments(
-                "no column is named".into(),
-                "--history takes names of columns of history.csv, with commas between them".into(),
-            ));
-        }
-        let size = arguments.size;
-        let file = plot::columns(
-            &arguments.directory,
-            output,
-            &columns,
-            &arguments.against,
-            size,
-        )?;
-        print::out(&format!("{}\n", file.display()))?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    let picture = Picture {
-        field: arguments.field.clone(),
-        when: arguments.time,
-        scale: arguments.scale.0,
-        view: arguments.view,
-        bodies: arguments.body.clone(),
-        size: arguments.size,
-    };
-    let (files, notes) = plot::picture(&arguments.directory, output, &picture)?;
-    let mut text = String::new();
-    for file in files {
-        text += &format!("{}\n", file.display());
-    }
-    for note in notes {
-        text += &format!("note: {note}\n");
-    }
-    print::out(&text)?;
+    let (files, notes) = draw(arguments)?;
+    let files = files.iter().map(|file| format!("{}\n", file.display()));
+    let notes = notes.iter().map(|note| format!("note: {note}\n"));
+    print::out(&files.chain(notes).collect::<String>())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The files that were written, and what is to be said about them.
+pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failure> {
+    given::results(&arguments.directory)?;
+    let output = arguments.output.as_deref();
+    if arguments.history.is_empty() {
+        let picture = Picture {
+            field: arguments.field.clone(),
+            when: arguments.time,
+            scale: arguments.scale.0,
+            view: arguments.view,
+            bodies: arguments.body.clone(),
+            size: arguments.size,
+        };
+        return Ok(plot::picture(&arguments.directory, output, &picture)?);
+    }
+    let named = arguments.history.iter().filter(|name| !name.is_empty());
+    let columns: Vec<String> = named.cloned().collect();
+    if columns.is_empty() {
+        return Err(Failure::Arguments(
+            "no column is named".into(),
+            "--history takes names of columns of history.csv, with commas between them".into(),
+        ));
+    }
+    let (directory, against) = (&arguments.directory, &arguments.against);
+    let file = plot::columns(directory, output, &columns, against, arguments.size)?;
+    Ok((vec![file], Vec::new()))
 }

@@ -7,12 +7,14 @@ use stickslip::problem::Problem;
 use stickslip_report::Limits;
 
 use crate::failure::Outcome;
+use crate::given;
 use crate::print;
 
 /// Write a report on results: one HTML file that opens without a network.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The folder with the results of a run.
+    #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
     /// The file to write; `report.html` in the folder if not given.
     #[arg(short, long, value_name = "FILE")]
@@ -28,6 +30,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         fields: arguments.limit.saturating_mul(1 << 20),
         ..Limits::default()
     };
+    given::results(&arguments.directory)?;
     let output = arguments.output.as_deref();
     let report = stickslip_report::report(&arguments.directory, output, limits)?;
     let mut text = format!(

@@ -9,6 +9,7 @@ use stickslip::run::{Checkpoint, Simulation};
 use super::run::{Manner, Session, claim, go, stem};
 use super::{library, use_threads};
 use crate::failure::{Failure, Outcome};
+use crate::given;
 use crate::input::Input;
 use crate::voice::Voice;
 
@@ -19,6 +20,7 @@ use crate::voice::Voice;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The folder of results.
+    #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
     /// Go on from the checkpoint after N increments; the last one if not given.
     #[arg(long, value_name = "N")]
@@ -38,6 +40,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     voice.does("reading and assembling");
     let heartbeat = manner.heartbeat(&voice);
     let directory = &arguments.directory;
+    if !directory.is_dir() {
+        given::results(directory)?;
+    }
     // Nobody else writes there from here on, as long as it may take to assemble.
     let held = FolderClaim::take(directory)?;
     let (saved, notes) = Saved::find(directory, arguments.from)?;

@@ -11,6 +11,7 @@ mod decks;
 mod demo;
 #[cfg(unix)]
 mod faults;
+mod given;
 mod progress;
 mod reports;
 mod runs;

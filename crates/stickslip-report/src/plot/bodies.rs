@@ -1,5 +1,7 @@
 //! Which bodies are drawn, and from where, so that the field can be seen.
 
+use stickslip::problem::nearest;
+
 use super::camera::{View, cross, unit};
 use super::picture::Picture;
 use crate::skin::Skin;
@@ -36,8 +38,12 @@ pub fn choose(
         match names.iter().take(count).position(|n| n == name) {
             Some(i) => shown.bodies[i] = true,
             None => {
-                let known = names[..count.min(names.len())].join(", ");
-                return Err(format!("there is no body `{name}`; there are {known}"));
+                let known: Vec<&str> = names.iter().take(count).map(String::as_str).collect();
+                let meant = nearest(name, &known).map(|meant| format!("did you mean `{meant}`? "));
+                let (meant, known) = (meant.unwrap_or_default(), known.join(", "));
+                return Err(format!(
+                    "there is no body `{name}`; {meant}there are {known}"
+                ));
             }
         }
     }

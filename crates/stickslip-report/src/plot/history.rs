@@ -4,6 +4,7 @@
 //! would need that canvas wrapped as its own and bring its own choice of letters, for the two hundred lines that it would replace.
 
 use stickslip::Error;
+use stickslip::results::compare::near;
 
 use super::axis;
 use super::words::{INK, SOFT, shorten};
@@ -44,8 +45,8 @@ pub fn draw(
             fault(
                 &results.directory,
                 format!(
-                    "history.csv has no column `{name}`; it has {}",
-                    table.names.join(", ")
+                    "history.csv has no column `{name}`{}",
+                    near(name, table.names.iter().map(String::as_str))
                 ),
             )
         })

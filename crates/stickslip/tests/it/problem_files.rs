@@ -258,7 +258,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "primary = \"floor\"",
         "primary = \"flor\"",
-        &["25:11 there is no set or body `flor`"],
+        &["25:11 there is no set, body or obstacle `flor`"],
     ),
     (
         "primary = \"floor\"",
@@ -298,7 +298,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
         "[obstacle.block.plane]",
         &[
             "15:11 `block` is the name of a body already",
-            "25:11 there is no set or body `floor`",
+            "25:11 there is no set, body or obstacle `floor`",
         ],
     ),
     (

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::super::nearest::suggest;
 use super::super::{Problem, Select};
 use super::fault::problem_error;
 use crate::error::{Diagnostic, Error};
@@ -142,7 +143,7 @@ impl<'a> Sets<'a> {
                 if points.len() == 1 { "" } else { "s" }
             ),
             None if known.is_empty() => format!("the mesh of `{body}` has no sets"),
-            None => format!("sets of the mesh of `{body}`: {}", known.join(", ")),
+            None => suggest(name, &format!("sets of the mesh of `{body}`"), &known),
         };
         problem_error(vec![
             Diagnostic::new(key, format!("`{name}` has no {what}")).help(help),

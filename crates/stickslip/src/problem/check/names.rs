@@ -276,7 +276,9 @@ fn interfaces(problem: &Problem, findings: &mut Findings) {
             set(problem, findings, &key("secondary"), &interface.secondary);
         }
         if !problem.obstacle.contains_key(&interface.primary) {
-            set(problem, findings, &key("primary"), &interface.primary);
+            let obstacles: Vec<&str> = problem.obstacle.keys().map(String::as_str).collect();
+            let at = &key("primary");
+            set_among(problem, findings, at, &interface.primary, &obstacles);
         }
         if let Some(points) = &interface.initial_set {
             set(problem, findings, &key("initial-set"), points);
@@ -324,6 +326,17 @@ fn one_of<T>(
 
 /// `name` must be a set, a body, or `body.set`; whether the mesh has the set is not known here.
 pub(super) fn set(problem: &Problem, findings: &mut Findings, key: &[&str], name: &str) {
+    set_among(problem, findings, key, name, &[]);
+}
+
+/// The same where obstacles may be meant as well.
+fn set_among(
+    problem: &Problem,
+    findings: &mut Findings,
+    key: &[&str],
+    name: &str,
+    obstacles: &[&str],
+) {
     match name.split_once('.') {
         Some((body, set)) => {
             if set.is_empty() {
@@ -335,10 +348,15 @@ pub(super) fn set(problem: &Problem, findings: &mut Findings, key: &[&str], name
         None => {
             let mut names: Vec<&str> = problem.set.keys().map(String::as_str).collect();
             names.extend(problem.body.keys().map(String::as_str));
-            let help = suggest(name, "sets and bodies", &names);
+            names.extend(obstacles);
+            let (what, all) = match obstacles.is_empty() {
+                true => ("set or body", "sets and bodies"),
+                false => ("set, body or obstacle", "sets, bodies and obstacles"),
+            };
+            let help = suggest(name, all, &names);
             findings.add(
                 key,
-                format!("there is no set or body `{name}`"),
+                format!("there is no {what} `{name}`"),
                 format!("{help}; sets of a mesh are written body.set"),
             );
         }
