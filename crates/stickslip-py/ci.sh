@@ -8,7 +8,7 @@ target=$(cd ../.. && pwd)/target
 venv=$target/python
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 "$venv/bin/pip" install --quiet --disable-pip-version-check \
-    'maturin>=1.7,<2' numpy pytest pyvista meshio matplotlib
+    'maturin>=1.7,<2' numpy pytest pyvista meshio matplotlib pandas tqdm rich
 rm -rf "$target/wheels"
 # Tests are small: in the dev profile the library need not be optimised, which takes a minute instead of five.
 fast=()

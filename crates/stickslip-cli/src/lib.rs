@@ -21,9 +21,10 @@ mod style;
 mod voice;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use failure::INPUT;
 
@@ -95,6 +96,22 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
             ExitCode::from(failure.code())
         }
     }
+}
+
+/// Draws as `stickslip plot` does, from its options; returns the files that were written, and what is to be said about them.
+///
+/// # Errors
+/// What the command would print.
+pub fn pictures<T: Into<OsString> + Clone>(
+    options: impl IntoIterator<Item = T>,
+) -> Result<(Vec<PathBuf>, Vec<String>), String> {
+    let name = std::iter::once(OsString::from("plot"));
+    let options = name.chain(options.into_iter().map(Into::into));
+    let command = commands::plot::Arguments::augment_args(clap::Command::new("plot"));
+    let matches = command.try_get_matches_from(options);
+    let arguments = matches.and_then(|m| commands::plot::Arguments::from_arg_matches(&m));
+    let arguments = arguments.map_err(|e| e.render().to_string())?;
+    commands::plot::draw(&arguments).map_err(|failure| render::plain(&failure))
 }
 
 /// The number of an exit code, for programs that call [`main_with`].

@@ -19,6 +19,11 @@ pub fn failure(failure: &Failure) {
     let _ = writeln!(std::io::stderr(), "{}", text(failure, &renderer));
 }
 
+/// Why a command failed, without colours.
+pub fn plain(failure: &Failure) -> String {
+    text(failure, &Renderer::plain())
+}
+
 fn text(failure: &Failure, renderer: &Renderer) -> String {
     match failure {
         Failure::Library(Error::Problem(error)) => problem(error, renderer),

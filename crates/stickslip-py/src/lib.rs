@@ -6,15 +6,27 @@ mod errors;
 mod laws;
 mod mesh;
 mod problem;
+mod results;
 mod run;
 mod value;
 
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// Runs the command line; returns its exit code.
 #[pyfunction]
 fn command(py: Python<'_>, arguments: Vec<String>) -> u8 {
     py.detach(|| stickslip_cli::number(stickslip_cli::main_with(arguments)))
+}
+
+/// Draws as `stickslip plot` does, from its options: the files that were written, and notes.
+#[pyfunction]
+fn pictures(py: Python<'_>, options: Vec<OsString>) -> PyResult<(Vec<PathBuf>, Vec<String>)> {
+    let drawn = py.detach(|| stickslip_cli::pictures(options));
+    drawn.map_err(|message| PyValueError::new_err(message.trim().to_string()))
 }
 
 /// The JSON schema of problem files.
@@ -42,9 +54,11 @@ mod _core {
     #[pymodule_export]
     use super::problem::{Factors, Problem};
     #[pymodule_export]
+    use super::results::Results;
+    #[pymodule_export]
     use super::run::Simulation;
     #[pymodule_export]
-    use super::{command, schema, set_threads};
+    use super::{command, pictures, schema, set_threads};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

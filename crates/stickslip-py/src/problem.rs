@@ -19,11 +19,12 @@ use stickslip_deck::{Deck, Translation};
 use super::errors::{raise, raise_deck};
 use super::laws::{Function, Raised};
 use super::mesh::Mesh;
+use super::results::no_interface;
 use super::run::Simulation;
 use super::value;
 
 /// Factors of bodies that simulations share.
-#[pyclass(frozen)]
+#[pyclass(frozen, module = "stickslip._core")]
 pub struct Factors {
     library: Arc<Library>,
 }
@@ -232,6 +233,11 @@ impl Problem {
         self.problem.to_toml().map_err(|e| raise(py, e.into()))
     }
 
+    /// Its tables as JSON.
+    fn tables(&self) -> String {
+        serde_json::to_string(&self.problem).unwrap_or_default()
+    }
+
     /// What the doctor says of the problem before it is run: as text, and as JSON.
     fn check(&self, py: Python<'_>) -> PyResult<(String, String)> {
         let checked = py.detach(|| {
@@ -427,10 +433,7 @@ fn bring(contact: &mut Contact, laws: Functions, raised: &Raised) -> PyResult<()
             );
         }
         if !found {
-            return Err(PyValueError::new_err(format!(
-                "there is no interface `{name}`; there are: {}",
-                known.join(", ")
-            )));
+            return Err(PyValueError::new_err(no_interface(&name, &known)));
         }
     }
     Ok(())

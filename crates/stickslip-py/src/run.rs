@@ -9,8 +9,11 @@ use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use stickslip::Error;
+use stickslip::assess::doctor::Severity;
+use stickslip::io::write_atomically;
 use stickslip::results::{
-    Claim, Event, FolderClaim, Observer, ResultFiles, Saved, Source, fields, seal, unseal,
+    Analysis, Claim, Event, FolderClaim, Observer, ResultFiles, Row, Saved, Source, fields, seal,
+    unseal,
 };
 use stickslip::run::Checkpoint;
 use stickslip::system::Location;
@@ -18,6 +21,7 @@ use stickslip::system::Location;
 use super::array::{Array, Kept, Owner};
 use super::errors::raise;
 use super::laws::{Raised, keep};
+use super::results::no_interface;
 
 /// How often Python is asked whether a signal has come.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -48,7 +52,7 @@ stickslip::keep!(Rows {
 });
 
 impl Observer for Rows {
-    fn see(&mut self, analysis: &stickslip::results::Analysis, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         match event {
             Event::Increment(row) => {
                 if self.names.is_empty() {
@@ -65,6 +69,53 @@ impl Observer for Rows {
     }
 }
 
+/// What is worth telling, for `logging`: how much it matters, by its numbers, and the sentence.
+#[derive(Default)]
+struct Messages(VecDeque<(u8, String)>);
+
+const DETAIL: u8 = 10;
+const NEWS: u8 = 20;
+const WARNING: u8 = 30;
+
+impl Observer for Messages {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
+        let message = match event {
+            Event::Accepted(a) => (
+                DETAIL,
+                format!(
+                    "step {} increment {} to time {:.6}: {} iterations, residual {:.1e}; {} open, {} stick, {} slip",
+                    analysis.step_name(),
+                    a.increment,
+                    a.time,
+                    a.iterations,
+                    a.residual,
+                    a.tally.open,
+                    a.tally.stick,
+                    a.tally.slip
+                ),
+            ),
+            Event::Cutback(trial, failure) => (
+                NEWS,
+                format!(
+                    "cut back at time {:.6} to {:.6}: {}",
+                    trial.from, trial.to, failure.message
+                ),
+            ),
+            Event::Note(text) => (NEWS, text.to_string()),
+            Event::Finding(finding) => (
+                match finding.severity >= Severity::Warning {
+                    true => WARNING,
+                    false => NEWS,
+                },
+                finding.message.clone(),
+            ),
+            _ => return Ok(()),
+        };
+        self.0.push_back(message);
+        Ok(())
+    }
+}
+
 /// First and one past the last of a range.
 type Bounds = (usize, usize);
 
@@ -73,6 +124,7 @@ type Bounds = (usize, usize);
 pub struct Simulation {
     simulation: stickslip::run::Simulation,
     rows: Rows,
+    messages: Messages,
     files: Option<ResultFiles>,
     /// The files that the problem was read from.
     inputs: Vec<PathBuf>,
@@ -114,6 +166,7 @@ impl Simulation {
         Simulation {
             simulation,
             rows: Rows::default(),
+            messages: Messages::default(),
             files: None,
             inputs,
             source,
@@ -221,13 +274,14 @@ impl Simulation {
         let Simulation {
             simulation,
             rows,
+            messages,
             files,
             raised,
             ..
         } = self;
         let outcome = py.detach(|| {
             loop {
-                let mut observers: Vec<&mut dyn Observer> = vec![rows];
+                let mut observers: Vec<&mut dyn Observer> = vec![rows, messages];
                 observers.extend(files.as_mut().map(|f| f as &mut dyn Observer));
                 let more = simulation.advance(&mut observers)?;
                 if !more || !rows.fresh.is_empty() {
@@ -268,6 +322,46 @@ impl Simulation {
         self.files = None;
         self.files = Some(ResultFiles::new(&directory, &claim).map_err(|e| raise(py, e))?);
         Ok(())
+    }
+
+    /// Writes what there is now into a directory: the fields of the last increment, the history so far, tables, summary and problem.
+    fn save(&self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
+        let claim = Claim {
+            inputs: self.inputs.clone(),
+            ..Claim::default()
+        };
+        let analysis = self.simulation.analysis();
+        let save = || -> Result<(), Error> {
+            let mut files = ResultFiles::new(&directory, &claim)?;
+            write_atomically(
+                &directory.join("problem.toml"),
+                self.source.problem.as_bytes(),
+            )?;
+            for values in self.rows.all.chunks(self.rows.names.len().max(1)) {
+                let row = Row {
+                    names: self.rows.names.clone(),
+                    values: values.to_vec(),
+                };
+                files.see(&analysis, Event::Increment(&row))?;
+            }
+            files.see(&analysis, Event::Output)?;
+            files.settle()?;
+            files.see(&analysis, Event::End)
+        };
+        save().map_err(|e| raise(py, e))
+    }
+
+    /// The messages since they were last asked for.
+    fn messages(&mut self) -> Vec<(u8, String)> {
+        self.messages.0.drain(..).collect()
+    }
+
+    /// Where the steps begin and end.
+    #[getter]
+    fn span(&self) -> (f64, f64) {
+        let steps = &self.simulation.model.steps;
+        let ends = steps.first().zip(steps.last());
+        ends.map_or((0.0, 0.0), |(first, last)| (first.start, last.end))
     }
 
     /// All of it as bytes, from which `Problem.go_on` makes it again; `None` before the first increment.
@@ -370,10 +464,7 @@ impl Simulation {
     fn contact(&self, name: &str) -> PyResult<Vec<(String, Array)>> {
         let contact = &self.simulation.contact;
         let Some(interface) = contact.interfaces.iter().find(|i| i.name == name) else {
-            return Err(PyKeyError::new_err(format!(
-                "there is no interface `{name}`; there are: {}",
-                self.interfaces().join(", ")
-            )));
+            return Err(PyKeyError::new_err(no_interface(name, &self.interfaces())));
         };
         let (names, columns) = interface.table(&self.simulation.frame.state.u);
         let columns = columns.into_iter().map(|c| {

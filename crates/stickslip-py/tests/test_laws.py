@@ -61,7 +61,7 @@ def test_a_result_of_the_wrong_shape_is_refused(problem):
 
 
 def test_laws_for_what_is_not_there_are_refused(problem):
-    with pytest.raises(ValueError, match="there is no interface `pres`; there are: press"):
+    with pytest.raises(ValueError, match="there is no interface `pres`; near: press"):
         problem.build(laws={"pres": {"normal": lambda gap: gap}})
     with pytest.raises(ValueError, match="no `norml`"):
         problem.build(laws={"press": {"norml": lambda gap: gap}})

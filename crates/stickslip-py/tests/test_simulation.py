@@ -88,7 +88,7 @@ def test_contact_has_one_entry_a_point(problem):
     assert set(contact.status) <= {0, 1, 2}
     slides = contact.status == 2
     assert np.allclose(np.abs(contact.shear[slides, 0]), 0.3 * contact.pressure[slides], rtol=1e-6)
-    with pytest.raises(KeyError, match="there are: press"):
+    with pytest.raises(KeyError, match="near: press"):
         problem.build().contact("prss")
 
 

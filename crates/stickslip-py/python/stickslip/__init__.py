@@ -9,16 +9,18 @@
 stickslip knows no units: any consistent set will do, and the units in the documentation say what is multiplied with what.
 """
 
-from __future__ import annotations
-
-import json
-from typing import Any
+import copyreg as _copyreg
 
 from . import _core
+from ._core import Factors
 from ._errors import Error, FileError, Interrupted, MeshError, ProblemError, RunError
+from ._functions import schema, set_threads
+from ._show import Picture
 from ._sweep import sweep
+from ._table import Rows, Table
 from .mesh import Mesh
 from .problem import Problem
+from .results import Results, open
 from .simulation import Contact, Simulation, Step
 
 __version__: str = _core.VERSION
@@ -26,31 +28,29 @@ __version__: str = _core.VERSION
 __all__ = [
     "Contact",
     "Error",
+    "Factors",
     "FileError",
     "Interrupted",
     "Mesh",
     "MeshError",
+    "Picture",
     "Problem",
     "ProblemError",
+    "Results",
+    "Rows",
     "RunError",
     "Simulation",
     "Step",
+    "Table",
+    "open",
     "schema",
     "set_threads",
     "sweep",
 ]
 
-
-def schema() -> dict[str, Any]:
-    """The JSON schema of problem files and of the dictionaries that `Problem.from_dict` takes."""
-    table: dict[str, Any] = json.loads(_core.schema())
-    return table
+# Factors are made again where they are missing: what is pickled is that there shall be some.
+_copyreg.pickle(Factors, lambda factors: (Factors, ()))
 
 
-def set_threads(count: int) -> None:
-    """Sets the number of threads; all processors if not called. Results do not depend on it.
-
-    Raises ``RuntimeError`` if threads have been used already.
-    """
-    if not _core.set_threads(count):
-        raise RuntimeError("the number of threads has to be set before anything is solved")
+def __dir__() -> list:  # type: ignore[type-arg]
+    return [*__all__, "__doc__", "__version__"]

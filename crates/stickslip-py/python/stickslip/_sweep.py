@@ -9,6 +9,8 @@ from typing import Any, Callable, Optional
 from . import _core
 from ._errors import Error
 from ._laws import Laws
+from ._progress import progress as _progress
+from ._table import Rows
 from .problem import Problem
 from .simulation import Simulation
 
@@ -19,7 +21,8 @@ def sweep(
     side_by_side: bool = False,
     callback: Optional[Callable[[dict[str, Any], Simulation], Any]] = None,
     laws: Optional[Laws] = None,
-) -> list[dict[str, Any]]:
+    progress: bool = False,
+) -> Rows:
     """Runs a problem for many values; bodies that stay the same are factored once.
 
     Parameters
@@ -34,12 +37,14 @@ def sweep(
         the row.
     laws
         See `Problem.build`.
+    progress
+        Shows a bar, see `Simulation.run`.
 
     Returns
     -------
-    list of dict
-        A row a run: the values of the axes, ``outcome`` (``done`` or why not), and the last row of the history. ``pandas.DataFrame(rows)``
-        makes a table of it. A run that fails does not stop the others.
+    Rows
+        A list with a dict a run: the values of the axes, ``outcome`` (``done`` or why not), and the last row of the history;
+        ``rows.to_pandas()`` is a ``DataFrame``. A run that fails does not stop the others.
     """
     values = [list(axes[path]) for path in axes]
     if side_by_side and len({len(v) for v in values}) > 1:
@@ -48,7 +53,8 @@ def sweep(
     # All values are checked before the first run.
     problems = [problem.with_values(dict(zip(axes, run))) for run in runs]
     factors = _core.Factors()
-    rows = []
+    rows = Rows()
+    bar = _progress(progress, "sweep")
     for run, variant in zip(runs, problems):
         row: dict[str, Any] = dict(zip(axes, run))
         simulation = None
@@ -64,4 +70,8 @@ def sweep(
             if isinstance(added, dict):
                 row.update(added)
         rows.append(row)
+        if bar:
+            bar.show(len(rows) / len(runs), f"{len(rows)} of {len(runs)} runs")
+    if bar:
+        bar.close()
     return rows

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from . import _core, _laws
+from . import _core, _laws, _show
+from ._errors import FileError
 from ._laws import Laws
 from .mesh import Mesh
 from .simulation import Simulation
@@ -33,19 +35,23 @@ class Problem:
     def from_toml(cls, source: Union[str, os.PathLike[str]], meshes: Optional[Mapping[str, Mesh]] = None) -> Problem:
         """From a problem file, or from its text.
 
-        A path object, or a string without line breaks that ends with ``.toml`` or has no ``=`` in it, is taken as a path. `meshes` are
-        found by the names that the problem gives mesh files.
+        A path object, or a string without line breaks that names a file, ends with ``.toml`` or has no ``=`` in it, is taken as a path.
+        `meshes` are found by the names that the problem gives mesh files.
 
         Raises
         ------
         ProblemError
             With all findings.
+        FileError
+            If there is no such file, or it cannot be read.
         """
         text = os.fspath(source)
-        named = "\n" not in text and text.strip() != "" and (text.endswith(".toml") or "=" not in text)
-        if not isinstance(source, str) or named:
-            return cls(_core.Problem.from_file(Path(text), _given(meshes)))
-        return cls(_core.Problem.from_text(text, None, _given(meshes)))
+        if isinstance(source, str) and not _is_path(text):
+            return cls(_core.Problem.from_text(text, None, _given(meshes)))
+        file = Path(text)
+        if not file.exists():
+            raise FileError(f"{file}: there is no such file{_beside(file)}", file)
+        return cls(_core.Problem.from_file(file, _given(meshes)))
 
     @classmethod
     def from_dict(
@@ -73,7 +79,10 @@ class Problem:
         ProblemError
             With all that is wrong or not supported; its findings have a ``file`` and a ``line``.
         """
-        return cls(_core.Problem.from_inp(Path(path)))
+        file = Path(path)
+        if not file.exists():
+            raise FileError(f"{file}: there is no such file{_beside(file)}", file)
+        return cls(_core.Problem.from_inp(file))
 
     @property
     def notes(self) -> list[str]:
@@ -112,8 +121,35 @@ class Problem:
         functions = _laws.given(laws)
         return Simulation(self._core.build(factors, functions), self._core, functions)
 
+    def _told(self) -> list[tuple[str, Any]]:
+        tables = json.loads(self._core.tables())
+
+        def named(key: str) -> str:
+            return ", ".join(tables.get(key) or {})
+
+        rows: list[tuple[str, Any]] = [
+            ("space", tables["model"]["space"]),
+            *((what, named(key)) for what, key in [("bodies", "body"), ("materials", "material"), ("obstacles", "obstacle")]),
+        ]
+        for name, table in (tables.get("interface") or {}).items():
+            laws = [_kind(table[key]) for key in ("normal", "friction", "enforcement") if table.get(key)]
+            tied = ["tied"] if table.get("tied") else laws
+            rows.append((f"interface {name}", f"{table['secondary']} on {table['primary']}: {', '.join(tied)}"))
+        rows += [("loads", named("load")), ("supports", named("support"))]
+        steps = tables.get("step") or []
+        names = [step.get("name") or f"step {i + 1}" for i, step in enumerate(steps)]
+        rows.append(("steps", f"{', '.join(names)}: time 0 to {sum(step['duration'] for step in steps):g}"))
+        return rows
+
+    def _title(self) -> str:
+        title = json.loads(self._core.tables()).get("title")
+        return title or "no title"
+
     def __repr__(self) -> str:
-        return "<stickslip.Problem>"
+        return _show.lines(f"<stickslip.Problem: {self._title()}>", self._told())
+
+    def _repr_html_(self) -> str:
+        return _show.table(self._title(), self._told())
 
 
 class Report(dict):  # type: ignore[type-arg]
@@ -125,6 +161,35 @@ class Report(dict):  # type: ignore[type-arg]
 
     def __str__(self) -> str:
         return self.text
+
+
+def _kind(table: Any) -> str:
+    """The kind of a model and what it is given: ``coulomb(mu=0.3)``."""
+    if not isinstance(table, dict):
+        return str(table)
+    kind, values = next(iter(table.items()))
+    given = [f"{k}={v:g}" for k, v in values.items() if isinstance(v, (int, float)) and not isinstance(v, bool)]
+    return f"{kind}({', '.join(given)})" if given else str(kind)
+
+
+def _is_path(text: str) -> bool:
+    if "\n" in text or not text.strip():
+        return False
+    try:
+        there = os.path.exists(text)
+    except ValueError:
+        there = False
+    return there or text.endswith(".toml") or "=" not in text
+
+
+def _beside(file: Path) -> str:
+    """What is there under a name that comes near, or the folder that is missing."""
+    if not file.parent.is_dir():
+        return f": there is no folder {file.parent}"
+    ending = file.suffix or ".toml"
+    names = [path.name for path in file.parent.iterdir() if path.suffix == ending]
+    close = difflib.get_close_matches(file.name, names, n=3, cutoff=0.6)
+    return f"; near: {', '.join(close)}" if close else ""
 
 
 def _restored(state: bytes) -> Problem:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import pickle
+import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,12 +14,31 @@ from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, Union
 
 import numpy as np
 
-from . import _core, _laws
+from . import _core, _laws, _show
 from ._laws import Laws
+from ._progress import progress as _progress
+from ._show import Picture
+from ._table import Table
 from .mesh import _KINDS
 
 if TYPE_CHECKING:
     import pyvista
+
+
+#: What a picture calls a problem without a title.
+_NAME = "simulation"
+_log = logging.getLogger("stickslip")
+
+
+class _Owner(Protocol):
+    """A simulation, or results in a folder: what the points of an interface belong to."""
+
+    @property
+    def problem(self) -> Any: ...
+
+    def plot(self, field: Optional[str] = None, ending: str = "png", **options: Any) -> Picture: ...
+
+    def _body(self, interface: str) -> Optional[str]: ...
 
 
 class _OfProblem(Protocol):
@@ -51,9 +72,55 @@ class Step:
 class Contact:
     """The points of the secondary of an interface at one increment. All arrays have one entry a point."""
 
-    def __init__(self, columns: dict[str, np.ndarray], dim: int) -> None:
+    def __init__(
+        self, columns: dict[str, np.ndarray], dim: int, name: str = "", owner: Optional[_Owner] = None, time: float = 0.0
+    ) -> None:
+        #: Name of the interface.
+        self.name = name
+        #: Time of the increment [s].
+        self.time = time
         self._columns = columns
         self._dim = dim
+        self._owner = owner
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What it belongs to may be large, and is needed for pictures only.
+        return {**self.__dict__, "_owner": None}
+
+    def plot(self, field: str = "CPRESS", ending: str = "png", **options: Any) -> Picture:
+        """The picture that ``stickslip plot`` draws of a field of contact, which Jupyter shows. See `Simulation.plot`.
+
+        In space the body of the secondary is drawn alone, as the other one would hide the surface; ``body="NAME"`` chooses another.
+
+        Raises
+        ------
+        RuntimeError
+            If the simulation has gone on since.
+        """
+        if self._owner is None:
+            raise RuntimeError(f"interface `{self.name}`: what has been pickled has no bodies to be drawn; ask the simulation again")
+        if isinstance(self._owner, Simulation) and self._owner.time != self.time:
+            raise RuntimeError(
+                f"interface `{self.name}`: these are the points at time {self.time:g}, and the simulation has gone on: ask it again"
+            )
+        if self._dim == 3:
+            options.setdefault("body", self._owner._body(self.name))
+        return self._owner.plot(field, ending, **options)
+
+    def _told(self) -> list[tuple[str, Any]]:
+        status = self.status
+        counts = [f"{int((status == i).sum())} {word}" for i, word in [(1, "stick"), (2, "slip"), (0, "open")]]
+        rows: list[tuple[str, Any]] = [("time", f"{self.time:g}"), ("points", ", ".join(counts))]
+        if len(status) and self.pressure.max() > 0.0:
+            peak = self.points[self.pressure.argmax(), : self._dim]
+            rows.append(("peak pressure", f"{self.pressure.max():.4g} at ({', '.join(f'{x:.4g}' for x in peak)})"))
+        return rows
+
+    def __repr__(self) -> str:
+        return _show.lines(f"<stickslip.Contact: {self.name}>", self._told())
+
+    def _repr_html_(self) -> str:
+        return _show.table(f"interface {self.name}", self._told())
 
     def _vectors(self, *names: str) -> np.ndarray:
         return np.column_stack([self._columns[name] for name in names])
@@ -109,9 +176,9 @@ class Contact:
         return self._columns["CWEAR"]
 
     @property
-    def table(self) -> dict[str, np.ndarray]:
-        """All columns by name, those of ``interfaces/NAME.csv``: ``pandas.DataFrame(contact.table)``."""
-        return dict(self._columns)
+    def table(self) -> Table:
+        """All columns by name, those of ``interfaces/NAME.csv``; ``contact.table.to_pandas()`` is a ``DataFrame``."""
+        return Table(self._columns)
 
 
 class Simulation:
@@ -195,7 +262,11 @@ class Simulation:
                 break
             if self._over:
                 raise StopIteration
-            self._over = not self._core.advance()
+            try:
+                self._over = not self._core.advance()
+            finally:
+                for level, text in self._core.messages():
+                    _log.log(level, text)
         name, row = taken
         return Step(
             time=row["TIME"],
@@ -213,11 +284,15 @@ class Simulation:
         self,
         callback: Optional[Callable[[Step], Any]] = None,
         directory: Optional[Union[str, os.PathLike[str]]] = None,
+        progress: bool = False,
     ) -> Simulation:
         """Runs what is left; returns itself.
 
         `callback` is called after every increment; if it returns ``False`` the run stops there. Results are written into `directory` if there is
-        one, as by the command ``stickslip run``.
+        one, as by the command ``stickslip run``. `progress` shows a bar: that of `tqdm` or `rich` if one of them is there.
+
+        What happens is told to the logger ``stickslip`` of `logging`: increments as ``DEBUG``, cut-backs and notes as ``INFO``, what is probably wrong
+        as ``WARNING``.
 
         Raises
         ------
@@ -226,10 +301,54 @@ class Simulation:
         """
         if directory is not None:
             self._core.write_to(Path(directory))
-        for step in self:
-            if callback is not None and callback(step) is False:
-                break
+        begin, end = self._core.span
+        bar = _progress(progress, "stickslip")
+        try:
+            for step in self:
+                if bar:
+                    bar.show((step.time - begin) / (end - begin), f"{step.name}, {step.stick} stick, {step.slip} slip, {step.open} open")
+                if callback is not None and callback(step) is False:
+                    break
+        finally:
+            if bar:
+                bar.close()
         return self
+
+    def save(self, directory: Union[str, os.PathLike[str]]) -> Path:
+        """Writes what there is now, in the form in which `stickslip.open` and the commands ``plot`` and ``report`` take it; returns the folder.
+
+        It has the history so far, and fields and tables of the last increment only: `run` with a `directory` writes those of all times that the problem
+        asks for. Results of an earlier run in the folder are removed.
+        """
+        folder = Path(directory)
+        self._core.save(folder)
+        return folder
+
+    def plot(self, field: Optional[str] = None, ending: str = "png", **options: Any) -> Picture:
+        """The picture that ``stickslip plot`` draws of the last increment, which Jupyter shows.
+
+        Parameters
+        ----------
+        field
+            The field in colour: ``"CPRESS"``, ``"CSTATUS"``, ``"MISES"``, ``"U1"``, ``"S22"`` ...
+        ending
+            ``"png"`` or ``"svg"``.
+        options
+            Those of ``stickslip plot``, with ``_`` for ``-``: ``scale=1``, ``view="x"``, ``body=["block", "base"]``, ``size=(800, 600)``;
+            ``history=["press.CFN2", "press.CFS1"]`` plots columns of the history.
+
+        Raises
+        ------
+        ValueError
+            If there is no such field, body, column or option; with the names that come near.
+        """
+        with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
+            return _show.draw(self.save(Path(folder) / _NAME), ending, {"field": field, **options})
+
+    def report(self, file: Union[str, os.PathLike[str]]) -> Path:
+        """Writes the report that ``stickslip report`` writes, on what there is now: one HTML file. Returns it."""
+        with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
+            return Path(_core.Results(self.save(Path(folder) / _NAME)).report(Path(file)))
 
     @property
     def time(self) -> float:
@@ -279,7 +398,16 @@ class Simulation:
     def contact(self, name: str) -> Contact:
         """The points of an interface at the last increment. They are gathered at every call: keep the result."""
         columns = {name: np.asarray(column) for name, column in self._core.contact(name)}
-        return Contact(columns, self.dim)
+        return Contact(columns, self.dim, name, self, self.time)
+
+    @property
+    def problem(self) -> dict[str, Any]:
+        """The tables of the problem, as they are run."""
+        tables: dict[str, Any] = json.loads(self._problem.tables())
+        return tables
+
+    def _body(self, interface: str) -> Optional[str]:
+        return body_of(self.problem, interface)
 
     def fields(self) -> dict[str, np.ndarray]:
         """All fields of the last increment by name, at points ``(n,)`` or ``(n, components)`` or at cells: those of ``fields.pvd``.
@@ -289,11 +417,11 @@ class Simulation:
         return {name: np.asarray(values) for name, _, values in self._core.fields()}
 
     @property
-    def history(self) -> dict[str, np.ndarray]:
-        """The history so far by name of column, one entry an increment: ``pandas.DataFrame(simulation.history)``."""
+    def history(self) -> Table:
+        """The history so far by name of column, one entry an increment; ``simulation.history.to_pandas()`` is a ``DataFrame``."""
         names, values = self._core.history()
         table = np.asarray(values)
-        return {name: table[:, i] for i, name in enumerate(names)}
+        return Table({name: table[:, i] for i, name in enumerate(names)})
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -332,9 +460,55 @@ class Simulation:
         grid.cell_data["body"] = body
         return grid
 
+    def _told(self) -> list[tuple[str, Any]]:
+        end = self._core.span[1]
+        cells = sum(last - first for _, _, (first, last) in self._core.bodies)
+        state = "at its end" if self._over else f"at time {self.time:g} of {end:g}"
+        rows: list[tuple[str, Any]] = [
+            ("state", f"{state}, {len(self.history.get('TIME', ()))} increments"),
+            ("bodies", f"{', '.join(self.bodies)}: {len(self.points)} points, {cells} cells"),
+            ("interfaces", ", ".join(dict.fromkeys(self.interfaces))),
+        ]
+        return [*rows, *told(self.summary)]
+
     def __repr__(self) -> str:
-        state = "over" if self._over else f"at time {self.time:g}"
-        return f"<stickslip.Simulation: {len(self.points)} points, {state}>"
+        return _show.lines("<stickslip.Simulation>", self._told())
+
+    def _repr_html_(self) -> str:
+        return _show.table("simulation", self._told())
+
+
+def told(summary: dict[str, Any]) -> list[tuple[str, Any]]:
+    """What a summary says of the physics and of how good it is, a line an interface."""
+    rows: list[tuple[str, Any]] = []
+    for interface in summary.get("interfaces", []):
+        points, peak = interface.get("points", {}), interface.get("peak-pressure", {})
+        rows.append(
+            (
+                f"interface {interface.get('name')}",
+                f"peak pressure {peak.get('value', 0.0):.4g} at time {peak.get('time', 0.0):g}; "
+                f"normal force {_size(interface.get('normal-force'))}, shear force {_size(interface.get('shear-force'))}; "
+                f"{points.get('stick', 0)} stick, {points.get('slip', 0)} slip, {points.get('open', 0)} open",
+            )
+        )
+    quality = summary.get("quality", {})
+    if summary.get("completed") and quality.get("gate") != "off":
+        rows.append(("quality", "all limits are kept" if quality.get("met", True) else "limits are missed: see summary['quality']"))
+    return rows
+
+
+def _size(vector: Optional[list[float]]) -> str:
+    return f"{float(np.linalg.norm(vector or [0.0])):.4g}"
+
+
+def body_of(problem: dict[str, Any], interface: str) -> Optional[str]:
+    """The body of the secondary surface of an interface, if its name tells."""
+    secondary = problem.get("interface", {}).get(interface, {}).get("secondary", "")
+    name = secondary.split(".")[0]
+    if name in problem.get("body", {}):
+        return str(name)
+    body = problem.get("set", {}).get(secondary, {}).get("of")
+    return str(body).split(".")[0] if body else None
 
 
 def _restored(
