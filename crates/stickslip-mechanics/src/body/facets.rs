@@ -111,6 +111,24 @@ pub fn tributary_areas(mesh: &Mesh, facets: &[FacetRef], space: Space) -> Vec<(u
     combine(entries)
 }
 
+/// The area `∫ N_i n dA` `[m²]` of each point of the facets, as a vector along their normals, points ascending; thickness or circumference included.
+pub fn area_vectors(mesh: &Mesh, facets: &[FacetRef], space: Space) -> Vec<(usize, Vec3)> {
+    let along = |c: usize| {
+        let mut entries = Vec::new();
+        for &facet in facets {
+            visit_facet(mesh, space, facet, &mut |q| {
+                let values = q.points.iter().zip(q.values);
+                entries.extend(values.map(|(&p, n)| (p, n * q.area * q.normal[c])));
+            });
+        }
+        combine(entries)
+    };
+    let [x, y, z] = [along(0), along(1), along(2)];
+    let both = x.into_iter().zip(y).zip(z);
+    both.map(|(((p, x), (_, y)), (_, z))| (p, [x, y, z]))
+        .collect()
+}
+
 /// The area of each facet divided among its points in the proportion of `∫ N_i² dA` `[m²]`, points ascending.
 ///
 /// Positive for every kind of facet, and with the same sum as [`tributary_areas`]; a constant pressure is not

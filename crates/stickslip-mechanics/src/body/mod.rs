@@ -33,7 +33,7 @@ pub use anchors::{Anchors, Hold, spread};
 pub use around::Around;
 pub use cells::CellState;
 pub use elastic::{Elastic, Part};
-pub use facets::{positive_areas, tributary_areas};
+pub use facets::{area_vectors, positive_areas, tributary_areas};
 pub use mass::MassKind;
 pub use moments::MassMoments;
 pub use recover::StressPoint;

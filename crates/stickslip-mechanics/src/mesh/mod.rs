@@ -3,11 +3,13 @@
 mod boundary;
 mod check;
 mod combine;
+mod cut;
 pub mod generators;
 mod geometry;
 mod select;
 
 pub use combine::Appended;
+pub use cut::Cut;
 
 use std::collections::BTreeMap;
 

@@ -227,7 +227,8 @@ impl Explicit {
         }
         let couplings = &mut contact.couplings;
         couplings.use_springs(true);
-        couplings.fit_springs(&explicit.inverse, explicit.frequency, &model.links);
+        let most = (soon, explicit.frequency);
+        couplings.fit_springs(most, &explicit.inverse, &model.links);
         let stable = explicit.stable_increment(model, frame, contact);
         let dt = stable.min(step.increments.largest);
         let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));

@@ -70,6 +70,8 @@ pub struct Body {
     pub points: Range<usize>,
     /// Its blocks.
     pub blocks: Range<usize>,
+    /// The points of its parts that pretensions have cut off from the first, part by part, ascending.
+    pub pieces: Vec<Vec<usize>>,
     /// Its elasticity; of a rigid body only mass and volume count.
     pub elastic: Elastic,
     /// Its mass if it is rigid.

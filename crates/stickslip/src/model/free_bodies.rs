@@ -47,7 +47,16 @@ impl Scene<'_> {
             let modes = match body.rigid {
                 None => {
                     let points: Vec<usize> = body.points.clone().collect();
-                    rigid_modes(&model.mesh, &points, model.space)
+                    let mut modes = rigid_modes(&model.mesh, &points, model.space);
+                    // What has been cut off moves by itself as well.
+                    for piece in &body.pieces {
+                        let own = rigid_modes(&model.mesh, piece, model.space).into_iter();
+                        modes.extend(own.map(|m| RigidMode {
+                            name: format!("{} {BEYOND}", m.name),
+                            ..m
+                        }));
+                    }
+                    modes
                 }
                 Some(rigid) => motions(model, rigid.link),
             };
@@ -130,6 +139,9 @@ impl Scene<'_> {
         out
     }
 }
+
+/// What is said of motions of a part that a pretension has cut off.
+pub(crate) const BEYOND: &str = "beyond the cut";
 
 /// The direction of a translation.
 fn axis(motion: &str) -> Option<usize> {

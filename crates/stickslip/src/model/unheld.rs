@@ -1,6 +1,7 @@
 //! Motions of whole bodies that nothing can hold, however contact comes out: known before a quasi-static step begins.
 
 use super::definition::Model;
+use super::free_bodies::BEYOND;
 use super::scene::Scene;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add, cross, dot, scale, sub, symmetric_eigen};
@@ -17,19 +18,56 @@ pub(crate) struct Mode {
     centre: Vec3,
     /// The dof that stands for it in a rigid body.
     hidden: Option<usize>,
+    /// The part of the body that moves alone, if it is not the whole.
+    piece: Option<usize>,
 }
 
 impl Mode {
+    /// A motion of a body, or a part of it, about a centre, rotations by the length that they are measured with.
+    fn new(
+        (body, piece): (usize, Option<usize>),
+        motion: Motion,
+        (centre, length): (Vec3, f64),
+        hidden: Option<usize>,
+    ) -> Self {
+        let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
+        match motion {
+            Motion::Translation(i) => shift[i] = 1.0,
+            Motion::Rotation(i) => turn[i] = 1.0 / length,
+        }
+        Mode {
+            body,
+            name: match piece {
+                None => motion.to_string(),
+                Some(_) => format!("{motion} {BEYOND}"),
+            },
+            shift,
+            turn,
+            centre,
+            hidden,
+            piece,
+        }
+    }
+
     /// The velocity of what moves with the body at a place.
     pub fn velocity(&self, x: Vec3) -> Vec3 {
         add(self.shift, cross(self.turn, sub(x, self.centre)))
+    }
+
+    /// Whether a point moves with it.
+    fn moves(&self, model: &Model, point: usize) -> bool {
+        let body = &model.bodies[self.body];
+        match self.piece {
+            None => body.points.contains(&point),
+            Some(piece) => body.pieces[piece].binary_search(&point).is_ok(),
+        }
     }
 
     /// The motion at a dof.
     pub fn at(&self, model: &Model, dof: usize) -> f64 {
         let (point, component) = model.dofs.locate(dof);
         match model.mesh.points.get(point) {
-            Some(_) if !model.bodies[self.body].points.contains(&point) => 0.0,
+            Some(_) if !self.moves(model, point) => 0.0,
             Some(&x) => self.velocity(x)[component],
             None if self.hidden == Some(dof) => 1.0,
             None => 0.0,
@@ -64,21 +102,6 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
     };
     let mut out = Vec::new();
     for (body, b) in model.bodies.iter().enumerate() {
-        let mut mode = |motion: Motion, centre: Vec3, length: f64, hidden: Option<usize>| {
-            let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
-            match motion {
-                Motion::Translation(i) => shift[i] = 1.0,
-                Motion::Rotation(i) => turn[i] = 1.0 / length,
-            }
-            out.push(Mode {
-                body,
-                name: motion.to_string(),
-                shift,
-                turn,
-                centre,
-                hidden,
-            });
-        };
         if let Some(rigid) = b.rigid {
             let link = &model.links.all()[rigid.link];
             let first = model.mesh.points[link.points.start];
@@ -89,21 +112,26 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
                 _ => centre,
             };
             for (dof, motion) in link.motions(model.dofs) {
-                mode(motion, centre, link.length, Some(dof));
+                let about = (centre, link.length);
+                out.push(Mode::new((body, None), motion, about, Some(dof)));
             }
             continue;
         }
-        let points = &model.mesh.points[b.points.clone()];
-        let sum = points.iter().fold([0.0; 3], |s, &x| add(s, x));
-        let centre = scale(1.0 / points.len().max(1) as f64, sum);
-        let rim = points.iter().map(|&x| crate::math::distance(x, centre));
-        let rim = rim.fold(f64::MIN_POSITIVE, f64::max);
-        let (translations, rotations) = axes;
-        for &i in translations {
-            mode(Motion::Translation(i), centre, rim, None);
-        }
-        for &i in rotations {
-            mode(Motion::Rotation(i), centre, rim, None);
+        let whole: Vec<usize> = b.points.clone().collect();
+        let pieces = b.pieces.iter().enumerate();
+        let parts = std::iter::once((None, &whole)).chain(pieces.map(|(k, p)| (Some(k), p)));
+        for (piece, points) in parts {
+            let points = || points.iter().map(|&p| model.mesh.points[p]);
+            let sum = points().fold([0.0; 3], add);
+            let centre = scale(1.0 / points().count().max(1) as f64, sum);
+            let rim = points().map(|x| crate::math::distance(x, centre));
+            let rim = rim.fold(f64::MIN_POSITIVE, f64::max);
+            let (translations, rotations) = axes;
+            let moves = translations.iter().map(|&i| Motion::Translation(i));
+            let turns = rotations.iter().map(|&i| Motion::Rotation(i));
+            for motion in moves.chain(turns) {
+                out.push(Mode::new((body, piece), motion, (centre, rim), None));
+            }
         }
     }
     out
@@ -136,22 +164,19 @@ impl Resisted<'_> {
 
     /// Contact along `directions` at the points of an interface, as if all of them had come to touch.
     fn interface(&mut self, interface: &Interface, directions: &[Vec3]) {
-        let owner = |local: usize| {
-            let point = interface.nodes[local];
-            self.model
-                .bodies
-                .iter()
-                .position(|b| b.points.contains(&point))
-        };
-        let theirs = match &interface.primary {
-            Primary::Facets(facets) => facets.first().and_then(|f| owner(f.nodes[0])),
+        let model = self.model;
+        let body_of = |point: usize| model.bodies.iter().position(|b| b.points.contains(&point));
+        let facing = match &interface.primary {
+            Primary::Facets(facets) => facets.first().map(|f| interface.nodes[f.nodes[0]]),
             Primary::Rigid(..) => None,
         };
+        let theirs = facing.and_then(body_of);
         let stride = interface.points.len().div_ceil(ASKED).max(1);
         let asked: Vec<_> = interface.points.iter().step_by(stride).collect();
         let weight = 1.0 / asked.len().max(1) as f64;
         for point in asked {
-            let ours = owner(point.nodes[0]);
+            let own = interface.nodes[point.nodes[0]];
+            let ours = body_of(own);
             if ours == theirs {
                 continue;
             }
@@ -160,8 +185,8 @@ impl Resisted<'_> {
                 let each = self.modes.iter().enumerate();
                 let values = each.filter_map(|(i, m)| {
                     let sign = match Some(m.body) {
-                        b if b == ours => 1.0,
-                        b if b == theirs => -1.0,
+                        b if b == ours && m.moves(model, own) => 1.0,
+                        b if b == theirs && facing.is_some_and(|p| m.moves(model, p)) => -1.0,
                         _ => return None,
                     };
                     Some((i, sign * dot(d, m.velocity(x))))

@@ -14,6 +14,7 @@ use super::mass::Mass;
 use super::model::Model;
 use super::obstacle::Obstacle;
 use super::output::Output;
+use super::pretension::Pretension;
 use super::probe::Probe;
 use super::quality::Quality;
 use super::set::Set;
@@ -67,6 +68,9 @@ pub struct Problem {
     /// Equations between displacements and springs between points, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub coupling: BTreeMap<String, Coupling>,
+    /// Cuts through bolts that are tightened, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub pretension: BTreeMap<String, Pretension>,
     /// Factors over time, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub amplitude: BTreeMap<String, AmplitudeTable>,

@@ -30,6 +30,7 @@ mod nearest;
 mod obstacle;
 mod output;
 mod overrides;
+mod pretension;
 mod probe;
 mod prose;
 mod quality;
@@ -62,6 +63,7 @@ pub use model::{Model, SpaceKind};
 pub use nearest::nearest;
 pub use obstacle::Obstacle;
 pub use output::{CheckpointPlan, Frd, Output};
+pub use pretension::{FacetSection, Pretension, Section, Tension};
 pub use probe::Probe;
 pub use quality::Quality;
 #[cfg(feature = "schema")]

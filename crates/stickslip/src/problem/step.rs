@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Dynamic;
+use super::{Dynamic, Tension};
 use crate::contact::interface::Change;
 
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
@@ -31,6 +31,10 @@ pub struct Step {
     /// The couplings active in this step; all if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub couplings: Option<Vec<String>>,
+    /// What is done with pretensions from this step on: `pretension.bolt = { force = 2e4 }`, `pretension.bolt = { hold = true }`. Before the first step that
+    /// says so they are held as meshed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub pretension: BTreeMap<String, Tension>,
     /// Laws that change from this step on, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub change: BTreeMap<String, Change>,

@@ -183,7 +183,9 @@ impl Solver {
         self.set_out(frame, contact, (trial, false));
         let external = frame.external(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
-        let mut force = pushes.map(|p| norm(p.force)).fold(0.0, f64::max);
+        // What draws the parts of a bolt together is no load on the whole of it.
+        let tension = contact.couplings.tension(trial.to);
+        let mut force = pushes.map(|p| norm(p.force)).fold(tension, f64::max);
         let before = self.floating.pressed(model, &frame.contact).into_iter();
         let largest = before.chain(self.floating.pushed.iter().copied());
         let largest = largest.fold(0.0, f64::max);

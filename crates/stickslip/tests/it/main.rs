@@ -23,6 +23,7 @@ mod malformed;
 mod mortar;
 mod multigrid;
 mod pairing;
+mod pretension;
 mod price;
 mod problem_files;
 mod quality;

@@ -84,7 +84,7 @@ fn begin(problem: &Problem, folder: &Path) -> Simulation {
 
 /// Runs a problem once, and takes a checkpoint wherever there can be one, in the middle of increments that wait for their report as well; goes on from
 /// `count` of them.
-fn check(name: &str, problem: &Problem, folder: &Path, count: usize) {
+pub fn check(name: &str, problem: &Problem, folder: &Path, count: usize) {
     let mut whole = Diary::default();
     let mut run = begin(problem, folder);
     let mut taken = Vec::new();

@@ -1,8 +1,12 @@
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use super::Row;
+use super::pretension::{Drawn, Part, Pretension};
 use crate::system::{Links, Schedule};
 
 /// What the rows of a coupling do.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Tie {
     /// Every sum has this value `[m]`.
     Equation {
@@ -26,34 +30,53 @@ pub enum Tie {
         /// Force per velocity `[N s/m]`.
         coefficient: f64,
     },
+    /// They are those of a cut that is drawn together.
+    Pretension(Pretension),
 }
 
 impl Tie {
     /// Whether it holds by a multiplier.
-    pub(super) fn firm(self) -> bool {
+    pub fn firm(&self) -> bool {
         match self {
-            Tie::Equation { .. } => true,
+            Tie::Equation { .. } | Tie::Pretension(_) => true,
             Tie::Gap { stiffness, .. } => stiffness.is_none(),
             Tie::Spring { .. } | Tie::Dashpot { .. } => false,
         }
     }
 
     /// Its own stiffness `[N/m]`; zero if it has none.
-    pub(super) fn stiffness(self) -> f64 {
+    pub(super) fn stiffness(&self) -> f64 {
         match self {
-            Tie::Spring { stiffness } => stiffness,
+            Tie::Spring { stiffness } => *stiffness,
             Tie::Gap { stiffness, .. } => stiffness.unwrap_or(0.0),
-            Tie::Equation { .. } | Tie::Dashpot { .. } => 0.0,
+            Tie::Equation { .. } | Tie::Pretension(_) | Tie::Dashpot { .. } => 0.0,
         }
     }
 
     /// Of a sum what its spring is deformed by `[m]`.
-    pub(super) fn stretch(self, sum: f64) -> f64 {
+    pub(super) fn stretch(&self, sum: f64) -> f64 {
         match self {
             Tie::Gap { clearance, .. } => (sum + clearance).min(0.0),
             _ => sum,
         }
     }
+}
+
+/// What a row does at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Act {
+    /// Its sum has to be this `[m]`.
+    Held(f64),
+    /// It must not fall below minus this clearance `[m]`.
+    Stopped(f64),
+    /// It has a spring of this stiffness, which a gap meets where it is closed `[N/m]`.
+    Sprung(f64),
+    /// It has this force, whatever its sum `[N]`.
+    Pulled(f64),
+    /// A dashpot acts against its rate `[N s/m]`.
+    Damped(f64),
+    /// Nothing.
+    Idle,
 }
 
 /// Rows with what they do, and when.
@@ -82,8 +105,11 @@ pub struct Couplings {
     pub(super) all: Vec<Coupling>,
     /// By row, over all couplings.
     pub(super) hold: Vec<Hold>,
-    /// What the sums of equations were when these began to act, by row `[m]`.
+    /// What the sums of equations were when these began to act, by row `[m]`; of rows along the normal of a pretension their sum or their part of the
+    /// force when the step began `[m, N]`.
     start: Vec<f64>,
+    /// What rows of pretensions are for, by row; of others the first.
+    parts: Vec<Part>,
     pub(super) iterate: Iterate,
     /// What counts.
     pub memory: CouplingsMemory,
@@ -138,9 +164,14 @@ impl Couplings {
         let rows = all.iter().map(|c| c.rows.len()).sum();
         let none = vec![0.0; rows];
         let mut targets = Vec::with_capacity(rows);
+        let mut parts = Vec::with_capacity(rows);
         for coupling in &all {
-            let own = match coupling.tie {
-                Tie::Dashpot { coefficient } => coefficient,
+            match &coupling.tie {
+                Tie::Pretension(p) => parts.extend(p.parts(coupling.rows.len())),
+                _ => parts.extend(coupling.rows.iter().map(|_| Part::Across)),
+            }
+            let own = match &coupling.tie {
+                Tie::Dashpot { coefficient } => *coefficient,
                 tie => tie.stiffness(),
             };
             let first = coupling.schedule.pieces.first();
@@ -151,6 +182,7 @@ impl Couplings {
             all,
             hold: vec![Hold::default(); rows],
             start: none.clone(),
+            parts,
             iterate: Iterate {
                 last: none.clone(),
                 off: none.clone(),
@@ -196,28 +228,68 @@ impl Couplings {
     /// The rows that hold something at time `t`: not those of dashpots, nor of gaps that are open.
     pub fn acting(&self, t: f64) -> impl Iterator<Item = &Row> {
         self.rows().filter_map(move |(i, c, row)| {
-            let holds = match c.tie {
-                Tie::Dashpot { .. } => false,
+            let met = match c.tie {
                 Tie::Gap { clearance, .. } => clearance <= 0.0 || self.memory.forces[i] < 0.0,
-                Tie::Equation { .. } | Tie::Spring { .. } => true,
+                _ => true,
             };
-            (holds && c.schedule.active(t)).then_some(row)
+            let holds = matches!(
+                self.act(i, c, t),
+                Act::Held(_) | Act::Sprung(_) | Act::Stopped(_)
+            );
+            (holds && met).then_some(row)
         })
     }
 
-    /// What the sum of an equation has to be at time `t` `[m]`, or the stiffness of a spring then `[N/m]`, or the coefficient of a dashpot.
-    pub(super) fn target(&self, i: usize, coupling: &Coupling, t: f64) -> f64 {
+    /// The largest force with which a pretension draws at time `t` `[N]`; zero where lengths are held.
+    pub fn tension(&self, t: f64) -> f64 {
+        let mut drawn: BTreeMap<&str, f64> = BTreeMap::new();
+        for (i, coupling, _) in self.rows() {
+            if let Act::Pulled(force) = self.act(i, coupling, t) {
+                *drawn.entry(&coupling.name).or_default() += force;
+            }
+        }
+        drawn.into_values().fold(0.0, |m, f| f64::max(m, f.abs()))
+    }
+
+    /// What a row does at time `t`.
+    pub(super) fn act(&self, i: usize, coupling: &Coupling, t: f64) -> Act {
+        if !coupling.schedule.active(t) {
+            return Act::Idle;
+        }
         let s = coupling.schedule.at(t);
-        match coupling.tie {
-            Tie::Spring { .. } | Tie::Gap { .. } => s * coupling.tie.stiffness(),
-            Tie::Dashpot { coefficient } => s * coefficient,
-            Tie::Equation { value } if coupling.table => s * value,
-            Tie::Equation { value } => self.start[i] + s * (value - self.start[i]),
+        match (&coupling.tie, self.parts[i]) {
+            (
+                Tie::Gap {
+                    clearance,
+                    stiffness: None,
+                },
+                _,
+            ) => Act::Stopped(*clearance),
+            (tie @ (Tie::Spring { .. } | Tie::Gap { .. }), _) => Act::Sprung(s * tie.stiffness()),
+            (Tie::Dashpot { coefficient }, _) => Act::Damped(s * coefficient),
+            (Tie::Equation { value }, _) if coupling.table => Act::Held(s * value),
+            (Tie::Equation { value }, _) => Act::Held(self.start[i] + s * (value - self.start[i])),
+            (Tie::Pretension(_), Part::Across) => Act::Held(0.0),
+            (Tie::Pretension(p), Part::Along(share)) => match p.drawn(t, share, self.start[i]) {
+                // A force that draws together acts with a growing sum; forces of rows act against it.
+                Drawn::Force(part) => Act::Pulled(-part),
+                Drawn::Length(sum) => Act::Held(sum),
+            },
+            (Tie::Pretension(p), Part::Equal) if p.pulled(t) => Act::Held(0.0),
+            (Tie::Pretension(_), Part::Equal) => Act::Idle,
+        }
+    }
+
+    /// What the sum of a row has to be, the stiffness of its spring or the coefficient of its dashpot; nothing of others.
+    pub(super) fn target(act: Act) -> f64 {
+        match act {
+            Act::Held(value) | Act::Sprung(value) | Act::Damped(value) => value,
+            Act::Stopped(_) | Act::Pulled(_) | Act::Idle => 0.0,
         }
     }
 
     /// Begins a step: equations that begin to act start from what their sums are at displacements `u`, and those that end hand out the forces
-    /// they let go with, by dof `[N]`, as loads.
+    /// they let go with, by dof `[N]`, as loads. Pretensions go on from force or shortening.
     pub fn begin_step(
         &mut self,
         (before, middle): (Option<f64>, f64),
@@ -225,11 +297,17 @@ impl Couplings {
         let_go: &mut dyn FnMut(usize, f64),
     ) {
         let mut first = 0;
-        for coupling in &self.all {
+        let all = std::mem::take(&mut self.all);
+        for coupling in &all {
             let rows = first..first + coupling.rows.len();
             first = rows.end;
-            if !coupling.tie.firm() {
-                continue;
+            match &coupling.tie {
+                Tie::Pretension(p) => {
+                    self.draw(p, (before, middle), (rows, &coupling.rows), u);
+                    continue;
+                }
+                tie if !tie.firm() => continue,
+                _ => {}
             }
             let was = before.is_some_and(|t| coupling.schedule.active(t));
             let is = coupling.schedule.active(middle);
@@ -245,6 +323,60 @@ impl Couplings {
                         .for_each(|(dof, a)| let_go(dof, -multiplier * a));
                 }
             }
+        }
+        self.all = all;
+    }
+
+    /// Begins a step of a pretension at displacements `u`. Where it changes between force and length the forces between all pairs of points stay: those of
+    /// the rows that let go are handed to the others.
+    fn draw(
+        &mut self,
+        p: &Pretension,
+        (before, middle): (Option<f64>, f64),
+        (rows, own): (Range<usize>, &[Row]),
+        u: &[f64],
+    ) {
+        let count = p.shares.len();
+        let across = rows.len() + 1 - 2 * count;
+        let along = rows.start + across..rows.start + across + count;
+        let equal = along.end..rows.end;
+        let (was, is) = (before.map(|t| p.pulled(t)), p.pulled(middle));
+        let memory = &mut self.memory;
+        match (was, is) {
+            (Some(false), true) => {
+                let whole: f64 = memory.forces[along.clone()].iter().sum();
+                for (k, share) in p.shares.iter().enumerate() {
+                    let i = along.start + k;
+                    let part = share * whole;
+                    if k > 0 {
+                        let e = equal.start + k - 1;
+                        memory.multipliers[e] = part - memory.forces[i];
+                        memory.forces[e] = memory.multipliers[e];
+                    }
+                    memory.multipliers[i] = 0.0;
+                    memory.forces[i] = part;
+                }
+            }
+            (Some(true), false) => {
+                for k in 1..count {
+                    let e = equal.start + k - 1;
+                    let force = std::mem::take(&mut memory.forces[e]);
+                    memory.multipliers[e] = 0.0;
+                    memory.forces[along.start] += force;
+                    memory.forces[along.start + k] -= force;
+                }
+                memory.multipliers[along.clone()].clone_from_slice(&memory.forces[along.clone()]);
+            }
+            _ => {}
+        }
+        let held = was == Some(false) && !is;
+        for i in along {
+            let sum = match held {
+                true => memory.targets[i],
+                false => own[i - rows.start].sum(u),
+            };
+            self.start[i] = if is { -memory.forces[i] } else { sum };
+            memory.targets[i] = if is { 0.0 } else { sum };
         }
     }
 
@@ -285,11 +417,9 @@ impl Couplings {
         let mut forces = std::mem::take(&mut self.memory.forces);
         for (i, coupling, row) in self.rows() {
             if matches!(coupling.tie, Tie::Dashpot { .. }) && !v.is_empty() {
-                let acts = coupling.schedule.active(t);
-                forces[i] = if acts {
-                    self.target(i, coupling, t) * row.sum(v)
-                } else {
-                    0.0
+                forces[i] = match self.act(i, coupling, t) {
+                    Act::Damped(coefficient) => coefficient * row.sum(v),
+                    _ => 0.0,
                 };
             }
         }
@@ -313,21 +443,20 @@ impl Couplings {
         out: &mut [f64],
     ) {
         for (i, coupling, row) in self.rows() {
-            if !coupling.schedule.active(t) {
-                continue;
-            }
-            let force = match (coupling.tie, v) {
-                (Tie::Dashpot { .. }, Some([])) => 0.0,
-                (Tie::Dashpot { .. }, Some(v)) => self.target(i, coupling, t) * row.sum(v),
-                (Tie::Dashpot { .. }, None) => multipliers.get(i).copied().unwrap_or(0.0),
-                (tie, _) if tie.firm() => multipliers.get(i).copied().unwrap_or(0.0),
-                (tie, _) => self.target(i, coupling, t) * tie.stretch(row.sum(u)),
+            let force = match (self.act(i, coupling, t), v) {
+                (Act::Idle, _) | (Act::Damped(_), Some([])) => continue,
+                (Act::Damped(coefficient), Some(v)) => coefficient * row.sum(v),
+                (Act::Damped(_), None) | (Act::Held(_) | Act::Stopped(_), _) => {
+                    multipliers.get(i).copied().unwrap_or(0.0)
+                }
+                (Act::Sprung(stiffness), _) => stiffness * coupling.tie.stretch(row.sum(u)),
+                (Act::Pulled(force), _) => force,
             };
             row.terms().for_each(|(dof, a)| out[dof] += a * force);
         }
     }
 
-    /// Work over the last increment of equations whose value changes, and of springs whose stiffness does `[J]`.
+    /// Work over the last increment of equations whose value changes, of springs whose stiffness does, and of forces of pretensions `[J]`.
     pub fn work(&self) -> f64 {
         self.memory.work
     }
@@ -347,7 +476,9 @@ impl Couplings {
             let target = memory.targets[i];
             match coupling.tie {
                 // The way back to where the equation holds costs work.
-                Tie::Equation { .. } => memory.targets[i] += self.iterate.off_now[i],
+                Tie::Equation { .. } | Tie::Pretension(_) => {
+                    memory.targets[i] += self.iterate.off_now[i];
+                }
                 Tie::Spring { .. } | Tie::Gap { .. } if target > 0.0 => {
                     memory.stored += 0.5 * memory.forces[i].powi(2) / target;
                 }
@@ -363,9 +494,9 @@ impl Couplings {
     pub fn begin_analysis(&mut self, t: f64, u: &[f64]) -> f64 {
         let mut stored = 0.0;
         for (i, coupling, row) in self.rows() {
-            if coupling.tie.stiffness() > 0.0 {
+            if let Act::Sprung(stiffness) = self.act(i, coupling, t) {
                 let stretch = coupling.tie.stretch(row.sum(u));
-                stored += 0.5 * self.target(i, coupling, t) * stretch.powi(2);
+                stored += 0.5 * stiffness * stretch.powi(2);
             }
         }
         self.memory.stored = stored;
@@ -373,16 +504,25 @@ impl Couplings {
     }
 
     /// The couplings with the sum of the forces along their rows at the last accepted state `[N]`, and the mean of the sums of displacements `[m]`. A
-    /// force is positive where it acts against a growing sum, as that of a stretched spring.
+    /// force is positive where it acts against a growing sum, as that of a stretched spring. Of pretensions they are the force that draws the sides together and
+    /// the shortening.
     pub fn report<'a>(&'a self, u: &'a [f64]) -> impl Iterator<Item = (&'a str, f64, f64)> + 'a {
         let mut first = 0;
         self.all.iter().map(move |coupling| {
             let rows = first..first + coupling.rows.len();
             first = rows.end;
-            let count = rows.len() as f64;
-            let force = self.memory.forces[rows].iter().sum();
-            let sum: f64 = coupling.rows.iter().map(|r| r.sum(u)).sum();
-            (coupling.name.as_str(), force, sum / count)
+            let (own, sign) = match &coupling.tie {
+                Tie::Pretension(p) => {
+                    let from = rows.len() + 1 - 2 * p.shares.len();
+                    (from..from + p.shares.len(), -1.0)
+                }
+                _ => (0..rows.len(), 1.0),
+            };
+            let count = own.len() as f64;
+            let forces = &self.memory.forces[rows.start + own.start..rows.start + own.end];
+            let force: f64 = forces.iter().sum();
+            let sum: f64 = coupling.rows[own].iter().map(|r| r.sum(u)).sum();
+            (coupling.name.as_str(), sign * force, sum / count)
         })
     }
 
@@ -393,7 +533,7 @@ impl Couplings {
             .iter()
             .flat_map(|c| c.rows.iter().map(move |r| (c, r)));
         for ((coupling, row), force) in rows.zip(&self.memory.forces) {
-            if matches!(coupling.tie, Tie::Equation { .. }) {
+            if matches!(coupling.tie, Tie::Equation { .. } | Tie::Pretension(_)) {
                 row.terms().for_each(|(dof, a)| out[dof] -= a * force);
             }
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::all::{Hold, moved_by};
+use super::all::{Act, Hold, moved_by};
 use super::{Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
@@ -21,8 +21,8 @@ impl Couplings {
     }
 
     /// Stiffnesses of the springs in place of equations: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
-    /// of the bodies, which makes increments shorter by a third at most.
-    pub fn fit_springs(&mut self, inverse_mass: &[f64], highest: f64, links: &Links) {
+    /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is.
+    pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {
         let mut hold = std::mem::take(&mut self.hold);
         // Equations at the same place, or on the same rigid body, share what there is.
         let mut met = BTreeMap::<(bool, usize), usize>::new();
@@ -30,8 +30,8 @@ impl Couplings {
             Some(body) => (true, body),
             None => (false, dof),
         };
-        for (_, coupling, row) in self.rows() {
-            if coupling.tie.firm() {
+        for (i, coupling, row) in self.rows() {
+            if matches!(self.act(i, coupling, t), Act::Held(_) | Act::Stopped(_)) {
                 row.terms()
                     .for_each(|(dof, _)| *met.entry(place(dof)).or_default() += 1);
             }
@@ -67,12 +67,10 @@ impl Couplings {
     pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
         let mut rows = BTreeMap::new();
         for (i, coupling, row) in self.rows() {
-            if !coupling.schedule.active(t) {
-                continue;
-            }
-            let stiffness = match coupling.tie.firm() {
-                true => self.hold[i].stiffness,
-                false => coupling.tie.stiffness() * most(&coupling.schedule),
+            let stiffness = match self.act(i, coupling, t) {
+                Act::Idle | Act::Pulled(_) | Act::Damped(_) => continue,
+                Act::Sprung(_) => coupling.tie.stiffness() * most(&coupling.schedule),
+                Act::Held(_) | Act::Stopped(_) => self.hold[i].stiffness,
             };
             add_row(&mut rows, row, stiffness);
         }

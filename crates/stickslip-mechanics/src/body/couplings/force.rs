@@ -1,6 +1,6 @@
 //! Couplings as a force.
 
-use super::all::FIRM;
+use super::all::{Act, FIRM};
 use super::{Couplings, Row, Tie};
 use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
 
@@ -21,44 +21,42 @@ impl Force for Couplings {
         let mut failure = None;
         let u = &stage.at.u;
         for (i, coupling, row) in self.rows() {
-            if !coupling.schedule.active(stage.at.t) {
-                continue;
-            }
-            let target = self.target(i, coupling, stage.at.t);
             let sum = row.sum(u);
             let hold = self.hold[i];
             let norm = row.norm();
-            let (force, stiffness) = match coupling.tie {
-                Tie::Spring { .. } => (target * sum, target),
-                Tie::Gap {
-                    clearance,
-                    stiffness: Some(_),
-                } => {
-                    let closed = sum + clearance <= 0.0;
-                    let force = target * coupling.tie.stretch(sum);
-                    (force, if closed { target } else { 0.0 })
+            let act = self.act(i, coupling, stage.at.t);
+            let (force, stiffness) = match act {
+                Act::Idle => continue,
+                Act::Sprung(stiffness) => {
+                    let open =
+                        matches!(coupling.tie, Tie::Gap { clearance, .. } if sum + clearance > 0.0);
+                    let force = stiffness * coupling.tie.stretch(sum);
+                    (force, if open { 0.0 } else { stiffness })
                 }
-                Tie::Dashpot { .. } => {
-                    let force = target * self.rate_of(row, stage);
+                Act::Pulled(force) => {
+                    scratch.push(row, force, out);
+                    continue;
+                }
+                Act::Damped(coefficient) => {
+                    let force = coefficient * self.rate_of(row, stage);
                     now[i] = force;
                     scratch.push(row, force, out);
                     out.add_coupling(&row.dofs);
                     if let Some(rate) = &stage.rate {
-                        let gain = |k: usize| target * rate.gain[row.dofs[k]] / stage.dt;
+                        let gain = |k: usize| coefficient * rate.gain[row.dofs[k]] / stage.dt;
                         scratch.add(row, gain, out);
                     }
                     continue;
                 }
-                Tie::Equation { .. } | Tie::Gap { .. } => {
-                    let gap = match coupling.tie {
-                        Tie::Gap { clearance, .. } => Some(sum + clearance),
-                        _ => None,
+                Act::Held(_) | Act::Stopped(_) => {
+                    let (off, gap) = match act {
+                        Act::Stopped(clearance) => (sum + clearance, true),
+                        _ => (sum - Couplings::target(act), false),
                     };
-                    let off = gap.unwrap_or(sum - target);
                     off_now[i] = off;
                     if hold.idle {
                         let size = row.size(u).max((sum - off).abs());
-                        let wrong = if gap.is_some() { -off } else { off.abs() };
+                        let wrong = if gap { -off } else { off.abs() };
                         if wrong > AGREED * size {
                             failure.get_or_insert_with(|| contradiction(&coupling.name, off));
                         }
@@ -69,7 +67,7 @@ impl Force for Couplings {
                         true => self.memory.multipliers[i],
                         false => now[i],
                     };
-                    let open = gap.is_some() && known + pull > 0.0;
+                    let open = gap && known + pull > 0.0;
                     if self.explicit {
                         match open {
                             true => (0.0, 0.0),
@@ -82,7 +80,7 @@ impl Force for Couplings {
                             .for_each(|(dof, a)| out.condensed[dof] += a * pull);
                         let size = norm * pull.abs();
                         // A gap that has just closed is off by far more than what it will bear.
-                        let fresh = gap.is_some() && known == 0.0;
+                        let fresh = gap && known == 0.0;
                         let size = if fresh { size / FIRM } else { size };
                         out.multiplier_residual = out.multiplier_residual.max(size);
                         if open {
@@ -136,12 +134,17 @@ impl Force for Couplings {
         memory.work = 0.0;
         memory.damped = 0.0;
         for (i, coupling, row) in self.rows() {
-            let active = coupling.schedule.active(stage.at.t);
             let (sum, sum_before) = (row.sum(u), row.sum(before));
-            let target = self.target(i, coupling, stage.at.t);
+            let act = match (self.act(i, coupling, stage.at.t), &coupling.tie) {
+                // what is taken away lets go of what it has
+                (Act::Idle, Tie::Dashpot { .. }) => Act::Damped(0.0),
+                (Act::Idle, tie) if !tie.firm() => Act::Sprung(0.0),
+                (act, _) => act,
+            };
+            let target = Couplings::target(act);
             let was = std::mem::replace(&mut memory.targets[i], target);
-            match coupling.tie {
-                Tie::Equation { .. } if active => {
+            match act {
+                Act::Held(_) => {
                     let pull = self.hold[i].stiffness * (sum - target);
                     let force = match self.explicit {
                         true => memory.multipliers[i] + pull,
@@ -156,26 +159,26 @@ impl Force for Couplings {
                     memory.work -= 0.5 * (memory.forces[i] + force) * (target - was);
                     memory.forces[i] = force;
                 }
-                Tie::Equation { .. } => {}
-                Tie::Dashpot { .. } => {
+                Act::Pulled(force) => {
+                    memory.work -= 0.5 * (memory.forces[i] + force) * (sum - sum_before);
+                    memory.forces[i] = force;
+                }
+                Act::Damped(coefficient) => {
                     let force = match stage.rate {
+                        _ if !coupling.schedule.active(stage.at.t) => 0.0,
                         // The force of the half-step, at which velocities are known there.
                         None => self.iterate.now[i],
-                        Some(_) => target * self.rate_of(row, stage),
+                        Some(_) => coefficient * self.rate_of(row, stage),
                     };
-                    let force = if active { force } else { 0.0 };
                     memory.damped += 0.5 * (memory.forces[i] + force) * (sum - sum_before);
                     memory.forces[i] = force;
                 }
-                Tie::Gap {
-                    clearance,
-                    stiffness: None,
-                } => {
+                Act::Stopped(clearance) => {
                     let (held, hold) = (memory.multipliers[i], self.hold[i]);
-                    let force = match (active && !hold.idle, self.explicit) {
-                        (false, _) => 0.0,
-                        (true, true) => (held + hold.stiffness * (sum + clearance)).min(0.0),
-                        (true, false) => self.iterate.now[i],
+                    let force = match (hold.idle, self.explicit) {
+                        (true, _) => 0.0,
+                        (false, true) => (held + hold.stiffness * (sum + clearance)).min(0.0),
+                        (false, false) => self.iterate.now[i],
                     };
                     if self.explicit && !hold.idle && hold.stiffness > 0.0 {
                         memory.stored += (force * force - held * held) / (2.0 * hold.stiffness);
@@ -185,7 +188,7 @@ impl Force for Couplings {
                     let forces = [std::mem::replace(&mut memory.forces[i], force), force];
                     memory.work += self.missed(stage, forces, (sum - sum_before, 0.0));
                 }
-                Tie::Spring { .. } | Tie::Gap { .. } => {
+                Act::Sprung(_) => {
                     let [x, y] = [sum, sum_before].map(|s| coupling.tie.stretch(s));
                     memory.work += 0.25 * (x * x + y * y) * (target - was);
                     memory.stored += 0.5 * target * x * x;
@@ -197,6 +200,7 @@ impl Force for Couplings {
                     }
                     memory.forces[i] = target * x;
                 }
+                Act::Idle => {}
             }
         }
         self.memory = memory;

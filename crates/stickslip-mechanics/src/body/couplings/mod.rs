@@ -11,6 +11,9 @@
 //! and equations that say the same twice do no harm. Points of couplings are always candidates. At the start of motion `couplings/motion.rs` finds the forces with which
 //! accelerations obey the equations. In explicit steps equations are springs that have at most the highest frequency of the bodies. The energy of springs counts with that
 //! of the bodies, and the work of equations whose value changes with that of the supports.
+//!
+//! The cut of a pretension ([`Pretension`]) is a third kind of rows, made by `[pretension]` and not by a kind of coupling: there is no unknown for the
+//! shortening, which is what the rows along the normal have in common.
 
 mod all;
 mod axial_spring;
@@ -21,6 +24,7 @@ mod force;
 mod gap;
 mod model;
 mod motion;
+mod pretension;
 mod row;
 mod spring;
 
@@ -30,6 +34,7 @@ pub use dashpot::Dashpot;
 pub use equation::{Equation, Term};
 pub use gap::Gap;
 pub use model::CouplingModel;
+pub use pretension::{Course, Draw, Pretension};
 pub use row::Row;
 pub use spring::Spring;
 

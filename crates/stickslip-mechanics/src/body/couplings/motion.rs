@@ -1,7 +1,7 @@
 //! The forces of equations at the start of motion.
 
-use super::all::moved_by;
-use super::{Couplings, Tie};
+use super::Couplings;
+use super::all::{Act, moved_by};
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};
 
@@ -28,7 +28,7 @@ impl Couplings {
     ) -> Result<(), StepFailure> {
         let mut rows: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
         for (i, coupling, row) in self.rows() {
-            if matches!(coupling.tie, Tie::Equation { .. }) && coupling.schedule.active(t) {
+            if matches!(self.act(i, coupling, t), Act::Held(_)) {
                 let terms = moved_by(row, links);
                 if terms.iter().all(|(dof, _)| !massless[*dof]) {
                     rows.push((i, terms));

@@ -4,7 +4,7 @@ use super::super::Problem;
 use super::fault::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
-use crate::body::couplings::{Coupling, CouplingKind, Couplings, Tie};
+use crate::body::couplings::{Coupling, CouplingKind};
 use crate::error::Error;
 use crate::mesh::Mesh;
 
@@ -13,7 +13,7 @@ pub(super) fn build(
     sets: &Sets,
     mesh: &Mesh,
     timeline: &Timeline,
-) -> Result<Couplings, Error> {
+) -> Result<Vec<Coupling>, Error> {
     let dim = problem.model.space.dim();
     let mut all = Vec::new();
     for (name, coupling) in &problem.coupling {
@@ -32,19 +32,14 @@ pub(super) fn build(
         all.push(Coupling {
             name: name.clone(),
             rows: rows.map_err(|e| problem_error(vec![e.under(&key)]))?,
-            tie,
-            schedule: match tie {
+            schedule: match &tie {
                 // What holds by a multiplier acts or does not.
-                Tie::Equation { .. }
-                | Tie::Gap {
-                    stiffness: None, ..
-                } => timeline.equation(problem, name, amplitude),
-                Tie::Spring { .. } | Tie::Gap { .. } | Tie::Dashpot { .. } => {
-                    timeline.spring(problem, name, amplitude)
-                }
+                firm if firm.firm() => timeline.equation(problem, name, amplitude),
+                _ => timeline.spring(problem, name, amplitude),
             },
+            tie,
             table: amplitude.is_some(),
         });
     }
-    Ok(Couplings::new(all, dim))
+    Ok(all)
 }

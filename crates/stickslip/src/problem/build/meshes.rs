@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::{Body, MeshSource, Problem};
+use super::cuts::{self, BuiltCut};
 use super::fault::problem_error;
+
 use crate::body::Part;
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::io::gmsh;
@@ -21,6 +23,7 @@ pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
 pub(super) struct Built {
     pub mesh: Mesh,
     pub bodies: Vec<BuiltBody>,
+    pub cuts: Vec<BuiltCut>,
 }
 
 /// One of them.
@@ -29,6 +32,8 @@ pub(super) struct BuiltBody {
     pub points: Range<usize>,
     pub blocks: Range<usize>,
     pub parts: Vec<Part>,
+    /// Points of its parts that are cut off from the first.
+    pub pieces: Vec<Vec<usize>>,
 }
 
 pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<Built, Error> {
@@ -43,7 +48,7 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
     }
     let mut files: Meshes = BTreeMap::new();
     let mut mesh = Mesh::default();
-    let mut bodies = Vec::new();
+    let (mut bodies, mut all_cuts) = (Vec::new(), Vec::new());
     for (name, body) in &problem.body {
         let mut own = source(name, body, (folder, given), &mut files)?;
         place(body, &mut own);
@@ -68,7 +73,15 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
             e
         })?;
         let assigned = split(name, body, &mut own)?;
+        let cuts = cuts::cut(problem, name, &mut own)?;
+        let mut pieces = Vec::new();
+        if !cuts.is_empty() {
+            let cells: Vec<CellRef> = own.cells().collect();
+            pieces = own.pieces(&cells).split_off(1);
+        }
         let at = mesh.append(&own, name)?;
+        let place = |piece: Vec<usize>| piece.into_iter().map(|p| p + at.points.start).collect();
+        let pieces = pieces.into_iter().map(place).collect();
         let parts = assigned
             .iter()
             .zip(at.blocks.clone())
@@ -83,12 +96,26 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
             .collect();
         bodies.push(BuiltBody {
             name: name.clone(),
-            points: at.points,
-            blocks: at.blocks,
+            points: at.points.clone(),
+            blocks: at.blocks.clone(),
             parts,
+            pieces,
         });
+        all_cuts.extend(cuts.into_iter().map(|cut| cut.moved(&at)));
     }
-    Ok(Built { mesh, bodies })
+    // New points have numbers of their own among those of all bodies.
+    let doubled = all_cuts.iter().flat_map(|c: &BuiltCut| &c.pairs);
+    let doubled: Vec<usize> = doubled.map(|[_, q]| *q).collect();
+    doubled.iter().for_each(|q| mesh.point_ids[*q] = 0);
+    let next = mesh.point_ids.iter().max().map_or(0, |n| n + 1);
+    for (number, q) in (next..).zip(doubled) {
+        mesh.point_ids[q] = number;
+    }
+    Ok(Built {
+        mesh,
+        bodies,
+        cuts: all_cuts,
+    })
 }
 
 fn source(

@@ -2,10 +2,12 @@
 
 mod contact;
 mod couplings;
+mod cuts;
 mod faces;
 mod fault;
 mod initial;
 mod meshes;
+mod pretensions;
 mod rigid;
 mod schedules;
 mod sets;
@@ -17,6 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Problem, SpaceKind};
+use crate::body::couplings::Couplings;
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
@@ -109,6 +112,7 @@ impl Problem {
                 rigid,
                 points: part.points,
                 blocks: part.blocks,
+                pieces: part.pieces,
                 elastic,
                 rayleigh: match self.body[&part_name].rayleigh {
                     Some(r) => [r.mass, r.stiffness],
@@ -122,7 +126,9 @@ impl Problem {
             bodies: &bodies,
             dofs,
         };
-        let sets = Sets::new(self, &mesh, &bodies)?;
+        let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
+        let inside = inside.copied().collect();
+        let sets = Sets::new(self, &mesh, (&bodies, inside))?;
         let timeline = Timeline::new(self);
         let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
@@ -132,7 +138,14 @@ impl Problem {
             densities: &densities,
         };
         let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
-        let couplings = couplings::build(self, &sets, &mesh, &timeline)?;
+        let mut couplings = couplings::build(self, &sets, &mesh, &timeline)?;
+        couplings.extend(pretensions::build(
+            self,
+            &built.cuts,
+            (&mesh, space),
+            &timeline,
+        )?);
+        let couplings = Couplings::new(couplings, space.dim());
         let supports = supports(self, &sets, &rigid, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;

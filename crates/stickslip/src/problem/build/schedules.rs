@@ -7,7 +7,7 @@ use crate::time::Increments;
 
 /// Starts and ends of the steps.
 pub(super) struct Timeline {
-    spans: Vec<(f64, f64)>,
+    pub spans: Vec<(f64, f64)>,
 }
 
 /// Whether `name` is active in a step whose list is `list`: in all steps that have no list.
@@ -214,7 +214,7 @@ fn coupled(problem: &Problem, name: &str) -> Vec<bool> {
     steps.map(|s| listed(s.couplings.as_ref(), name)).collect()
 }
 
-fn table(problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {
+pub(super) fn table(problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {
     let rows = problem.amplitude.get(amplitude?)?.table.clone();
     Amplitude::new(rows).ok()
 }

@@ -1,6 +1,6 @@
 //! Names of sets to points, facets and cells.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
 use super::super::{Problem, Select};
@@ -14,6 +14,8 @@ use crate::model::Body;
 pub(super) struct Sets<'a> {
     mesh: &'a Mesh,
     bodies: &'a [Body],
+    /// Facets of cuts: they bound cells, but no surface.
+    inside: BTreeSet<FacetRef>,
     own: BTreeMap<String, Vec<usize>>,
 }
 
@@ -22,10 +24,15 @@ fn vec3(v: &[f64]) -> Vec3 {
 }
 
 impl<'a> Sets<'a> {
-    pub fn new(problem: &Problem, mesh: &'a Mesh, bodies: &'a [Body]) -> Result<Self, Error> {
+    pub fn new(
+        problem: &Problem,
+        mesh: &'a Mesh,
+        (bodies, inside): (&'a [Body], BTreeSet<FacetRef>),
+    ) -> Result<Self, Error> {
         let mut sets = Sets {
             mesh,
             bodies,
+            inside,
             own: BTreeMap::new(),
         };
         // Unions may name other sets: whatever can be resolved is, until nothing is left or nothing moves.
@@ -181,7 +188,8 @@ impl<'a> Sets<'a> {
             return Ok(facets.clone());
         }
         let points = self.points(name, key)?;
-        let facets = self.mesh.boundary_within(&points);
+        let mut facets = self.mesh.boundary_within(&points);
+        facets.retain(|f| !self.inside.contains(f));
         if facets.is_empty() {
             return Err(self.unknown(
                 name,

@@ -13,7 +13,10 @@ pub(super) fn tables(problem: &Problem) -> Vec<String> {
     let supports = problem.support.values().map(|s| &s.amplitude);
     let loads = problem.load.values().map(|l| &l.amplitude);
     let couplings = problem.coupling.values().map(|c| &c.amplitude);
-    let amplitudes = supports.chain(loads).chain(couplings).flatten();
+    let drawn = problem.step.iter().flat_map(|s| s.pretension.values());
+    let drawn = drawn.map(|t| &t.amplitude);
+    let amplitudes = supports.chain(loads).chain(couplings).chain(drawn);
+    let amplitudes = amplitudes.flatten();
     let mut out = left(problem.obstacle.keys(), "obstacle", &of(obstacles));
     out.extend(left(problem.material.keys(), "material", &of(materials)));
     out.extend(left(problem.amplitude.keys(), "amplitude", &of(amplitudes)));

@@ -1,12 +1,13 @@
 //! Rules that bind the tables of a problem to each other.
 //!
 //! One file per kind of rule: names that are used (`names.rs`), tables on their own (`tables.rs`), time (`steps.rs`),
-//! motion (`motion.rs`).
+//! motion (`motion.rs`), cuts through bolts (`pretensions.rs`).
 //! Ranges of single numbers are stated where the key is declared and checked with the schema.
 
 mod findings;
 mod motion;
 mod names;
+mod pretensions;
 mod steps;
 mod tables;
 
@@ -23,6 +24,7 @@ pub(super) fn check(problem: &Problem) -> Vec<Diagnostic> {
     }
     names::check(problem, &mut findings);
     tables::check(problem, &mut findings);
+    pretensions::check(problem, &mut findings);
     steps::check(problem, &mut findings);
     motion::check(problem, &mut findings);
     findings.0

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
-use super::super::{Problem, Select};
+use super::super::{Problem, Section, Select};
 use super::findings::Findings;
 use crate::registry::Family;
 
@@ -51,6 +51,15 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             &problem.amplitude,
         );
     }
+    for (name, pretension) in &problem.pretension {
+        if let Some(of) = &pretension.of {
+            set(problem, findings, &["pretension", name, "of"], of);
+        }
+        if let Section::Facets(facets) = &pretension.section {
+            let key = ["pretension", name, "facets", "set"];
+            set(problem, findings, &key, &facets.set);
+        }
+    }
     for (name, mass) in &problem.mass {
         set(problem, findings, &["mass", name, "set"], &mass.set);
     }
@@ -83,7 +92,7 @@ fn misspelled(name: &str) -> Option<&'static str> {
 
 /// All names of tables; those that differ by nothing but capitals are one name on some file systems, and in decks.
 fn spelled(problem: &Problem, findings: &mut Findings) {
-    let tables: [(&str, Vec<&String>); 12] = [
+    let tables: [(&str, Vec<&String>); 13] = [
         ("body", problem.body.keys().collect()),
         ("material", problem.material.keys().collect()),
         ("obstacle", problem.obstacle.keys().collect()),
@@ -93,6 +102,7 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
         ("load", problem.load.keys().collect()),
         ("mass", problem.mass.keys().collect()),
         ("coupling", problem.coupling.keys().collect()),
+        ("pretension", problem.pretension.keys().collect()),
         ("amplitude", problem.amplitude.keys().collect()),
         ("initial", problem.initial.keys().collect()),
         ("probe", problem.probe.keys().collect()),

@@ -74,6 +74,7 @@ fn idle(problem: &Problem, step: &Step) -> bool {
         && count(&step.loads, &problem.load) == 0
         && count(&step.interfaces, &problem.interface) == 0
         && count(&step.couplings, &problem.coupling) == 0
+        && problem.pretension.is_empty()
 }
 
 fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {

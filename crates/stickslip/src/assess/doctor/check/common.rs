@@ -88,7 +88,7 @@ pub(super) fn travel(scene: &Scene) -> f64 {
         }
     }
     for coupling in scene.contact.couplings.all() {
-        let Tie::Equation { value } = coupling.tie else {
+        let Tie::Equation { value } = &coupling.tie else {
             continue;
         };
         for &t in times.iter().filter(|&&t| coupling.schedule.active(t)) {
@@ -113,12 +113,20 @@ pub(super) fn times(model: &Model) -> Vec<f64> {
 }
 
 /// Whether forces act in the analysis, inertia included.
-pub(super) fn forced(model: &Model) -> bool {
-    forced_by_loads(model) || model.moves()
+pub(super) fn forced(scene: &Scene) -> bool {
+    forced_by_loads(scene) || scene.model.moves()
 }
 
-/// Whether loads act in the analysis.
-pub(super) fn forced_by_loads(model: &Model) -> bool {
+/// Whether loads or pretensions act in the analysis.
+pub(super) fn forced_by_loads(scene: &Scene) -> bool {
+    let model = scene.model;
+    let couplings = scene.contact.couplings.all().iter();
+    if couplings
+        .into_iter()
+        .any(|c| matches!(&c.tie, Tie::Pretension(p) if p.draws()))
+    {
+        return true;
+    }
     model.loads.iter().any(|l| {
         let any = l.entries.iter().any(|(_, f)| *f != 0.0);
         any && times(model).iter().any(|&t| l.schedule.at(t) != 0.0)

@@ -20,7 +20,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         let points = i.points.iter().zip(&m.gaps);
         points.into_iter().any(|(p, g)| *g < -1e-6 * p.size)
     });
-    if travel(view) == 0.0 && !forced(model) && !belts && !overlaps && model.initials.is_empty() {
+    if travel(view) == 0.0 && !forced(view) && !belts && !overlaps && model.initials.is_empty() {
         out.push(
             Finding::new(
                 DoctorCause::NothingActs,

@@ -66,7 +66,7 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
     }
     out.extend(faceted(interface, &gaps));
     let reach = travel(view) + flight(model);
-    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(model) {
+    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(view) {
         out.push(
             Finding::new(
                 DoctorCause::InitialGap,

@@ -78,7 +78,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     // Supports that come later may hold what is free now: the first step counts.
     out.extend(statics.take(1).find_map(|s| unbalanced(view, s.end)));
     let waiting = floating(view, t, &touching);
-    if waiting.is_empty() || !forced(model) {
+    if waiting.is_empty() || !forced(view) {
         return out;
     }
     // The nearest point of all interfaces of the bodies that wait.

@@ -132,7 +132,7 @@ pub(super) fn apart(scene: &Scene, interface: &Interface, measured: &Measured) -
     let (i, &gap) = gaps.min_by(|a, b| a.1.total_cmp(b.1))?;
     let size = interface.points[i].size;
     let given = model.initials.iter().any(|i| !i.displacements.is_empty());
-    if gap < -APART * size || given || forced_by_loads(model) {
+    if gap < -APART * size || given || forced_by_loads(scene) {
         return None;
     }
     let x = interface.points[i].position(&interface.reference);
