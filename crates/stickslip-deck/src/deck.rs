@@ -57,6 +57,8 @@ pub struct Deck {
     pub equations: Vec<Equation>,
     /// `*RIGID BODY`s.
     pub rigid: Vec<Rigid>,
+    /// `*PRE-TENSION SECTION`s.
+    pub pretensions: Vec<Pretension>,
     /// `*SPRING`s: stiffness of sets of spring elements.
     pub springs: Vec<SpringSection>,
     /// `*DASHPOT`s: coefficients of sets of dashpot elements.
@@ -82,6 +84,11 @@ pub struct Deck {
 }
 
 impl Deck {
+    /// The pretension whose shortening is the first direction of a node.
+    pub fn pretension(&self, node: u64) -> Option<&Pretension> {
+        self.pretensions.iter().find(|p| p.node == node)
+    }
+
     /// A number of a node or element as the deck writes it: `PART-1-1.12` in an instance.
     pub fn label(&self, number: u64) -> String {
         self.numbering.label(number)
@@ -369,6 +376,19 @@ pub struct GapSection {
     pub direction: [f64; 3],
     /// Stiffness once they are closed (CalculiX), if given.
     pub stiffness: Option<f64>,
+    /// Where.
+    pub place: Place,
+}
+
+/// `*PRE-TENSION SECTION`: a cut along faces inside a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pretension {
+    /// Surface of the faces.
+    pub surface: String,
+    /// Node whose first direction is the shortening.
+    pub node: u64,
+    /// Normal; the mean one of the faces if none is given.
+    pub normal: Option<[f64; 3]>,
     /// Where.
     pub place: Place,
 }

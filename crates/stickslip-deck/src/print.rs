@@ -1,6 +1,6 @@
 //! `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` as CalculiX writes them to its `.dat` file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -30,6 +30,10 @@ pub struct Printer {
     element_sets: BTreeMap<String, Vec<u64>>,
     surfaces: BTreeMap<String, Vec<(u64, usize)>>,
     pairs: Vec<(String, String, String)>,
+    /// Names of pretensions by their nodes.
+    drawn: BTreeMap<u64, String>,
+    /// The nodes of the deck that are points of its mesh.
+    known: BTreeSet<u64>,
     numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.
     times: BTreeMap<String, Vec<f64>>,
@@ -76,6 +80,8 @@ impl Printer {
                 element_sets: translation.element_sets.clone(),
                 surfaces: translation.surfaces.clone(),
                 pairs: translation.pairs.clone(),
+                drawn: translation.drawn.clone(),
+                known: translation.mesh.point_ids.iter().copied().collect(),
                 numbering: translation.numbering.clone(),
                 times: translation.times.clone(),
                 node_axes: translation.node_axes.clone(),
@@ -126,6 +132,8 @@ impl Printer {
         if self.points.is_empty() {
             let ids = &analysis.model.mesh.point_ids;
             self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
+            // Numbers of points that cuts have doubled are none of the deck.
+            self.points.retain(|id, _| self.known.contains(id));
         }
         let Some(prints) = self.prints.get(self.step - 1).cloned() else {
             return Ok(());
@@ -197,10 +205,19 @@ impl Printer {
         let Some(nodes) = self.node_sets.get(set) else {
             return;
         };
-        let nodes: Vec<(u64, usize)> = nodes
-            .iter()
-            .filter_map(|n| Some((*n, *self.points.get(n)?)))
-            .collect();
+        let u = &analysis.frame.state.u;
+        // The first direction of the node of a pretension is the shortening, its force that of the bolt.
+        let drawn = |node: &u64, key: &str| {
+            let name = self.drawn.get(node)?;
+            let mut all = analysis.contact.couplings.report(u);
+            let (_, force, shortening) = all.find(|(n, ..)| n == name)?;
+            let value = match key {
+                "U" => shortening,
+                "RF" => force,
+                _ => 0.0,
+            };
+            Some([value, 0.0, 0.0])
+        };
         let zero = vec![0.0; dofs.count()];
         let or_zero = |v: &[f64]| {
             if v.is_empty() {
@@ -226,8 +243,11 @@ impl Printer {
                     time(self.time)
                 );
             }
-            for (node, point) in &nodes {
-                let mut v = dofs.vector(&values, *point);
+            for node in nodes {
+                let at_point = self.points.get(node).map(|p| dofs.vector(&values, *p));
+                let Some(mut v) = at_point.or_else(|| drawn(node, key)) else {
+                    continue;
+                };
                 // Nodes may have different axes: a sum has those of the model.
                 sum = add(sum, v);
                 if let Some(axes) = self.node_axes.get(node).filter(|_| !global) {

@@ -24,6 +24,7 @@ const CARDS: &[(&str, Read)] = &[
     ("TRANSFORM", |r, c| r.transform(c)),
     ("EQUATION", |r, c| r.equation(c)),
     ("RIGIDBODY", |r, c| r.rigid_body(c)),
+    ("PRE-TENSIONSECTION", |r, c| r.pretension(c)),
     ("SPRING", |r, c| r.spring(c)),
     ("DASHPOT", |r, c| r.spring(c)),
     ("GAP", |r, c| r.gap(c)),

@@ -1,8 +1,8 @@
-//! What ties nodes together or acts between them: equations, rigid bodies, springs; and masses.
+//! What ties nodes together or acts between them: equations, rigid bodies, pretensions, springs; and masses.
 
 use super::reader::Reader;
 use crate::card::Card;
-use crate::deck::{Action, Equation, GapSection, Rigid, SpringSection, Term};
+use crate::deck::{Action, Equation, GapSection, Pretension, Rigid, SpringSection, Term};
 use crate::text::clip;
 
 impl Reader<'_> {
@@ -114,24 +114,7 @@ impl Reader<'_> {
                 "write POSITION=INPUT, and give the node the place that is meant",
             );
         }
-        let node = |r: &mut Self, name: &str| {
-            let text = card.get(name)?;
-            let of_set = |set: &Vec<u64>| match set.as_slice() {
-                [one] => Some(*one),
-                _ => None,
-            };
-            let set = || r.deck.node_sets.get(&r.scoped(text)).and_then(of_set);
-            let id = r.number_of(text).or_else(set);
-            if id.is_none_or(|n| !r.deck.nodes.contains_key(&n)) {
-                r.error(
-                    card.place,
-                    format!("*RIGID BODY: {name} is {}, which is no node", clip(text)),
-                    "give the number of a node that exists",
-                );
-            }
-            id
-        };
-        let (reference, rotation) = (node(self, "REFNODE"), node(self, "ROTNODE"));
+        let (reference, rotation) = (self.node_of(card, "REFNODE"), self.node_of(card, "ROTNODE"));
         let rigid = Rigid {
             elements: card.get("ELSET").map(|s| self.scoped(s)),
             nodes: card.get("NSET").map(|s| self.scoped(s)),
@@ -140,6 +123,55 @@ impl Reader<'_> {
             place: card.place,
         };
         self.deck.rigid.push(rigid);
+    }
+
+    /// A parameter that names a node by its number, or by a set of it alone.
+    fn node_of(&mut self, card: &Card, name: &str) -> Option<u64> {
+        let text = card.get(name)?;
+        let of_set = |set: &Vec<u64>| match set.as_slice() {
+            [one] => Some(*one),
+            _ => None,
+        };
+        let set = || self.deck.node_sets.get(&self.scoped(text)).and_then(of_set);
+        let id = self.number_of(text).or_else(set);
+        if id.is_none_or(|n| !self.deck.nodes.contains_key(&n)) {
+            let message = format!(
+                "{}: {name} is {}, which is no node",
+                card.written,
+                clip(text)
+            );
+            self.error(card.place, message, "give the number of a node that exists");
+        }
+        id
+    }
+
+    pub(super) fn pretension(&mut self, card: &Card) {
+        let surface = self.required_name(card, "SURFACE");
+        if card.get("NODE").is_none() {
+            self.required(card, "NODE");
+        }
+        let node = self.node_of(card, "NODE");
+        let mut normal = None;
+        if let Some(data) = card.data.first() {
+            let given: [f64; 3] = std::array::from_fn(|i| self.number(data, i, 0.0));
+            normal = (given != [0.0; 3]).then(|| self.motion().vector(given));
+        }
+        let (Some(surface), Some(node)) = (surface, node) else {
+            return;
+        };
+        if self.deck.pretension(node).is_some() {
+            self.error(
+                card.place,
+                format!("node {} has a pretension already", self.deck.label(node)),
+                "give every *PRE-TENSION SECTION a node of its own",
+            );
+        }
+        self.deck.pretensions.push(Pretension {
+            surface,
+            node,
+            normal,
+            place: card.place,
+        });
     }
 
     /// Stiffnesses of springs, or coefficients of dashpots.

@@ -182,6 +182,9 @@ impl Missing<'_> {
             self.surface(&p.master, p.place);
             self.interaction(&p.interaction, p.place);
         }
+        for p in &self.deck.pretensions {
+            self.surface(&p.surface, p.place);
+        }
         for t in &self.deck.ties {
             self.surface(&t.slave, t.place);
             self.surface(&t.master, t.place);

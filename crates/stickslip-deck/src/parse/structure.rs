@@ -74,7 +74,7 @@ pub(super) const STRUCTURE: [&str; 6] = [
 ];
 
 /// Cards of a part or of an instance.
-const MESH: [&str; 18] = [
+const MESH: [&str; 19] = [
     "NODE",
     "ELEMENT",
     "NSET",
@@ -89,6 +89,7 @@ const MESH: [&str; 18] = [
     "SOLIDSECTION",
     "EQUATION",
     "RIGIDBODY",
+    "PRE-TENSIONSECTION",
     "SPRING",
     "DASHPOT",
     "GAP",

@@ -129,6 +129,18 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
+        "PRE-TENSIONSECTION",
+        Data::Line("nx, ny, nz"),
+        &[
+            read("SURFACE"),
+            read("NODE"),
+            refused(
+                "ELEMENT",
+                "only sections through solid and plane elements are drawn together: name their faces by SURFACE",
+            ),
+        ],
+    ),
+    card(
         "SPRING",
         Data::Any,
         &[

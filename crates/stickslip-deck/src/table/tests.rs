@@ -54,6 +54,7 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "TRANSFORM" => ("", "NSET=N", "1., 0., 0., 0., 1., 0.\n"),
         "EQUATION" => ("", "", "2\n1, 1, 1., 2, 1, 1.\n"),
         "RIGIDBODY" => ("", "REFNODE=5, ELSET=E", ""),
+        "PRE-TENSIONSECTION" => ("", "SURFACE=S, NODE=5", "1., 0., 0.\n"),
         "SPRING" => ("", "ELSET=ES", "\n1.\n"),
         "DASHPOT" => ("", "ELSET=ED", "\n1.\n"),
         "GAP" => ("", "ELSET=EG", "0., 1., 0., 0.\n"),

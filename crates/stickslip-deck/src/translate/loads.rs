@@ -21,10 +21,10 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 }
 
 /// Forces by node and direction.
-type Forces = BTreeMap<(u64, usize), Given<f64>>;
+pub(super) type Forces = BTreeMap<(u64, usize), Given<f64>>;
 
 /// The forces of each step; none if two of them cannot be added up.
-fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
+pub(super) fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
     let (mut state, mut by_step) = (Forces::new(), Vec::new());
     for (i, step) in job.deck.steps.iter().enumerate() {
         // The first force of a step replaces what was there, further ones add to it.
@@ -71,6 +71,9 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     // Directions of one node that act alike are one force, nodes with the same force one load.
     let mut nodes: BTreeMap<(u64, When), ([f64; 3], Place, String)> = BTreeMap::new();
     for ((node, component), a) in collect(&by_step) {
+        if job.deck.pretension(node).is_some() {
+            continue;
+        }
         let entry = nodes
             .entry((node, a.when()))
             .or_insert(([0.0; 3], a.place, a.label));

@@ -11,6 +11,7 @@ mod lint;
 mod loads;
 mod materials;
 mod measure;
+mod pretensions;
 mod sets;
 mod spans;
 mod steps;
@@ -59,6 +60,7 @@ impl Deck {
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
+        let drawn = pretensions::write(&mut job, &bodies, &mut sets);
         quality(&mut job);
         steps::write(&mut job);
         unprinted(&mut job, &bodies);
@@ -93,6 +95,7 @@ impl Deck {
             element_sets: printed(self, &self.element_sets),
             surfaces: carried(self, &bodies),
             pairs: job.pairs,
+            drawn,
             numbering: self.numbering.clone(),
             path: path.to_path_buf(),
             places: job.places,
@@ -124,7 +127,8 @@ fn unprinted(job: &mut Job, bodies: &Bodies) {
                 continue;
             };
             let all = deck.node_sets.get(set).into_iter().flatten();
-            let none = all.filter(|n| !bodies.of_node.contains_key(n)).count();
+            let told = |n: &u64| bodies.of_node.contains_key(n) || deck.pretension(*n).is_some();
+            let none = all.filter(|n| !told(n)).count();
             if none > 0 {
                 let message = format!(
                     "*NODE PRINT of {set}: {none} nodes that are in no body, such as reference nodes, are not printed"

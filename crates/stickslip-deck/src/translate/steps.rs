@@ -34,6 +34,8 @@ pub(super) fn write(job: &mut Job) {
             job.out.line(&line);
         }
         changes(job, i);
+        let tensions = job.tensions.iter().filter(|(s, _)| *s == i);
+        tensions.for_each(|(_, line)| job.out.line(line));
     }
 }
 

@@ -14,13 +14,13 @@ use crate::deck::{Action, Boundary, Rigid, Target, Transform};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Value {
     pub value: f64,
-    amplitude: Option<String>,
-    fixed: bool,
-    place: Place,
+    pub amplitude: Option<String>,
+    pub fixed: bool,
+    pub place: Place,
     /// The set it was given for.
     label: String,
     /// The step that gives it; the first, too, for what stands before.
-    step: usize,
+    pub step: usize,
 }
 
 impl Value {
@@ -96,6 +96,9 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             continue;
         };
         let when = (node, &steps, &amplitude);
+        if job.deck.pretension(node).is_some() {
+            continue;
+        }
         if !bodies.of_node.contains_key(&node) {
             reference(job, bodies, sets, when, &values, &states);
             continue;

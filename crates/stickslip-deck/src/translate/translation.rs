@@ -39,6 +39,8 @@ pub struct Translation {
     pub surfaces: BTreeMap<String, Vec<(u64, usize)>>,
     /// Interfaces by slave and master, in the order of the deck: `(name, slave, master)`.
     pub pairs: Vec<(String, String, String)>,
+    /// Names of pretensions by their nodes.
+    pub(crate) drawn: BTreeMap<u64, String>,
     /// How numbers of the mesh are written in the deck.
     pub numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.

@@ -10,6 +10,7 @@ mod loads;
 mod malformed;
 mod orientations;
 mod points;
+mod pretension;
 mod reading;
 mod steps;
 mod styles;
