@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace;
+use crate::workspace::{self, output};
 
 /// Builds the static binary and packs it with completions, manual pages, schema and licences:
 /// `dist/stickslip-VERSION-x86_64-linux.tar.gz`.
-pub fn pack() -> Result<(), String> {
+pub fn pack() -> Result<PathBuf, String> {
     let triple = format!("{}-unknown-linux-gnu", std::env::consts::ARCH);
     let binary = build(&triple)?;
     check(&binary)?;
@@ -36,7 +36,7 @@ pub fn pack() -> Result<(), String> {
     )?;
     let bytes = archive.metadata().map_err(|e| e.to_string())?.len();
     println!("{} ({:.1} MB)", archive.display(), bytes as f64 / 1e6);
-    Ok(())
+    Ok(archive)
 }
 
 /// The release binary, linked with a C library of its own. With a target the flags do not reach build scripts.
@@ -134,14 +134,21 @@ fn fill(folder: &Path, binary: &Path) -> Result<(), String> {
     write("THIRD-PARTY.txt", third_party()?.as_bytes())
 }
 
-/// The crates in the binary with the texts of their licences, which these want to be passed on.
-fn third_party() -> Result<String, String> {
-    let cargo = || {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let mut command = Command::new(cargo);
-        command.current_dir(workspace::root());
-        command
-    };
+fn cargo() -> Command {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(workspace::root());
+    command
+}
+
+/// What cargo knows of all packages.
+pub fn metadata() -> Result<serde_json::Value, String> {
+    let metadata = output(cargo().args(["metadata", "--format-version=1", "--locked"]))?;
+    serde_json::from_slice(&metadata).map_err(|e| format!("cargo metadata: {e}"))
+}
+
+/// Names and versions of the crates in the binary.
+pub fn used() -> Result<BTreeSet<(String, String)>, String> {
     let tree = output(cargo().args([
         "tree",
         "--package=stickslip-cli",
@@ -151,21 +158,22 @@ fn third_party() -> Result<String, String> {
     ]))?;
     let tree = String::from_utf8_lossy(&tree);
     // `name v1.2.3`, perhaps with a place or a mark behind it.
-    let used: BTreeSet<(&str, &str)> = tree
-        .lines()
-        .filter_map(|line| {
-            let mut words = line.split_whitespace();
-            Some((words.next()?, words.next()?.strip_prefix('v')?))
-        })
-        .collect();
-    let metadata = output(cargo().args(["metadata", "--format-version=1", "--locked"]))?;
-    let metadata: serde_json::Value =
-        serde_json::from_slice(&metadata).map_err(|e| format!("cargo metadata: {e}"))?;
+    let package = |line: &str| {
+        let mut words = line.split_whitespace();
+        let name = words.next()?.to_string();
+        Some((name, words.next()?.strip_prefix('v')?.to_string()))
+    };
+    Ok(tree.lines().filter_map(package).collect())
+}
+
+/// The crates in the binary with the texts of their licences, which these want to be passed on.
+fn third_party() -> Result<String, String> {
+    let (used, metadata) = (used()?, metadata()?);
     let mut out = String::from("The binary contains these crates.\n");
     for package in metadata["packages"].as_array().into_iter().flatten() {
         let text = |key: &str| package[key].as_str().unwrap_or_default();
         let (name, version) = (text("name"), text("version"));
-        if package["source"].is_null() || !used.contains(&(name, version)) {
+        if package["source"].is_null() || !used.contains(&(name.into(), version.into())) {
             continue;
         }
         out += &format!("\n==== {name} {version} ({})\n", text("license"));
@@ -191,17 +199,4 @@ fn third_party() -> Result<String, String> {
         }
     }
     Ok(out)
-}
-
-/// What a command that has to succeed prints.
-fn output(command: &mut Command) -> Result<Vec<u8>, String> {
-    let name = command.get_program().display().to_string();
-    let output = command.output().map_err(|e| format!("{name}: {e}"))?;
-    match output.status.success() {
-        true => Ok(output.stdout),
-        false => Err(format!(
-            "{name} failed: {}",
-            String::from_utf8_lossy(&output.stderr)
-        )),
-    }
 }

@@ -11,6 +11,7 @@ mod fuzz;
 mod kill;
 mod peers;
 mod published;
+mod release;
 mod robustness;
 mod workspace;
 
@@ -29,6 +30,10 @@ tasks:
   schema                    write stickslip.schema.json, the JSON schema of problem files
   rooms                     draw the picture of the rooms in ARCHITECTURE.md from the imports of the code
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
+  release --dry-run [--archive FILE] [--wheel FILE]
+                            build what a release gives away into dist/ (the archive of `dist`, the wheel, a list of the crates in them, checksums)
+                            and try it where there is no compiler and no environment; or what has been built elsewhere. Says NOT RUN where
+                            cargo-deny is not installed
   decks [FOLDER]            run decks with the numbers that CalculiX prints (NAME.inp, NAME.dat.ref; default: ../shared/decks/calculix)
                             and write book/src/decks.md
   digests FILE [--problems N] [DECKS]
@@ -64,7 +69,8 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => published::schema(),
         Some((task, [])) if task == "rooms" => published::rooms(),
-        Some((task, [])) if task == "dist" => dist::pack(),
+        Some((task, [])) if task == "dist" => dist::pack().map(|_| ()),
+        Some((task, what)) if task == "release" => release::run(what),
         Some((task, what)) if task == "book" => book::build(what),
         Some((task, what)) if task == "decks" => decks::run(what),
         Some((task, what)) if task == "digests" => digests::run(what),

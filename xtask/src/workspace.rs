@@ -37,3 +37,41 @@ pub fn stickslip() -> Result<PathBuf, String> {
     let name = format!("stickslip{}", std::env::consts::EXE_SUFFIX);
     Ok(target().join("release").join(name))
 }
+
+/// What a command that has to succeed prints.
+pub fn output(command: &mut Command) -> Result<Vec<u8>, String> {
+    let name = command.get_program().display().to_string();
+    let output = command.output().map_err(|e| format!("{name}: {e}"))?;
+    match output.status.success() {
+        true => Ok(output.stdout),
+        false => Err(format!(
+            "{name} failed: {}",
+            String::from_utf8_lossy(&output.stderr)
+        )),
+    }
+}
+
+/// Runs a command that has to succeed; what it prints is seen if it does not.
+pub fn succeed(command: &mut Command) -> Result<(), String> {
+    output(command).map(|_| ())
+}
+
+/// A folder for temporary files, which goes away with its owner.
+pub struct Scratch(pub PathBuf);
+
+impl Scratch {
+    /// An empty one.
+    pub fn new(name: &str) -> Result<Self, String> {
+        let name = format!("stickslip-{name}-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        Ok(Scratch(folder))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
