@@ -15,8 +15,8 @@ use std::process::Command;
 
 use crate::workspace;
 
-/// The version of mdBook that is installed where none is. No pre-processors: formulas are plain text, so that the book needs neither a
-/// network nor another program.
+/// The version of mdBook that is installed where none is. No pre-processors: formulas are typeset by the page, with what is in `book/src/katex`, so that the
+/// book needs neither a network nor another program.
 const VERSION: &str = "0.4.52";
 
 /// Writes the generated pages and builds the book into `target/book`.

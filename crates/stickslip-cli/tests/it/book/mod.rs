@@ -219,6 +219,34 @@ fn commands_do_what_the_book_says() {
 }
 
 #[test]
+fn formulas_are_ones_that_the_book_can_typeset() {
+    let known = read(&source().join("katex/katex.min.js"));
+    let mut seen = 0;
+    for page in pages() {
+        for (_, formula) in blocks(&read(&page))
+            .iter()
+            .filter(|(marks, _)| marks == "math")
+        {
+            seen += 1;
+            let count = |part: &str| formula.matches(part).count();
+            let name = page.display();
+            assert_eq!(count("{"), count("}"), "{name}: braces of {formula}");
+            assert_eq!(count("\\begin"), count("\\end"), "{name}: {formula}");
+            for word in formula.split('\\').skip(1) {
+                let end = word.find(|c: char| !c.is_ascii_alphabetic());
+                let word = &word[..end.unwrap_or(word.len())];
+                let quoted = format!("\"\\\\{word}\"");
+                assert!(
+                    word.is_empty() || known.contains(&quoted),
+                    "{name}: there is no command \\{word}"
+                );
+            }
+        }
+    }
+    assert!(seen > 10, "only {seen} formulas were found");
+}
+
+#[test]
 fn problem_files_in_the_book_are_sound() {
     let mut seen = 0;
     for page in pages().into_iter().filter(|p| !generated(p)) {
