@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::support;
-use support::{Record, complaint, problem, run};
+use support::{Record, build, complaint, problem};
 
 const METHODS: [&str; 3] = ["sparse", "condensed", "multigrid"];
 
@@ -11,8 +11,18 @@ fn value(row: &support::Row, name: &str) -> f64 {
     row.get(name).unwrap_or_else(|| panic!("no column {name}"))
 }
 
+/// Runs a problem, by the way to solve that it asks for.
 fn record(text: &str) -> Record {
-    run(&problem(text)).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    let mut record = Record::default();
+    let outcome = simulation.run(&mut [&mut record]);
+    outcome.unwrap_or_else(|e| panic!("{e}\n{text}"));
+    for method in METHODS {
+        if text.contains(&format!("solver.method = \"{method}\"")) {
+            assert_eq!(simulation.summary.method, method, "{text}");
+        }
+    }
+    record
 }
 
 fn near(found: f64, expected: f64, tolerance: f64) {

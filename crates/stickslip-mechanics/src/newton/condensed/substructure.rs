@@ -36,7 +36,7 @@ pub struct Substructure {
     pub seconds: Seconds,
 }
 
-/// Rigid motions of a body that next to nothing holds.
+/// Rigid motions of a body, or of each of its pieces, that next to nothing holds.
 #[derive(Debug)]
 pub struct Floating {
     /// Orthonormal motions `R` at the kept dofs, one after the other.
@@ -158,11 +158,49 @@ fn free_motions(
             .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
             .collect()
     } else {
-        rigid_motions(root, dim, place)
+        let of_part = |part: Vec<usize>| {
+            let dofs: Vec<u32> = part.iter().map(|&i| root[i]).collect();
+            let motions = rigid_motions(&dofs, dim, place).into_iter();
+            motions.map(move |motion| {
+                let mut whole = vec![0.0; n];
+                part.iter().zip(motion).for_each(|(&i, m)| whole[i] = m);
+                whole
+            })
+        };
+        let parts = parts(root, dim, stiffness).into_iter();
+        parts.flat_map(of_part).collect()
     };
     let basis = orthonormal(motions);
     let soft: Vec<Vec<f64>> = softest(&basis, stiffness, SOFT * sigma);
     (!soft.is_empty()).then_some((soft, sigma))
+}
+
+/// The places among the kept dofs that hang together by stiffness, those of a point always: one part, but for bodies in pieces, as a cut through a bolt
+/// makes them.
+fn parts(root: &[u32], dim: usize, stiffness: &[f64]) -> Vec<Vec<usize>> {
+    let n = root.len();
+    let mut up: Vec<usize> = (0..n).collect();
+    fn top(up: &mut [usize], mut i: usize) -> usize {
+        while up[i] != i {
+            up[i] = up[up[i]];
+            i = up[i];
+        }
+        i
+    }
+    for j in 0..n {
+        let column = &stiffness[j * n..(j + 1) * n];
+        for i in j + 1..n {
+            let of_point = root[i] as usize / dim == root[j] as usize / dim;
+            if of_point || column[i] != 0.0 {
+                let (a, b) = (top(&mut up, i), top(&mut up, j));
+                up[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    let mut parts: Vec<Vec<usize>> = vec![Vec::new(); n];
+    (0..n).for_each(|i| parts[top(&mut up, i)].push(i));
+    parts.retain(|part| !part.is_empty());
+    parts
 }
 
 /// Translations and rotations at the dofs; those about the centre of the points have their size.

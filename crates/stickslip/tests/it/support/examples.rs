@@ -12,6 +12,7 @@ macro_rules! every_example {
             belt_block = "belt-block",
             belt_mass = "belt-mass",
             block_limits = "block-limits",
+            bolt_preload = "bolt-preload",
             bolted_joint = "bolted-joint",
             bouncing_bar = "bouncing-bar",
             braking_block = "braking-block",

@@ -25,7 +25,8 @@ pub(crate) fn disconnected(model: &Model) -> Vec<Finding> {
         let Some(small) = pieces.iter().min_by_key(|p| p.len()) else {
             continue;
         };
-        if pieces.len() < 2 {
+        // A cut through a bolt is meant to part it.
+        if pieces.len() < 2 || !body.pieces.is_empty() {
             continue;
         }
         let mut finding = Finding::new(
