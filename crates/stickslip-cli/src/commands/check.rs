@@ -83,6 +83,7 @@ fn summary(problem: &Problem) -> String {
         ("materials", names(&problem.material)),
         ("obstacles", names(&problem.obstacle)),
         ("sets", names(&problem.set)),
+        ("reference points", names(&problem.reference)),
         ("loads", names(&problem.load)),
         ("supports", names(&problem.support)),
         ("probes", names(&problem.probe)),

@@ -1,3 +1,5 @@
+use std::fmt;
+
 /// The numbering of unknowns: `dim` displacements a point, point by point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dofs {
@@ -35,7 +37,26 @@ impl Dofs {
     }
 }
 
-/// A direction of space.
+/// A motion of a rigid body, by its axis (0 = x).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Of the centre of mass.
+    Translation(usize),
+    /// About the centre of mass.
+    Rotation(usize),
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let axis = |i: &usize| ["x", "y", "z"][*i];
+        match self {
+            Motion::Translation(i) => write!(f, "translation {}", axis(i)),
+            Motion::Rotation(i) => write!(f, "rotation about {}", axis(i)),
+        }
+    }
+}
+
+/// A direction of space, or an axis about which reference points turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -46,6 +67,22 @@ pub enum Component {
     Y,
     /// Along z.
     Z,
+    /// About x `[rad]`, of reference points alone.
+    RotationX,
+    /// About y `[rad]`, of reference points alone.
+    RotationY,
+    /// About z `[rad]`, of reference points alone.
+    RotationZ,
+}
+
+impl Component {
+    /// As the motion of a reference point.
+    pub fn motion(self) -> Motion {
+        match self as usize {
+            i @ 0..3 => Motion::Translation(i),
+            i => Motion::Rotation(i - 3),
+        }
+    }
 }
 
 crate::keep!(Dofs { dim, points });

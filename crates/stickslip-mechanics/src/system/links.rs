@@ -11,10 +11,9 @@
 //! Newton transforms contact blocks before they are solved with. Supports and initial velocities are turned into values of
 //! hidden dofs once, in `problem/build/rigid.rs`.
 
-use std::fmt;
 use std::ops::Range;
 
-use super::{ContactBlock, Dofs};
+use super::{ContactBlock, Dofs, Motion};
 use crate::linear::BlockCsr;
 use crate::math::{Vec3, norm, scale};
 
@@ -29,26 +28,8 @@ pub enum Freedom {
     Space,
 }
 
-/// A motion of a rigid body, by its axis (0 = x).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
-    /// Of the centre of mass.
-    Translation(usize),
-    /// About the centre of mass.
-    Rotation(usize),
-}
-
-impl fmt::Display for Motion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let axis = |i: &usize| ["x", "y", "z"][*i];
-        match self {
-            Motion::Translation(i) => write!(f, "translation {}", axis(i)),
-            Motion::Rotation(i) => write!(f, "rotation about {}", axis(i)),
-        }
-    }
-}
-
-/// The points of a rigid body and the two hidden points whose dofs move them.
+/// The points of a rigid body and the two hidden points whose dofs move them; of a reference point, which belongs to no mesh, the hidden
+/// points alone.
 ///
 /// Rotations are small: a point moves by `q + θ × arm`. The first hidden point has the translation `q`, the second `θ` times a length
 /// of the body, so that all unknowns are lengths and all that acts on them are forces. In the plane `θ` has one component, which is
@@ -57,7 +38,9 @@ impl fmt::Display for Motion {
 pub struct Link {
     /// The points.
     pub points: Range<usize>,
-    /// From the centre of mass to each of them `[m]`.
+    /// The centre of mass, or the reference point `[m]`.
+    pub centre: Vec3,
+    /// From the centre to each of the points `[m]`.
     pub arms: Vec<Vec3>,
     /// The first hidden point; the second follows it.
     pub hidden: usize,
@@ -91,9 +74,20 @@ impl Link {
         scale(1.0 / self.length, dofs.vector(u, self.hidden + 1))
     }
 
+    /// The hidden dof of a motion; `None` where it has none.
+    pub fn dof(&self, dofs: Dofs, motion: Motion) -> Option<usize> {
+        let mut all = self.motions(dofs).into_iter();
+        all.find(|(_, m)| *m == motion).map(|(dof, _)| dof)
+    }
+
     /// By which hidden dofs a point moves in a direction, and how far.
     fn row(&self, dofs: Dofs, point: usize, component: usize) -> Row {
-        let arm = scale(1.0 / self.length, self.arms[point - self.points.start]);
+        self.row_at(dofs, self.arms[point - self.points.start], component)
+    }
+
+    /// The same for what moves along at an arm `[m]` from the centre.
+    pub fn row_at(&self, dofs: Dofs, arm: Vec3, component: usize) -> Row {
+        let arm = scale(1.0 / self.length, arm);
         let (q, turn) = (dofs.of(self.hidden, component), self.hidden + 1);
         match (self.freedom, component) {
             (Freedom::Axial, 1) => [(q, 1.0), (q, 0.0), (q, 0.0)],
@@ -115,13 +109,23 @@ impl Link {
 /// A row of `T`: hidden dofs and factors, some of them zero.
 pub type Row = [(usize, f64); 3];
 
-/// All rigid bodies of a model: `u = T q` at their points, by the dofs `q` of their hidden points.
+/// A dof of a reference point that does nothing but follow what points of bodies do: a weighted sum of their displacements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Follower {
+    /// The dof.
+    pub dof: usize,
+    /// Dofs of points and factors.
+    pub row: Vec<(usize, f64)>,
+}
+
+/// All rigid bodies of a model: `u = T q` at their points, by the dofs `q` of their hidden points. Reference points stand among them.
 ///
 /// Where there are none, everything here does nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Links {
     dofs: Dofs,
     all: Vec<Link>,
+    followers: Vec<Follower>,
     /// The rigid body of every point, [`NONE`] without one; empty if there are none at all.
     owner: Vec<u32>,
 }
@@ -142,7 +146,30 @@ impl Links {
             assert_eq!(link.points.len(), link.arms.len(), "arms of a rigid body");
             owner[link.points.clone()].fill(i as u32);
         }
-        Links { dofs, all, owner }
+        Links {
+            dofs,
+            all,
+            followers: Vec::new(),
+            owner,
+        }
+    }
+
+    /// The same with dofs that follow points of bodies.
+    #[must_use]
+    pub fn with_followers(mut self, followers: Vec<Follower>) -> Self {
+        self.followers = followers;
+        self
+    }
+
+    /// The numbering of dofs, hidden points counted.
+    pub fn dofs(&self) -> Dofs {
+        self.dofs
+    }
+
+    /// The points whose displacements are handed to dofs that follow.
+    pub fn followed(&self) -> impl Iterator<Item = usize> + '_ {
+        let rows = self.followers.iter().flat_map(|f| &f.row);
+        rows.map(|(dof, _)| self.dofs.locate(*dof).0)
     }
 
     /// Whether there are none.
@@ -204,6 +231,9 @@ impl Links {
                 marks[dof] |= motions.iter().all(|(d, _)| *d != dof);
             }
         }
+        for follower in &self.followers {
+            marks[follower.dof] = true;
+        }
     }
 
     /// Moves the points of rigid bodies as the hidden dofs say: displacements, their increments, velocities, accelerations.
@@ -211,10 +241,20 @@ impl Links {
         self.rows(&mut |dof, row| {
             u[dof] = row.iter().map(|&(hidden, factor)| factor * u[hidden]).sum();
         });
+        for Follower { dof, row } in &self.followers {
+            u[*dof] = row.iter().map(|&(other, factor)| factor * u[other]).sum();
+        }
     }
 
     /// `Tᵀ f`: moves the forces on points of rigid bodies to the hidden dofs.
     pub fn transfer(&self, f: &mut [f64]) {
+        for Follower { dof, row } in &self.followers {
+            let force = std::mem::take(&mut f[*dof]);
+            if force != 0.0 {
+                row.iter()
+                    .for_each(|&(other, factor)| f[other] += factor * force);
+            }
+        }
         self.rows(&mut |dof, row| {
             let force = std::mem::take(&mut f[dof]);
             if force != 0.0 {
@@ -361,6 +401,7 @@ mod tests {
             [x[0], x[1], if dim == 3 { x[2] } else { 0.0 }]
         };
         let link = |points: Range<usize>, hidden, length| Link {
+            centre: [0.0; 3],
             arms: points.clone().map(arm).collect(),
             points,
             hidden,

@@ -154,7 +154,7 @@ impl Explicit {
 /// Lumped masses of elastic bodies and those of rigid ones, by point.
 fn masses(model: &Model) -> Vec<f64> {
     let mut masses = lumped(model);
-    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+    for rigid in model.rigid() {
         masses[model.links.all()[rigid.link].hidden] += rigid.mass;
     }
     masses

@@ -81,6 +81,11 @@ impl Frame {
                 constraints.prescribe(e.dof, value);
             }
         }
+        for still in model.references.iter().flat_map(|r| r.still.get(self.step)) {
+            for &dof in still {
+                constraints.prescribe(dof, self.state.u[dof]);
+            }
+        }
         model.links.dependent(&mut constraints.fixed);
         constraints
     }

@@ -8,10 +8,10 @@ use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Change;
 use crate::io::frd::Encoding;
-use crate::math::Mat3;
+use crate::math::{Mat3, Vec3};
 use crate::mesh::Mesh;
 use crate::newton::{BodyPoints, Settings};
-use crate::system::{Dofs, Fields, Links, Schedule, State};
+use crate::system::{Dofs, Fields, Links, Motion, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
 pub use crate::time::{ContactAt, ContactMass};
@@ -24,12 +24,14 @@ pub struct Model {
     pub space: Space,
     /// All bodies in one mesh; bodies share no points.
     pub mesh: Arc<Mesh>,
-    /// Numbering of the unknowns: the points of the mesh, then two hidden ones for each rigid body.
+    /// Numbering of the unknowns: the points of the mesh, then two hidden ones for each rigid body and each reference point.
     pub dofs: Dofs,
-    /// The rigid bodies.
+    /// The rigid bodies, then the reference points.
     pub links: Links,
     /// The bodies.
     pub bodies: Vec<Body>,
+    /// The reference points.
+    pub references: Vec<Reference>,
     /// Loads.
     pub loads: Vec<Load>,
     /// Springs to ground.
@@ -78,6 +80,21 @@ pub struct Body {
     pub rigid: Option<Rigid>,
     /// Rayleigh damping: factors of mass `[1/s]` and stiffness `[s]`.
     pub rayleigh: [f64; 2],
+}
+
+/// A point that belongs to no mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// Name in the problem file.
+    pub name: String,
+    /// Index of its link.
+    pub link: usize,
+    /// Its mass if it has one.
+    pub rigid: Option<Rigid>,
+    /// The one body that is tied to it, if it is one.
+    pub body: Option<usize>,
+    /// By step the dofs that are left out because nothing resists them.
+    pub still: Vec<Vec<usize>>,
 }
 
 /// What resists the motion of a rigid body.
@@ -199,6 +216,33 @@ impl Model {
             bodies,
             elastic: meshed,
         }
+    }
+
+    /// Masses of rigid bodies and reference points.
+    pub fn rigid(&self) -> impl Iterator<Item = Rigid> + '_ {
+        let bodies = self.bodies.iter().filter_map(|b| b.rigid);
+        bodies.chain(self.references.iter().filter_map(|r| r.rigid))
+    }
+
+    /// What the reference points tied to a body do, by dof, when it moves without strain: its velocity by place, and how it turns.
+    pub(crate) fn carried(
+        &self,
+        body: usize,
+        velocity: impl Fn(Vec3) -> Vec3,
+        turn: Vec3,
+    ) -> Vec<(usize, f64)> {
+        let own = self.references.iter().filter(|r| r.body == Some(body));
+        let links = own.map(|r| &self.links.all()[r.link]);
+        let motions = links.flat_map(|link| {
+            let moved = velocity(link.centre);
+            let of = move |motion| match motion {
+                Motion::Translation(i) => moved[i],
+                Motion::Rotation(i) => turn[i] * link.length,
+            };
+            let motions = link.motions(self.dofs).into_iter();
+            motions.map(move |(dof, motion)| (dof, of(motion)))
+        });
+        motions.collect()
     }
 
     /// The bodies that deform.

@@ -4,7 +4,7 @@ use super::contact::Contact;
 use super::definition::Model;
 use super::scene::Scene;
 use crate::body::{RigidMode, rigid_modes};
-use crate::math::{Vec3, symmetric_eigen};
+use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
 
 /// A body that supports and springs leave free to move.
 #[derive(Clone)]
@@ -48,6 +48,12 @@ impl Scene<'_> {
                 None => {
                     let points: Vec<usize> = body.points.clone().collect();
                     let mut modes = rigid_modes(&model.mesh, &points, model.space);
+                    let places = points.iter().map(|p| model.mesh.points[*p]);
+                    let sum = places.fold([0.0; 3], add);
+                    let centre = scale(1.0 / points.len().max(1) as f64, sum);
+                    for mode in &mut modes {
+                        carry(model, index, centre, mode);
+                    }
                     // What has been cut off moves by itself as well.
                     for piece in &body.pieces {
                         let own = rigid_modes(&model.mesh, piece, model.space).into_iter();
@@ -142,6 +148,20 @@ impl Scene<'_> {
 
 /// What is said of motions of a part that a pretension has cut off.
 pub(crate) const BEYOND: &str = "beyond the cut";
+/// Adds to a motion of an elastic body what the reference points tied to it do.
+fn carry(model: &Model, body: usize, centre: Vec3, mode: &mut RigidMode) {
+    let unit = |name: &str, kind: &str| -> Vec3 {
+        let axis = name.strip_prefix(kind);
+        ["x", "y", "z"].map(|a| f64::from(u8::from(axis == Some(a))))
+    };
+    let shift = unit(&mode.name, "translation ");
+    let turn = unit(&mode.name, "rotation about ");
+    let velocity = |x: Vec3| add(shift, cross(turn, sub(x, centre)));
+    mode.vector.resize(model.dofs.count(), 0.0);
+    for (dof, moved) in model.carried(body, velocity, turn) {
+        mode.vector[dof] = moved;
+    }
+}
 
 /// The direction of a translation.
 fn axis(motion: &str) -> Option<usize> {

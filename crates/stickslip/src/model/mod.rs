@@ -16,8 +16,8 @@ pub(crate) mod unheld;
 pub use contact::Contact;
 pub use course::Course;
 pub use definition::{
-    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe, Rigid,
-    Solution, Step, Support,
+    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
+    Reference, Rigid, Solution, Step, Support,
 };
 pub use frame::{Frame, Motion};
 pub use ledger::{EnergyLedger, EnergyQuality};

@@ -33,6 +33,16 @@ impl<'a> Scene<'a> {
         self.frame.constraints(self.model, t).fixed
     }
 
+    /// Dofs that supports prescribe at the time of the state.
+    pub fn supported_dofs(&self) -> std::collections::BTreeSet<usize> {
+        let t = self.frame.state.t;
+        let acting = self.model.supports.iter();
+        let acting = acting.filter(|s| s.schedule.active(t));
+        acting
+            .flat_map(|s| s.entries.iter().map(|e| e.dof))
+            .collect()
+    }
+
     /// What acts on the points from outside, by dof `[N]`: loads, reactions of supports, and equations. In equilibrium it is what bodies,
     /// springs and interfaces resist with.
     pub fn external_forces(&self) -> Vec<f64> {

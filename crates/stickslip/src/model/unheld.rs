@@ -70,7 +70,11 @@ impl Mode {
             Some(_) if !self.moves(model, point) => 0.0,
             Some(&x) => self.velocity(x)[component],
             None if self.hidden == Some(dof) => 1.0,
-            None => 0.0,
+            None => {
+                let carried = model.carried(self.body, |x| self.velocity(x), self.turn);
+                let own = carried.into_iter().find(|(d, _)| *d == dof);
+                own.map_or(0.0, |(_, moved)| moved)
+            }
         }
     }
 }

@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::couplings::CouplingKind;
 
-/// `[coupling.NAME]`: an equation between displacements, or a spring, a gap or a dashpot between points.
+/// `[coupling.NAME]`: an equation between displacements, a spring, a gap or a dashpot between points, or what ties points to a reference point.
 ///
 /// Over the step in which it becomes active an equation leads its sum linearly from what it is to the value, unless an amplitude says otherwise; in a step
 /// that does not list it, it lets go like a support. A spring that is active in the first step acts in full from the beginning; later the

@@ -17,6 +17,7 @@ use super::output::Output;
 use super::pretension::Pretension;
 use super::probe::Probe;
 use super::quality::Quality;
+use super::reference::Reference;
 use super::set::Set;
 use super::solver::Solver;
 use super::step::Step;
@@ -53,6 +54,9 @@ pub struct Problem {
     /// Sets chosen by geometry, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub set: BTreeMap<String, Set>,
+    /// Points that belong to no mesh, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub reference: BTreeMap<String, Reference>,
     /// Pairs of surfaces that may touch, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub interface: BTreeMap<String, Interface>,
@@ -65,7 +69,7 @@ pub struct Problem {
     /// Masses at points, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub mass: BTreeMap<String, Mass>,
-    /// Equations between displacements and springs between points, by name.
+    /// Equations between displacements, springs between points and ties to reference points, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub coupling: BTreeMap<String, Coupling>,
     /// Cuts through bolts that are tightened, by name.

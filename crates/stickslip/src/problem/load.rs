@@ -9,7 +9,7 @@ use crate::body::loads::LoadKind;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Load {
-    /// Where it acts: `body.set`, a `[set.NAME]`, or a body.
+    /// Where it acts: `body.set`, a `[set.NAME]`, a body, or, of a force at points, a moment or springs, a `[reference.NAME]`.
     pub set: String,
     /// An `[amplitude.NAME]` over the time of the analysis, by which the load is multiplied.
     #[serde(default, skip_serializing_if = "Option::is_none")]

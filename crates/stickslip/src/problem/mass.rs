@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Mass {
-    /// The points: `body.set`, a `[set.NAME]`, or a body.
+    /// The points: `body.set`, a `[set.NAME]`, a body, or a `[reference.NAME]`.
     pub set: String,
     /// Mass at each point `[kg]`: over the whole thickness of a plane body, around the whole circumference of an axisymmetric one.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]

@@ -34,6 +34,7 @@ mod pretension;
 mod probe;
 mod prose;
 mod quality;
+mod reference;
 mod schema;
 mod set;
 mod solver;
@@ -66,6 +67,7 @@ pub use output::{CheckpointPlan, Frd, Output};
 pub use pretension::{FacetSection, Pretension, Section, Tension};
 pub use probe::Probe;
 pub use quality::Quality;
+pub use reference::Reference;
 #[cfg(feature = "schema")]
 pub use schema::derived as derived_schema;
 pub use schema::schema;

@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::system::Component;
+
 /// `[model]`: the space in which the bodies live.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -34,6 +36,15 @@ impl SpaceKind {
         match self {
             SpaceKind::Solid => 3,
             _ => 2,
+        }
+    }
+
+    /// Whether points move, or reference points turn, like that.
+    pub fn has(self, component: Component) -> bool {
+        match component {
+            Component::X | Component::Y => true,
+            Component::Z | Component::RotationX | Component::RotationY => self == SpaceKind::Solid,
+            Component::RotationZ => self != SpaceKind::Axisymmetric,
         }
     }
 

@@ -3,8 +3,8 @@
 use crate::assess::view::View;
 use crate::body::Around;
 use crate::contact::interface::Resultant;
-use crate::model::definition::Support;
-use crate::system::Tally;
+use crate::model::definition::{Reference, Support};
+use crate::system::{Motion, Tally};
 use crate::time::Trial;
 
 /// A row of the history: names and values.
@@ -98,6 +98,9 @@ pub(crate) fn row(
     for support in &view.model.supports {
         push_reaction(&mut row, &support.name, view, support);
     }
+    for reference in &view.model.references {
+        push_reference(&mut row, view, reference);
+    }
     push_probes(&mut row, view, around);
     row
 }
@@ -116,6 +119,29 @@ fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
     }
     for (c, s) in sum.iter().enumerate().take(dofs.dim) {
         row.push(format!("{name}.RF{}", c + 1), *s);
+    }
+}
+
+/// Displacement and rotation of a reference point, and force and moment of the supports that hold it.
+fn push_reference(row: &mut Row, view: &View, reference: &Reference) {
+    let dofs = view.model.dofs;
+    let link = &view.model.links.all()[reference.link];
+    let held = view.supported_dofs();
+    for (letters, forces) in [(["U", "UR"], false), (["RF", "RM"], true)] {
+        for (dof, motion) in link.motions(dofs) {
+            let value = match forces {
+                false => view.frame.state.u[dof],
+                true if held.contains(&dof) => view.frame.forces[dof],
+                true => 0.0,
+            };
+            // Unknowns are lengths and what acts on them forces.
+            let (letter, axis, value) = match (motion, forces) {
+                (Motion::Translation(axis), _) => (letters[0], axis, value),
+                (Motion::Rotation(axis), false) => (letters[1], axis, value / link.length),
+                (Motion::Rotation(axis), true) => (letters[1], axis, value * link.length),
+            };
+            row.push(format!("{}.{letter}{}", reference.name, axis + 1), value);
+        }
     }
 }
 

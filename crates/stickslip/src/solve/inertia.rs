@@ -429,7 +429,7 @@ pub(crate) fn lumped(model: &Model) -> Vec<f64> {
 /// Adds the masses and moments of inertia of rigid bodies at their hidden points.
 fn add_rigid_mass(model: &Model, matrix: &mut BlockCsr) {
     let dim = model.dofs.dim;
-    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+    for rigid in model.rigid() {
         let hidden = model.links.all()[rigid.link].hidden;
         for i in 0..dim {
             matrix.add_diagonal(model.dofs.of(hidden, i), rigid.mass);

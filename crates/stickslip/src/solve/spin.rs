@@ -15,10 +15,10 @@ pub(crate) struct Spin {
 impl Spin {
     /// Of all rigid bodies that can turn.
     pub fn all(model: &Model) -> Vec<Spin> {
-        let rigid = model.bodies.iter().filter_map(|b| b.rigid);
+        let rigid = model.rigid();
         let links = model.links.all();
         rigid
-            .filter(|r| links[r.link].freedom != Freedom::Axial)
+            .filter(|r| links[r.link].freedom != Freedom::Axial && r.spin[0][0] > 0.0)
             .map(|r| Spin {
                 dofs: model.dofs,
                 point: links[r.link].hidden + 1,

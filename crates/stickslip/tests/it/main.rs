@@ -27,6 +27,7 @@ mod pretension;
 mod price;
 mod problem_files;
 mod quality;
+mod references;
 mod restart;
 mod restep;
 mod rigid;

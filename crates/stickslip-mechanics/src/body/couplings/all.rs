@@ -90,6 +90,8 @@ pub struct Coupling {
     pub tie: Tie,
     /// When it acts. Of an equation the factor says how far its sums have come; of a spring it multiplies the stiffness.
     pub schedule: Schedule,
+    /// Whether it ties points to a reference point, which reports what acts on it.
+    pub referred: bool,
     /// `true` if the factor multiplies the value of the equation; `false` if it leads to the value from what the sum was when it began to act.
     pub table: bool,
 }
@@ -503,12 +505,12 @@ impl Couplings {
         stored
     }
 
-    /// The couplings with the sum of the forces along their rows at the last accepted state `[N]`, and the mean of the sums of displacements `[m]`. A
-    /// force is positive where it acts against a growing sum, as that of a stretched spring. Of pretensions they are the force that draws the sides together and
-    /// the shortening.
+    /// The couplings, but for those to reference points, with the sum of the forces along their rows at the last accepted state `[N]`, and the mean of the sums
+    /// of displacements `[m]`. A force is positive where it acts against a growing sum, as that of a stretched spring. Of pretensions they are the force that
+    /// draws the sides together and the shortening.
     pub fn report<'a>(&'a self, u: &'a [f64]) -> impl Iterator<Item = (&'a str, f64, f64)> + 'a {
         let mut first = 0;
-        self.all.iter().map(move |coupling| {
+        self.all.iter().filter_map(move |coupling| {
             let rows = first..first + coupling.rows.len();
             first = rows.end;
             let (own, sign) = match &coupling.tie {
@@ -522,7 +524,8 @@ impl Couplings {
             let forces = &self.memory.forces[rows.start + own.start..rows.start + own.end];
             let force: f64 = forces.iter().sum();
             let sum: f64 = coupling.rows[own].iter().map(|r| r.sum(u)).sum();
-            (coupling.name.as_str(), sign * force, sum / count)
+            let said = (coupling.name.as_str(), sign * force, sum / count);
+            (!coupling.referred).then_some(said)
         })
     }
 

@@ -2,10 +2,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Row, Tie};
 
-use super::model::{CouplingModel, pair};
+use super::model::{CouplingModel, Ground, pair};
 use crate::error::Diagnostic;
 use crate::math::{distance, scale, sub};
-use crate::mesh::Mesh;
 use crate::registry::Samples;
 
 /// A spring along the line between two points. The line is that between the points where they are meshed: their motion relative to the distance
@@ -16,9 +15,9 @@ use crate::registry::Samples;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct AxialSpring {
-    /// Where it begins: `body.set`, a `[set.NAME]`, or a body.
+    /// Where it begins: `body.set`, a `[set.NAME]`, a body, or a `[reference.NAME]`.
     pub from: String,
-    /// Where it ends: `body.set`, a `[set.NAME]`, or a body.
+    /// Where it ends: `body.set`, a `[set.NAME]`, a body, or a `[reference.NAME]`.
     pub to: String,
     /// Stiffness of each spring `[N/m]`: over the whole thickness of a plane body, around the whole circumference of an axisymmetric one.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
@@ -30,19 +29,21 @@ impl CouplingModel for AxialSpring {
         vec![("from".into(), &self.from), ("to".into(), &self.to)]
     }
 
-    fn rows(&self, points: &[Vec<usize>], mesh: &Mesh, dim: usize) -> Result<Vec<Row>, Diagnostic> {
+    fn rows(&self, points: &[Vec<usize>], ground: Ground) -> Result<Vec<Row>, Diagnostic> {
+        let (mesh, dim) = (ground.mesh, ground.dim());
         let tuples = pair(points, &self.sets())?.into_iter();
         tuples
             .map(|ends| {
                 let [a, b] = [ends[0], ends[1]];
-                let [from, to] = [mesh.points[a], mesh.points[b]];
+                let [from, to] = [ground.place(a), ground.place(b)];
                 let length = distance(from, to);
                 let size = mesh.diameter();
                 if length <= 1e-12 * size {
-                    let message = format!(
-                        "nodes {} and {} lie at the same place",
-                        mesh.point_ids[a], mesh.point_ids[b]
-                    );
+                    let name = |p: usize| match mesh.point_ids.get(p) {
+                        Some(id) => format!("node {id}"),
+                        None => "the reference point".into(),
+                    };
+                    let message = format!("{} and {} lie at the same place", name(a), name(b));
                     let help = "between such points a `spring` says along which component it acts";
                     return Err(Diagnostic::new("to", message).help(help));
                 }

@@ -2,9 +2,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Row, Tie};
 
-use super::model::{CouplingModel, pair};
+use super::model::{CouplingModel, Ground, pair};
 use crate::error::Diagnostic;
-use crate::mesh::Mesh;
 use crate::registry::Samples;
 use crate::system::Component;
 
@@ -30,9 +29,9 @@ pub struct Equation {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Term {
-    /// The points: `body.set`, a `[set.NAME]`, or a body.
+    /// The points: `body.set`, a `[set.NAME]`, a body, or a `[reference.NAME]`.
     pub set: String,
-    /// The direction of the displacement.
+    /// The direction of the displacement; of a reference point its rotation as well, in rad: `rotation-z`.
     pub component: Component,
     /// What it is multiplied by `[-]`.
     #[serde(default = "one", skip_serializing_if = "is_one")]
@@ -56,16 +55,11 @@ impl CouplingModel for Equation {
         sets(&self.terms)
     }
 
-    fn rows(
-        &self,
-        points: &[Vec<usize>],
-        _mesh: &Mesh,
-        dim: usize,
-    ) -> Result<Vec<Row>, Diagnostic> {
+    fn rows(&self, points: &[Vec<usize>], ground: Ground) -> Result<Vec<Row>, Diagnostic> {
         if !self.value.is_finite() {
             return Err(Diagnostic::new("value", "the value is not finite"));
         }
-        rows(&self.terms, points, dim)
+        rows(&self.terms, points, ground)
     }
 
     fn tie(&self) -> Tie {
@@ -84,15 +78,9 @@ pub(super) fn sets(terms: &[Term]) -> Vec<(String, &str)> {
 pub(super) fn rows(
     terms: &[Term],
     points: &[Vec<usize>],
-    dim: usize,
+    ground: Ground,
 ) -> Result<Vec<Row>, Diagnostic> {
     for (i, term) in terms.iter().enumerate() {
-        if term.component as usize >= dim {
-            return Err(Diagnostic::new(
-                format!("terms.{i}.component"),
-                "a displacement along z in a plane model",
-            ));
-        }
         if !term.factor.is_finite() {
             return Err(Diagnostic::new(
                 format!("terms.{i}.factor"),
@@ -103,8 +91,14 @@ pub(super) fn rows(
     let tuples = pair(points, &sets(terms))?.into_iter();
     let (mut rows, mut empty) = (Vec::new(), None);
     for tuple in tuples {
-        let pairs = tuple.into_iter().zip(terms);
-        match Row::new(pairs.map(|(p, t)| (p, t.component as usize, t.factor)), dim) {
+        let mut sum = Vec::with_capacity(terms.len());
+        for (i, (point, term)) in tuple.into_iter().zip(terms).enumerate() {
+            let found = ground.term(point, term.component);
+            let (point, slot, unit) =
+                found.map_err(|e| Diagnostic::new(format!("terms.{i}.component"), e))?;
+            sum.push((point, slot, term.factor * unit));
+        }
+        match Row::new(sum, ground.dim()) {
             Ok(row) => rows.push(row),
             // A single point among those that are paired with it does what it does.
             Err(e) => empty = Some(e.under("terms")),

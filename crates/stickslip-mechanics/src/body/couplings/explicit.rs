@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::all::{Act, Hold, moved_by};
+use super::all::{Act, Hold};
 use super::{Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
@@ -24,38 +24,25 @@ impl Couplings {
     /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is.
     pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {
         let mut hold = std::mem::take(&mut self.hold);
-        // Equations at the same place, or on the same rigid body, share what there is.
-        let mut met = BTreeMap::<(bool, usize), usize>::new();
+        // Equations at the same place, or on the same rigid body, share what there is: by how much a unit of stiffness of all of them raises the squared frequency.
+        let mut met = BTreeMap::<(bool, usize), f64>::new();
         let place = |dof: usize| match links.of_point(dof / self.dim) {
             Some(body) => (true, body),
             None => (false, dof),
         };
         for (i, coupling, row) in self.rows() {
             if matches!(self.act(i, coupling, t), Act::Held(_) | Act::Stopped(_)) {
-                row.terms()
-                    .for_each(|(dof, _)| *met.entry(place(dof)).or_default() += 1);
+                let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
+                for (dof, a) in row.terms() {
+                    *met.entry(place(dof)).or_default() += a.abs() * all * inverse_mass[dof];
+                }
             }
         }
         for (i, _, row) in self.rows() {
             let shared = row.terms().filter_map(|(dof, _)| met.get(&place(dof)));
-            let shared = shared.copied().max().unwrap_or(1) as f64;
-            let terms: Vec<(usize, f64)> = row.terms().collect();
-            let all: f64 = terms.iter().map(|(_, a)| a.abs()).sum();
-            let rows = terms
-                .iter()
-                .map(|&(dof, a)| a.abs() * all * inverse_mass[dof]);
-            let rigid = moved_by(row, links).len() != terms.len();
-            // Of a rigid body what all its points do adds up.
-            let unit = match rigid {
-                true => rows.sum::<f64>(),
-                false => rows.fold(0.0, f64::max),
-            };
+            let unit = shared.copied().fold(0.0, f64::max);
             hold[i] = Hold {
-                stiffness: if unit > 0.0 {
-                    highest / (unit * shared)
-                } else {
-                    0.0
-                },
+                stiffness: if unit > 0.0 { highest / unit } else { 0.0 },
                 idle: unit == 0.0,
             };
         }

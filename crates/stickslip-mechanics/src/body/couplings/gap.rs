@@ -2,9 +2,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Row, Term, Tie, equation};
 
-use super::model::CouplingModel;
+use super::model::{CouplingModel, Ground};
 use crate::error::Diagnostic;
-use crate::mesh::Mesh;
 use crate::registry::Samples;
 use crate::system::Component;
 
@@ -35,16 +34,11 @@ impl CouplingModel for Gap {
         equation::sets(&self.terms)
     }
 
-    fn rows(
-        &self,
-        points: &[Vec<usize>],
-        _mesh: &Mesh,
-        dim: usize,
-    ) -> Result<Vec<Row>, Diagnostic> {
+    fn rows(&self, points: &[Vec<usize>], ground: Ground) -> Result<Vec<Row>, Diagnostic> {
         if !self.clearance.is_finite() {
             return Err(Diagnostic::new("clearance", "the clearance is not finite"));
         }
-        equation::rows(&self.terms, points, dim)
+        equation::rows(&self.terms, points, ground)
     }
 
     fn tie(&self) -> Tie {

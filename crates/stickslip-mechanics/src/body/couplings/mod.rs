@@ -18,10 +18,12 @@
 mod all;
 mod axial_spring;
 mod dashpot;
+mod distributing;
 mod equation;
 mod explicit;
 mod force;
 mod gap;
+mod kinematic;
 mod model;
 mod motion;
 mod pretension;
@@ -31,9 +33,11 @@ mod spring;
 pub use all::{Coupling, Couplings, CouplingsMemory, CouplingsState, Tie};
 pub use axial_spring::AxialSpring;
 pub use dashpot::Dashpot;
+pub use distributing::{Distributing, SetWeight, Weights};
 pub use equation::{Equation, Term};
 pub use gap::Gap;
-pub use model::CouplingModel;
+pub use kinematic::Kinematic;
+pub use model::{CouplingModel, Ground};
 pub use pretension::{Course, Draw, Pretension};
 pub use row::Row;
 pub use spring::Spring;
@@ -51,5 +55,9 @@ crate::family! {
         Gap(Gap) = "gap",
         /// A damper against the rate of a weighted sum of displacements.
         Dashpot(Dashpot) = "dashpot",
+        /// Points follow a reference point as if they were rigid with it.
+        Kinematic(Kinematic) = "kinematic",
+        /// A reference point follows the mean motion of points, and hands its forces on to them.
+        Distributing(Distributing) = "distributing",
     }
 }

@@ -2,8 +2,75 @@
 
 use super::all::Tie;
 use super::row::Row;
+use crate::body::Space;
 use crate::error::Diagnostic;
-use crate::mesh::Mesh;
+use crate::math::Vec3;
+use crate::mesh::{FacetRef, Mesh};
+use crate::system::{Component, Dofs, Link, Links};
+
+/// The points that couplings tie together: those of the mesh, and behind them the reference points.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    /// The mesh of all bodies.
+    pub mesh: &'a Mesh,
+    /// Its space.
+    pub space: Space,
+    /// Rigid bodies and reference points.
+    pub links: &'a Links,
+}
+
+impl Ground<'_> {
+    /// Displacements a point.
+    pub fn dim(&self) -> usize {
+        self.space.dim()
+    }
+
+    /// The numbering of dofs, reference points counted.
+    pub fn dofs(&self) -> Dofs {
+        self.links.dofs()
+    }
+
+    /// The reference point that a point is; `None` for points of the mesh.
+    pub fn reference(&self, point: usize) -> Option<&Link> {
+        Some(&self.links.all()[self.links.of_hidden(point)?])
+    }
+
+    /// Where a point is `[m]`.
+    pub fn place(&self, point: usize) -> Vec3 {
+        self.reference(point)
+            .map_or_else(|| self.mesh.points[point], |link| link.centre)
+    }
+
+    /// The facets that a set of the mesh brings along, or those of the boundary all of whose points are these.
+    pub fn facets(&self, set: &str, points: &[usize]) -> Vec<FacetRef> {
+        match self.mesh.facet_sets.get(set) {
+            Some(facets) if !facets.is_empty() => facets.clone(),
+            _ => self.mesh.boundary_within(points),
+        }
+    }
+
+    /// The dof of a motion of a point as `(point, component)`, and how much of the motion one unit of it is.
+    ///
+    /// # Errors
+    /// If the space has no such direction, or the point cannot turn.
+    pub fn term(&self, point: usize, component: Component) -> Result<(usize, usize, f64), String> {
+        let (index, dim) = (component as usize, self.dim());
+        if index < 3 {
+            return match index < dim {
+                true => Ok((point, index, 1.0)),
+                false => Err("a displacement along z in a plane model".into()),
+            };
+        }
+        let Some(link) = self.reference(point) else {
+            return Err("only reference points have rotations".into());
+        };
+        let Some(dof) = link.dof(self.dofs(), component.motion()) else {
+            return Err(format!("there is no {} in this space", component.motion()));
+        };
+        let (point, slot) = self.dofs().locate(dof);
+        Ok((point, slot, 1.0 / link.length))
+    }
+}
 
 /// A kind of coupling.
 pub trait CouplingModel {
@@ -11,14 +78,24 @@ pub trait CouplingModel {
     fn sets(&self) -> Vec<(String, &str)>;
 
     /// One row for every tuple of points, the `k`-th of each set; a set of one point pairs with all of the others. `points` holds those of each of
-    /// [`sets`](CouplingModel::sets), ascending, `dim` is that of the space.
+    /// [`sets`](CouplingModel::sets), ascending; of a reference point that of its translation.
     ///
     /// # Errors
     /// Sets that cannot be paired, directions that the space has not, or rows without meaning.
-    fn rows(&self, points: &[Vec<usize>], mesh: &Mesh, dim: usize) -> Result<Vec<Row>, Diagnostic>;
+    fn rows(&self, points: &[Vec<usize>], ground: Ground) -> Result<Vec<Row>, Diagnostic>;
 
     /// What the rows do.
     fn tie(&self) -> Tie;
+
+    /// The reference point it belongs to.
+    fn reference(&self) -> Option<&str> {
+        None
+    }
+
+    /// Whether each row says what a motion of the reference point is, given those of the points.
+    fn leads(&self) -> bool {
+        false
+    }
 }
 
 /// The tuples of points that sets of `n` or of one point make.

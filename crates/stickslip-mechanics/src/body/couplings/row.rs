@@ -22,10 +22,11 @@ impl Row {
         dim: usize,
     ) -> Result<Self, Diagnostic> {
         let mut points: Vec<usize> = Vec::new();
+        let mut known = std::collections::BTreeMap::new();
         let mut factors: Vec<f64> = Vec::new();
         let mut largest = 0.0_f64;
         for (point, component, factor) in terms {
-            let at = points.iter().position(|&p| p == point).unwrap_or_else(|| {
+            let at = *known.entry(point).or_insert_with(|| {
                 points.push(point);
                 factors.resize(factors.len() + dim, 0.0);
                 points.len() - 1

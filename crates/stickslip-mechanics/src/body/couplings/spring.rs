@@ -2,9 +2,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Row, Term, Tie, equation};
 
-use super::model::CouplingModel;
+use super::model::{CouplingModel, Ground};
 use crate::error::Diagnostic;
-use crate::mesh::Mesh;
 use crate::registry::Samples;
 use crate::system::Component;
 
@@ -29,13 +28,8 @@ impl CouplingModel for Spring {
         equation::sets(&self.terms)
     }
 
-    fn rows(
-        &self,
-        points: &[Vec<usize>],
-        _mesh: &Mesh,
-        dim: usize,
-    ) -> Result<Vec<Row>, Diagnostic> {
-        equation::rows(&self.terms, points, dim)
+    fn rows(&self, points: &[Vec<usize>], ground: Ground) -> Result<Vec<Row>, Diagnostic> {
+        equation::rows(&self.terms, points, ground)
     }
 
     fn tie(&self) -> Tie {

@@ -6,7 +6,7 @@ use super::super::geometry::{Table, by_nodes, coordinates, point};
 use crate::error::Diagnostic;
 use crate::math::Vec3;
 use crate::mesh::{Block, CellRef, FacetRef, Mesh};
-use crate::system::Dofs;
+use crate::system::{Dofs, Links};
 
 /// What a load kind acts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum Region {
 /// A set of the mesh, resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target<'a> {
-    /// Points.
+    /// Points, those of the mesh or a reference point.
     Points(&'a [usize]),
     /// Boundary facets.
     Facets(&'a [FacetRef]),
@@ -41,6 +41,8 @@ pub struct Domain<'a> {
     pub densities: &'a [f64],
     /// Masses at points beside those of the cells, ascending, each once `[kg]`.
     pub masses: &'a [(usize, f64)],
+    /// Rigid bodies and reference points.
+    pub links: &'a Links,
 }
 
 /// What a load kind comes down to; dofs ascending, each once.

@@ -9,6 +9,7 @@ mod centrifugal;
 mod domain;
 mod force;
 mod gravity;
+mod moment;
 mod nodal_force;
 mod pressure;
 mod spring;
@@ -22,6 +23,7 @@ pub use centrifugal::Centrifugal;
 pub use domain::{Action, Domain, LoadModel, Region, Target};
 pub use force::{Load, Spring};
 pub use gravity::Gravity;
+pub use moment::Moment;
 pub use nodal_force::NodalForce;
 pub use pressure::Pressure;
 pub use spring::GroundSpring;
@@ -42,6 +44,8 @@ crate::family! {
         Centrifugal(Centrifugal) = "centrifugal",
         /// Force at each point.
         NodalForce(NodalForce) = "nodal-force",
+        /// Moment on a reference point or a rigid body.
+        Moment(Moment) = "moment",
         /// Springs to ground at each point.
         Spring(GroundSpring) = "spring",
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::mesh::{CellRef, FacetRef, Mesh};
 use crate::registry::Family;
 use crate::shape::ElementKind;
-use crate::system::{Course, Piece, Schedule};
+use crate::system::{Course, Links, Piece, Schedule};
 
 fn forces(model: &dyn LoadModel, target: &Target, domain: &Domain) -> Vec<(usize, f64)> {
     match model.action(target, domain).expect("sound") {
@@ -46,6 +46,11 @@ fn side(mesh: &Mesh, x: f64) -> Vec<FacetRef> {
         .collect()
 }
 
+fn no_links() -> Links {
+    let dofs = crate::system::Dofs { dim: 3, points: 0 };
+    Links::new(dofs, Vec::new())
+}
+
 fn close(a: f64, b: f64, scale: f64) {
     assert!((a - b).abs() < 1e-12 * scale, "{a} {b}");
 }
@@ -56,6 +61,7 @@ fn consistent_loads_sum_to_the_total_force() {
         let dim = mesh.dim;
         let domain = Domain {
             masses: &[],
+            links: &no_links(),
             mesh: &mesh,
             space,
             densities: &[3.0],
@@ -130,6 +136,7 @@ fn body_force_around_an_axis_is_weighted_by_the_radius() {
     for (mesh, space) in cases().into_iter().filter(|c| c.1 == Space::Axisymmetric) {
         let domain = Domain {
             masses: &[],
+            links: &no_links(),
             mesh: &mesh,
             space,
             densities: &[1.0],
@@ -157,6 +164,7 @@ fn pressure_all_around_is_in_balance() {
         };
         let domain = Domain {
             masses: &[],
+            links: &no_links(),
             mesh: &mesh,
             space,
             densities: &[],
@@ -174,6 +182,7 @@ fn wrong_vectors_and_sets_are_refused() {
     let mesh = grid(ElementKind::Quad4, [1, 1, 0], &|x| x);
     let domain = Domain {
         masses: &[],
+        links: &no_links(),
         mesh: &mesh,
         space: PLANE_STRAIN,
         densities: &[0.0],

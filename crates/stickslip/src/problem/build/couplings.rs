@@ -4,18 +4,17 @@ use super::super::Problem;
 use super::fault::problem_error;
 use super::schedules::Timeline;
 use super::sets::Sets;
-use crate::body::couplings::{Coupling, CouplingKind};
+use crate::body::couplings::{Coupling, CouplingKind, Ground};
 use crate::error::Error;
-use crate::mesh::Mesh;
 
+/// The couplings, and of each whether its rows say what the motions of a reference point are.
 pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
-    mesh: &Mesh,
+    ground: Ground,
     timeline: &Timeline,
-) -> Result<Vec<Coupling>, Error> {
-    let dim = problem.model.space.dim();
-    let mut all = Vec::new();
+) -> Result<(Vec<Coupling>, Vec<bool>), Error> {
+    let (mut all, mut leads) = (Vec::new(), Vec::new());
     for (name, coupling) in &problem.coupling {
         let model = CouplingKind::as_dyn(&coupling.kind);
         let key = format!(
@@ -24,11 +23,12 @@ pub(super) fn build(
         );
         let mut points = Vec::new();
         for (below, set) in model.sets() {
-            points.push(sets.points(set, &format!("{key}.{below}"))?);
+            points.push(sets.any_points(set, &format!("{key}.{below}"))?);
         }
-        let rows = model.rows(&points, mesh, dim);
+        let rows = model.rows(&points, ground);
         let tie = model.tie();
         let amplitude = coupling.amplitude.as_deref();
+        leads.push(model.leads());
         all.push(Coupling {
             name: name.clone(),
             rows: rows.map_err(|e| problem_error(vec![e.under(&key)]))?,
@@ -38,8 +38,9 @@ pub(super) fn build(
                 _ => timeline.spring(problem, name, amplitude),
             },
             tie,
+            referred: model.reference().is_some(),
             table: amplitude.is_some(),
         });
     }
-    Ok(all)
+    Ok((all, leads))
 }

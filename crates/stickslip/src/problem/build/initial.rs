@@ -27,7 +27,7 @@ pub(super) fn build(
     let dofs = rigid.dofs;
     let mut out = Vec::new();
     for (name, initial) in &problem.initial {
-        let points = sets.points(&initial.set, &format!("initial.{name}.set"))?;
+        let points = sets.any_points(&initial.set, &format!("initial.{name}.set"))?;
         let by_dof = |value: &dyn Fn(usize) -> Vec3| -> Vec<(usize, f64)> {
             let values = points.iter().flat_map(|&p| {
                 let v = value(p);
@@ -44,15 +44,26 @@ pub(super) fn build(
             (Some(w), _) => vec3(w),
             (None, _) => [0.0; 3],
         };
-        let sum = points.iter().fold([0.0; 3], |s, &p| add(s, mesh.points[p]));
+        let place = |p: usize| match rigid.links.of_hidden(p) {
+            Some(link) => rigid.links.all()[link].centre,
+            None => mesh.points[p],
+        };
+        let sum = points.iter().fold([0.0; 3], |s, &p| add(s, place(p)));
         let centre = scale(1.0 / points.len().max(1) as f64, sum);
         let v0 = vec3(initial.velocity.as_deref().unwrap_or_default());
         let velocities = if initial.velocity.is_some() || initial.spin.is_some() {
-            by_dof(&|p| add(v0, cross(spin, sub(mesh.points[p], centre))))
+            by_dof(&|p| add(v0, cross(spin, sub(place(p), centre))))
         } else {
             Vec::new()
         };
         let (displacements, velocities) = match &initial.result {
+            Some(_) if points[0] >= mesh.points.len() => {
+                let message = "a reference point is in no result file";
+                return Err(problem_error(vec![Diagnostic::new(
+                    format!("initial.{name}.result"),
+                    message,
+                )]));
+            }
             Some(file) => from_result(name, &folder.join(file), &points, mesh, dofs)?,
             None => (displacements, velocities),
         };
@@ -195,6 +206,7 @@ pub(super) fn agree_with_supports(
             let (point, component) = rigid.dofs.locate(first);
             let place = match rigid.of_hidden(first) {
                 Some(body) => format!("in {} motions of rigid body `{body}`", wrong.len()),
+                None if point >= mesh.points.len() => "at the reference point".into(),
                 None => format!(
                     "at {} points, the first being node {} in {}",
                     wrong.len(),

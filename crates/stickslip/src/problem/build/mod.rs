@@ -8,6 +8,7 @@ mod fault;
 mod initial;
 mod meshes;
 mod pretensions;
+mod references;
 mod rigid;
 mod schedules;
 mod sets;
@@ -19,13 +20,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Problem, SpaceKind};
-use crate::body::couplings::Couplings;
+use crate::body::couplings::{Couplings, Ground};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
 use crate::model::{Body, Contact, Model, OutputPlan, Prescribed, Probe, Setup, Support};
 use crate::newton::Settings;
-use crate::system::{Dofs, Links};
+use crate::system::{Dofs, Links, Motion};
 pub use meshes::Meshes;
 
 use fault::problem_error;
@@ -85,10 +86,12 @@ impl Problem {
         snap::apply(&moves, &mut built.mesh)?;
         let mesh = Arc::new(built.mesh);
         let stiff = self.body.values().filter(|b| b.rigid).count();
+        let hidden = mesh.points.len() + 2 * stiff;
         let dofs = Dofs {
             dim: space.dim(),
-            points: mesh.points.len() + 2 * stiff,
+            points: hidden + 2 * self.reference.len(),
         };
+        let referred = references::numbered(self, hidden);
         let mut bodies = Vec::new();
         let mut links = Vec::new();
         let mut densities = vec![0.0; mesh.blocks.len()];
@@ -120,15 +123,16 @@ impl Problem {
                 },
             });
         }
+        let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
+        let inside = inside.copied().collect();
+        let sets = Sets::new(self, (&mesh, &bodies), (inside, referred))?;
+        links.extend(references::links(self, &sets, &mesh, space)?);
         let links = Links::new(dofs, links);
         let rigid = RigidBodies {
             links: &links,
             bodies: &bodies,
             dofs,
         };
-        let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
-        let inside = inside.copied().collect();
-        let sets = Sets::new(self, &mesh, (&bodies, inside))?;
         let timeline = Timeline::new(self);
         let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
@@ -136,9 +140,38 @@ impl Problem {
             mesh: &mesh,
             space,
             densities: &densities,
+            links: &links,
         };
-        let (loads, springs) = loads(self, &sets, &domain, &timeline)?;
-        let mut couplings = couplings::build(self, &sets, &mesh, &timeline)?;
+        let (mut loads, springs) = loads(self, &sets, &domain, &timeline)?;
+        let ground = Ground {
+            mesh: &mesh,
+            space,
+            links: &links,
+        };
+        let (mut couplings, leads) = couplings::build(self, &sets, ground, &timeline)?;
+        let supports = supports(self, &sets, &rigid, &timeline)?;
+        let steps = timeline.steps(self);
+        let said = references::Said {
+            bodies: &bodies,
+            links: &links,
+            couplings: &couplings,
+            supports: &supports,
+            springs: &springs,
+            masses: &masses,
+            loads: &loads,
+            steps: &steps,
+        };
+        let references = references::build(self, &said)?;
+        let followers = references::followers(
+            &mut couplings,
+            &leads,
+            &references,
+            (&links, &supports, &springs, &masses),
+            &steps,
+        );
+        references::spread(&mut loads, &followers);
+        let held = (&links, supports.as_slice(), masses.as_slice());
+        references::refuse_massless(&couplings, &references, held, &steps)?;
         couplings.extend(pretensions::build(
             self,
             &built.cuts,
@@ -146,7 +179,6 @@ impl Problem {
             &timeline,
         )?);
         let couplings = Couplings::new(couplings, space.dim());
-        let supports = supports(self, &sets, &rigid, &timeline)?;
         let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
@@ -157,14 +189,15 @@ impl Problem {
             title: self.title.clone().unwrap_or_default(),
             space,
             dofs,
-            links,
+            links: links.with_followers(followers),
             bodies,
+            references,
             loads,
             springs,
             masses,
             supports,
             initials,
-            steps: timeline.steps(self),
+            steps,
             probes,
             output: OutputPlan {
                 every: self.output.every,
@@ -226,7 +259,7 @@ fn loads(
         let (points, facets, cells);
         let target = match model.region() {
             Region::Points => {
-                points = sets.points(&load.set, &set)?;
+                points = sets.any_points(&load.set, &set)?;
                 Target::Points(&points)
             }
             Region::Facets => {
@@ -256,7 +289,7 @@ fn masses(problem: &Problem, sets: &Sets, rigid: &RigidBodies) -> Result<Vec<(us
     let mut all = std::collections::BTreeMap::<usize, f64>::new();
     for (name, table) in &problem.mass {
         let key = format!("mass.{name}.set");
-        for point in sets.points(&table.set, &key)? {
+        for point in sets.any_points(&table.set, &key)? {
             if rigid.links.of_point(point).is_some() {
                 let message = format!("`{}` has points of a rigid body", table.set);
                 let help = "give the body a density with which it has the whole mass";
@@ -279,7 +312,7 @@ fn supports(
     let dofs = rigid.dofs;
     let mut out = Vec::new();
     for (name, support) in &problem.support {
-        let points = sets.points(&support.set, &format!("support.{name}.set"))?;
+        let points = sets.any_points(&support.set, &format!("support.{name}.set"))?;
         let mut given: Vec<(usize, f64, bool)> = support
             .components()
             .iter()
@@ -287,15 +320,24 @@ fn supports(
             .filter_map(|(c, (_, value))| value.map(|v| (c, v, false)))
             .collect();
         given.extend(support.hold.iter().map(|&c| (c as usize, 0.0, true)));
+        let entry = |p: usize, &(c, value, hold): &(usize, f64, bool)| {
+            let (dof, length) = match c.checked_sub(3) {
+                None => (dofs.of(p, c), 1.0),
+                // rules have seen to it that such a point turns
+                Some(axis) => {
+                    let link = &rigid.links.all()[rigid.links.of_hidden(p)?];
+                    (link.dof(dofs, Motion::Rotation(axis))?, link.length)
+                }
+            };
+            Some(Prescribed {
+                dof,
+                value: value * length,
+                hold,
+            })
+        };
         let entries = points
             .iter()
-            .flat_map(|&p| {
-                given.iter().map(move |&(c, value, hold)| Prescribed {
-                    dof: dofs.of(p, c),
-                    value,
-                    hold,
-                })
-            })
+            .flat_map(|&p| given.iter().filter_map(move |g| entry(p, g)))
             .collect();
         out.push(Support {
             name: name.clone(),

@@ -40,6 +40,7 @@ pub(super) fn build(
                 steps: steps(problem, &cut.name, timeline),
             }),
             schedule: Schedule::always(),
+            referred: false,
             table: false,
         });
     }

@@ -21,11 +21,7 @@ pub(super) fn link(
     (hidden, index): (usize, usize),
 ) -> (Link, Rigid) {
     let moments = elastic.mass_moments();
-    let freedom = match elastic.space() {
-        Space::Axisymmetric => Freedom::Axial,
-        Space::PlaneStrain { .. } | Space::PlaneStress { .. } => Freedom::Plane,
-        Space::Solid => Freedom::Space,
-    };
+    let freedom = freedom(elastic.space());
     let x = &elastic.mesh().points[points.clone()];
     let length = moments.radius();
     let inertia = moments.inertia();
@@ -40,6 +36,7 @@ pub(super) fn link(
         ],
     };
     let link = Link {
+        centre: moments.centre,
         arms: x.iter().map(|&x| sub(x, moments.centre)).collect(),
         points,
         hidden,
@@ -52,6 +49,15 @@ pub(super) fn link(
         spin,
     };
     (link, rigid)
+}
+
+/// What a rigid body may do in a space.
+pub(super) fn freedom(space: Space) -> Freedom {
+    match space {
+        Space::Axisymmetric => Freedom::Axial,
+        Space::PlaneStrain { .. } | Space::PlaneStress { .. } => Freedom::Plane,
+        Space::Solid => Freedom::Space,
+    }
 }
 
 /// What values at some points say of the motions of a rigid body.

@@ -17,19 +17,23 @@ pub(super) struct Sets<'a> {
     /// Facets of cuts: they bound cells, but no surface.
     inside: BTreeSet<FacetRef>,
     own: BTreeMap<String, Vec<usize>>,
+    /// The first hidden point of each reference point.
+    references: BTreeMap<String, usize>,
 }
 
-fn vec3(v: &[f64]) -> Vec3 {
+pub(super) fn vec3(v: &[f64]) -> Vec3 {
     std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))
 }
 
 impl<'a> Sets<'a> {
+    /// The sets of a problem, and its reference points by their first hidden points; `inside` are facets of cuts.
     pub fn new(
         problem: &Problem,
-        mesh: &'a Mesh,
-        (bodies, inside): (&'a [Body], BTreeSet<FacetRef>),
+        (mesh, bodies): (&'a Mesh, &'a [Body]),
+        (inside, references): (BTreeSet<FacetRef>, BTreeMap<String, usize>),
     ) -> Result<Self, Error> {
         let mut sets = Sets {
+            references,
             mesh,
             bodies,
             inside,
@@ -129,6 +133,11 @@ impl<'a> Sets<'a> {
     }
 
     fn unknown(&self, name: &str, key: &str, what: &str) -> Error {
+        if self.references.contains_key(name) {
+            let message = format!("`{name}` is a reference point, and wanted is a set of a mesh");
+            let help = "it can be supported, bear nodal-force, moment, spring and mass, and stand in couplings";
+            return problem_error(vec![Diagnostic::new(key, message).help(help)]);
+        }
         let body = name.split('.').next().unwrap_or_default();
         let prefix = format!("{body}.");
         let mesh = self.mesh;
@@ -155,6 +164,19 @@ impl<'a> Sets<'a> {
         problem_error(vec![
             Diagnostic::new(key, format!("`{name}` has no {what}")).help(help),
         ])
+    }
+
+    /// The first hidden point of a reference point.
+    pub fn reference(&self, name: &str) -> Option<usize> {
+        self.references.get(name).copied()
+    }
+
+    /// The points of a set, sorted, or the first hidden point of a reference point.
+    pub fn any_points(&self, name: &str, key: &str) -> Result<Vec<usize>, Error> {
+        match self.reference(name) {
+            Some(point) => Ok(vec![point]),
+            None => self.points(name, key),
+        }
     }
 
     /// Points of a set, sorted.

@@ -14,7 +14,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     sets(problem, findings);
     interfaces(problem, findings);
     for (name, support) in &problem.support {
-        set(problem, findings, &["support", name, "set"], &support.set);
+        points(problem, findings, &["support", name, "set"], &support.set);
         let key = ["support", name, "amplitude"];
         one_of(
             findings,
@@ -25,7 +25,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         );
     }
     for (name, load) in &problem.load {
-        set(problem, findings, &["load", name, "set"], &load.set);
+        points(problem, findings, &["load", name, "set"], &load.set);
         let key = ["load", name, "amplitude"];
         one_of(
             findings,
@@ -40,7 +40,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         for (below, named) in coupling.kind.as_dyn().sets() {
             let mut key = vec!["coupling", name.as_str(), kind];
             key.extend(below.split('.'));
-            set(problem, findings, &key, named);
+            points(problem, findings, &key, named);
         }
         let key = ["coupling", name, "amplitude"];
         one_of(
@@ -61,10 +61,10 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         }
     }
     for (name, mass) in &problem.mass {
-        set(problem, findings, &["mass", name, "set"], &mass.set);
+        points(problem, findings, &["mass", name, "set"], &mass.set);
     }
     for (name, initial) in &problem.initial {
-        set(problem, findings, &["initial", name, "set"], &initial.set);
+        points(problem, findings, &["initial", name, "set"], &initial.set);
     }
     probes(problem, findings);
 }
@@ -92,11 +92,12 @@ fn misspelled(name: &str) -> Option<&'static str> {
 
 /// All names of tables; those that differ by nothing but capitals are one name on some file systems, and in decks.
 fn spelled(problem: &Problem, findings: &mut Findings) {
-    let tables: [(&str, Vec<&String>); 13] = [
+    let tables: [(&str, Vec<&String>); 14] = [
         ("body", problem.body.keys().collect()),
         ("material", problem.material.keys().collect()),
         ("obstacle", problem.obstacle.keys().collect()),
         ("set", problem.set.keys().collect()),
+        ("reference", problem.reference.keys().collect()),
         ("interface", problem.interface.keys().collect()),
         ("support", problem.support.keys().collect()),
         ("load", problem.load.keys().collect()),
@@ -144,12 +145,13 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
     }
 }
 
-/// Bodies, obstacles and sets share their names: `set = "block"` and `primary = "floor"` look into all of them.
+/// Bodies, obstacles, sets and reference points share their names: `set = "block"` and `primary = "floor"` look into all of them.
 fn declared(problem: &Problem, findings: &mut Findings) {
-    let shared: [(&str, Vec<&String>); 3] = [
+    let shared: [(&str, Vec<&String>); 4] = [
         ("body", problem.body.keys().collect()),
         ("obstacle", problem.obstacle.keys().collect()),
         ("set", problem.set.keys().collect()),
+        ("reference", problem.reference.keys().collect()),
     ];
     let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
     for (table, names) in &shared {
@@ -158,7 +160,7 @@ fn declared(problem: &Problem, findings: &mut Findings) {
                 Some(other) => findings.add(
                     &[table, name],
                     format!("`{name}` is the name of a {other} already"),
-                    "bodies, obstacles and sets need names of their own",
+                    "bodies, obstacles, sets and reference points need names of their own",
                 ),
                 None => {
                     seen.insert(name, table);
@@ -334,6 +336,13 @@ fn one_of<T>(
     findings.add(key, message, suggest(name, what, &names));
 }
 
+/// `name` must be a set, a body, `body.set`, or a reference point.
+fn points(problem: &Problem, findings: &mut Findings, key: &[&str], name: &str) {
+    if !problem.reference.contains_key(name) {
+        set(problem, findings, key, name);
+    }
+}
+
 /// `name` must be a set, a body, or `body.set`; whether the mesh has the set is not known here.
 pub(super) fn set(problem: &Problem, findings: &mut Findings, key: &[&str], name: &str) {
     set_among(problem, findings, key, name, &[]);
@@ -359,6 +368,7 @@ fn set_among(
             let mut names: Vec<&str> = problem.set.keys().map(String::as_str).collect();
             names.extend(problem.body.keys().map(String::as_str));
             names.extend(obstacles);
+            names.extend(problem.reference.keys().map(String::as_str));
             let (what, all) = match obstacles.is_empty() {
                 true => ("set or body", "sets and bodies"),
                 false => ("set, body or obstacle", "sets, bodies and obstacles"),

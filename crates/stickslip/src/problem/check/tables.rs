@@ -1,5 +1,6 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
+use super::super::reference::spin_matrix;
 use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
 use super::findings::Findings;
 use crate::body::Formulation;
@@ -9,9 +10,9 @@ use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
-use crate::math::normalize;
+use crate::math::{Mat3, determinant, normalize};
 use crate::registry::Family;
-use crate::system::{Amplitude, AmplitudeError};
+use crate::system::{Amplitude, AmplitudeError, Component};
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     let space = problem.model.space;
@@ -51,6 +52,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
     changes(problem, findings);
     supports(problem, findings);
+    references(problem, findings);
     for (name, amplitude) in &problem.amplitude {
         times(
             findings,
@@ -431,7 +433,7 @@ fn supports(problem: &Problem, findings: &mut Findings) {
                     "keep one of the two",
                 );
             }
-            if held as usize >= problem.model.space.dim() {
+            if !problem.model.space.has(held) {
                 let message = format!("there is no component {letter} in the plane");
                 findings.add(&["support", name, "hold"], message, "");
             }
@@ -444,14 +446,64 @@ fn supports(problem: &Problem, findings: &mut Findings) {
                 "give x, y or z; 0.0 holds it fast",
             );
         }
-        if problem.model.space.dim() == 2 && support.z.is_some() {
-            let message = format!(
-                "there is no component z because the model is {}",
-                problem.model.space.name()
-            );
-            findings.add(&["support", name, "z"], message, "remove the key");
+        for (component, (letter, value)) in COMPONENTS.into_iter().zip(support.components()) {
+            if value.is_some() && !problem.model.space.has(component) {
+                let message = format!(
+                    "there is no component {letter} because the model is {}",
+                    problem.model.space.name()
+                );
+                findings.add(&["support", name, letter], message, "remove the key");
+            }
+            let given = value.is_some() || support.hold.contains(&component);
+            let turns = component as usize >= 3;
+            if given && turns && !problem.reference.contains_key(&support.set) {
+                let key = if value.is_some() { letter } else { "hold" };
+                findings.add(
+                    &["support", name, key],
+                    format!("`{}` has points, which cannot turn", support.set),
+                    "only reference points have rotations: tie the points to one by coupling.kinematic or coupling.distributing",
+                );
+            }
         }
     }
+}
+
+const COMPONENTS: [Component; 6] = [
+    Component::X,
+    Component::Y,
+    Component::Z,
+    Component::RotationX,
+    Component::RotationY,
+    Component::RotationZ,
+];
+
+fn references(problem: &Problem, findings: &mut Findings) {
+    for (name, reference) in &problem.reference {
+        let point = &reference.point;
+        findings.vector(problem, &["reference", name, "point"], point);
+        let Some(inertia) = &reference.inertia else {
+            continue;
+        };
+        let plane = problem.model.space.dim() == 2;
+        let (wanted, help): (&[usize], _) = match plane {
+            true => (&[1], "give the one about z, [zz]"),
+            false => (&[3, 6], "give [xx, yy, zz] or [xx, yy, zz, xy, yz, xz]"),
+        };
+        let key = ["reference", name, "inertia"];
+        if !wanted.contains(&inertia.len()) {
+            let message = format!("{} moments of inertia", inertia.len());
+            findings.add(&key, message, help);
+        } else if !positive(&spin_matrix(inertia)) {
+            let message = "the moments of inertia are not those of a body";
+            findings.add(&key, message, "all of them about any axis must be positive");
+        }
+    }
+}
+
+/// Whether a symmetric matrix is positive definite, by its minors.
+fn positive(m: &Mat3) -> bool {
+    let second = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    m[0][0] > 0.0 && second > 0.0 && determinant(m) > 0.0
 }
 
 fn times(findings: &mut Findings, key: &[&str], table: Vec<[f64; 2]>) {

@@ -55,6 +55,9 @@ impl Solver {
         for point in contact.couplings.points() {
             kept[point] = true;
         }
+        for point in model.links.followed() {
+            kept[point] = true;
+        }
         for link in model.links.all() {
             kept[link.points.clone()].fill(false);
             kept[link.hidden..link.hidden + 2].fill(true);
