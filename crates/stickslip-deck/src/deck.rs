@@ -59,6 +59,10 @@ pub struct Deck {
     pub rigid: Vec<Rigid>,
     /// `*PRE-TENSION SECTION`s.
     pub pretensions: Vec<Pretension>,
+    /// `*COUPLING`s, old and new.
+    pub couplings: Vec<NodeCoupling>,
+    /// `*MPC`s.
+    pub constraints: Vec<MultiPoint>,
     /// `*SPRING`s: stiffness of sets of spring elements.
     pub springs: Vec<SpringSection>,
     /// `*DASHPOT`s: coefficients of sets of dashpot elements.
@@ -335,7 +339,7 @@ pub enum Target {
 pub struct Term {
     /// Its nodes.
     pub target: Target,
-    /// Direction, 0 to 2.
+    /// Direction, 0 to 5.
     pub component: usize,
     /// Factor.
     pub factor: f64,
@@ -380,6 +384,25 @@ pub struct GapSection {
     pub place: Place,
 }
 
+/// Nodes tied to a reference node: `*COUPLING`, `*KINEMATIC COUPLING`, `*DISTRIBUTING COUPLING`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeCoupling {
+    /// Its name.
+    pub name: String,
+    /// The reference node.
+    pub reference: u64,
+    /// What is tied to it.
+    pub tied: Tied,
+    /// How; `None` as long as neither `*KINEMATIC` nor `*DISTRIBUTING` has said it.
+    pub way: Option<Way>,
+    /// Directions 1 to 6 in which it ties.
+    pub components: [bool; 6],
+    /// The `*ORIENTATION` of the directions.
+    pub orientation: Option<String>,
+    /// Where.
+    pub place: Place,
+}
+
 /// `*PRE-TENSION SECTION`: a cut along faces inside a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pretension {
@@ -389,6 +412,35 @@ pub struct Pretension {
     pub node: u64,
     /// Normal; the mean one of the faces if none is given.
     pub normal: Option<[f64; 3]>,
+    /// Where.
+    pub place: Place,
+}
+
+/// What is tied to a reference node.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Tied {
+    /// A surface.
+    Surface(String),
+    /// Nodes with their weights.
+    Nodes(Vec<(Target, f64)>),
+}
+
+/// How nodes are tied to a reference node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// They follow it.
+    Kinematic,
+    /// It follows their mean.
+    Distributing,
+}
+
+/// `*MPC`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MultiPoint {
+    /// The type, in capitals.
+    pub kind: String,
+    /// Its nodes in the order of the deck.
+    pub nodes: Vec<u64>,
     /// Where.
     pub place: Place,
 }

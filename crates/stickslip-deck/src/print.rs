@@ -34,6 +34,7 @@ pub struct Printer {
     drawn: BTreeMap<u64, String>,
     /// The nodes of the deck that are points of its mesh.
     known: BTreeSet<u64>,
+    references: BTreeMap<u64, (String, bool)>,
     numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.
     times: BTreeMap<String, Vec<f64>>,
@@ -65,6 +66,34 @@ fn last_printed(path: &Path) -> std::io::Result<Option<(usize, usize)>> {
     Ok(step.zip(increment))
 }
 
+/// What a point has of a field; of the second point of a reference point rotations and moments. Points of bodies have none.
+fn vector(
+    analysis: &Analysis,
+    values: &[f64],
+    (point, turns, key): (usize, bool, &str),
+) -> Option<Vec3> {
+    let model = analysis.model;
+    let links = &model.links;
+    let Some(link) = links.of_hidden(point).map(|i| &links.all()[i]) else {
+        return (!turns).then(|| model.dofs.vector(values, point));
+    };
+    if !turns && point == link.hidden {
+        return Some(model.dofs.vector(values, point));
+    }
+    // Unknowns are lengths and what acts on them forces.
+    let forces = key.starts_with('R');
+    let unit = if forces {
+        link.length
+    } else {
+        1.0 / link.length
+    };
+    let v = scale(unit, model.dofs.vector(values, link.hidden + 1));
+    Some(match model.dofs.dim {
+        2 => [0.0, 0.0, v[0]],
+        _ => v,
+    })
+}
+
 impl Printer {
     /// A printer for a deck, or none if the deck prints nothing.
     pub fn new(translation: &Translation, path: &Path) -> Option<Self> {
@@ -82,6 +111,7 @@ impl Printer {
                 pairs: translation.pairs.clone(),
                 drawn: translation.drawn.clone(),
                 known: translation.mesh.point_ids.iter().copied().collect(),
+                references: translation.references.clone(),
                 numbering: translation.numbering.clone(),
                 times: translation.times.clone(),
                 node_axes: translation.node_axes.clone(),
@@ -134,6 +164,13 @@ impl Printer {
             self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
             // Numbers of points that cuts have doubled are none of the deck.
             self.points.retain(|id, _| self.known.contains(id));
+            for (node, (name, turned)) in &self.references {
+                let mut all = analysis.model.references.iter();
+                if let Some(reference) = all.find(|r| r.name == *name) {
+                    let hidden = analysis.model.links.all()[reference.link].hidden;
+                    self.points.insert(*node, hidden + usize::from(*turned));
+                }
+            }
         }
         let Some(prints) = self.prints.get(self.step - 1).cloned() else {
             return Ok(());
@@ -227,7 +264,10 @@ impl Printer {
             }
         };
         for key in keys {
+            let turns = key.starts_with("UR") || key.starts_with("RM");
             let (title, values) = match key.as_str() {
+                "UR" => ("rotations (rx,ry,rz)", analysis.frame.state.u.clone()),
+                "RM" => ("moments (mx,my,mz)", analysis.internal_forces()),
                 "U" => ("displacements (vx,vy,vz)", analysis.frame.state.u.clone()),
                 "V" => ("velocities (vx,vy,vz)", or_zero(&analysis.frame.state.v)),
                 "A" => ("accelerations (vx,vy,vz)", or_zero(&analysis.frame.state.a)),
@@ -244,7 +284,8 @@ impl Printer {
                 );
             }
             for node in nodes {
-                let at_point = self.points.get(node).map(|p| dofs.vector(&values, *p));
+                let at_point = self.points.get(node);
+                let at_point = at_point.and_then(|p| vector(analysis, &values, (*p, turns, key)));
                 let Some(mut v) = at_point.or_else(|| drawn(node, key)) else {
                     continue;
                 };

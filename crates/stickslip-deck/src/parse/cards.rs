@@ -2,6 +2,7 @@
 
 use super::reader::{Context, Reader};
 use crate::card::Card;
+use crate::deck::Way;
 
 /// What reads a card.
 type Read = fn(&mut Reader<'_>, &Card);
@@ -25,6 +26,12 @@ const CARDS: &[(&str, Read)] = &[
     ("EQUATION", |r, c| r.equation(c)),
     ("RIGIDBODY", |r, c| r.rigid_body(c)),
     ("PRE-TENSIONSECTION", |r, c| r.pretension(c)),
+    ("COUPLING", |r, c| r.coupling(c)),
+    ("KINEMATIC", |r, c| r.way(c, Way::Kinematic)),
+    ("DISTRIBUTING", |r, c| r.way(c, Way::Distributing)),
+    ("KINEMATICCOUPLING", |r, c| r.kinematic_coupling(c)),
+    ("DISTRIBUTINGCOUPLING", |r, c| r.distributing_coupling(c)),
+    ("MPC", |r, c| r.multi_point(c)),
     ("SPRING", |r, c| r.spring(c)),
     ("DASHPOT", |r, c| r.spring(c)),
     ("GAP", |r, c| r.gap(c)),

@@ -17,7 +17,7 @@ const NODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
 fn other_nodes(kind: &str) -> Option<usize> {
     match kind {
         "SPRINGA" | "SPRING2" | "DASHPOTA" | "DASHPOT2" | "GAPUNI" => Some(2),
-        "SPRING1" | "DASHPOT1" | "MASS" => Some(1),
+        "SPRING1" | "DASHPOT1" | "MASS" | "DCOUP3D" | "DCOUP2D" => Some(1),
         _ => None,
     }
 }

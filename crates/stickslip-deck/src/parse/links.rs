@@ -36,7 +36,7 @@ impl Reader<'_> {
                 };
                 for k in (0..line.fields.len()).step_by(3) {
                     let (Some(target), Some(component)) =
-                        (self.target(line, k), self.direction(line, k + 1, 3))
+                        (self.target(line, k), self.direction(line, k + 1, 6))
                     else {
                         return;
                     };
@@ -114,7 +114,8 @@ impl Reader<'_> {
                 "write POSITION=INPUT, and give the node the place that is meant",
             );
         }
-        let (reference, rotation) = (self.node_of(card, "REFNODE"), self.node_of(card, "ROTNODE"));
+        let reference = self.single_node(card, "REFNODE");
+        let rotation = self.single_node(card, "ROTNODE");
         let rigid = Rigid {
             elements: card.get("ELSET").map(|s| self.scoped(s)),
             nodes: card.get("NSET").map(|s| self.scoped(s)),
@@ -125,8 +126,8 @@ impl Reader<'_> {
         self.deck.rigid.push(rigid);
     }
 
-    /// A parameter that names a node by its number, or by a set of it alone.
-    fn node_of(&mut self, card: &Card, name: &str) -> Option<u64> {
+    /// A parameter that names a node, by its number or by a set of one.
+    pub(super) fn single_node(&mut self, card: &Card, name: &str) -> Option<u64> {
         let text = card.get(name)?;
         let of_set = |set: &Vec<u64>| match set.as_slice() {
             [one] => Some(*one),
@@ -135,12 +136,16 @@ impl Reader<'_> {
         let set = || self.deck.node_sets.get(&self.scoped(text)).and_then(of_set);
         let id = self.number_of(text).or_else(set);
         if id.is_none_or(|n| !self.deck.nodes.contains_key(&n)) {
-            let message = format!(
-                "{}: {name} is {}, which is no node",
-                card.written,
-                clip(text)
+            self.error(
+                card.place,
+                format!(
+                    "{}: {name} is {}, which is no node",
+                    card.written,
+                    clip(text)
+                ),
+                "give the number of a node that exists",
             );
-            self.error(card.place, message, "give the number of a node that exists");
+            return None;
         }
         id
     }
@@ -150,7 +155,7 @@ impl Reader<'_> {
         if card.get("NODE").is_none() {
             self.required(card, "NODE");
         }
-        let node = self.node_of(card, "NODE");
+        let node = self.single_node(card, "NODE");
         let mut normal = None;
         if let Some(data) = card.data.first() {
             let given: [f64; 3] = std::array::from_fn(|i| self.number(data, i, 0.0));

@@ -140,7 +140,7 @@ impl Reader<'_> {
         let amplitude = self.course(card);
         for data in &card.data {
             let (Some(target), Some(component)) =
-                (self.target(data, 0), self.direction(data, 1, 3))
+                (self.target(data, 0), self.direction(data, 1, 6))
             else {
                 continue;
             };

@@ -2,6 +2,7 @@
 
 mod beyond;
 mod cards;
+mod couplings;
 mod elements;
 mod fields;
 mod initial;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::fields::{absent, listing};
 use super::reader::Reader;
 use crate::card::Place;
-use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target};
+use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target, Tied};
 
 /// Names that are missing: where, what, and what there is.
 struct Missing<'a> {
@@ -52,11 +52,15 @@ impl Reader<'_> {
     /// Sections of an instance have the orientation of the instance, or one of the model.
     fn settle_orientations(&mut self) {
         let deck = &mut self.deck;
-        for o in deck
+        let sections = deck
             .sections
             .iter_mut()
-            .filter_map(|s| s.orientation.as_mut())
-        {
+            .filter_map(|s| s.orientation.as_mut());
+        let couplings = deck
+            .couplings
+            .iter_mut()
+            .filter_map(|c| c.orientation.as_mut());
+        for o in sections.chain(couplings) {
             let bare = deck.numbering.bare(o);
             if !deck.orientations.contains_key(o) && deck.orientations.contains_key(bare) {
                 *o = bare.to_string();
@@ -161,6 +165,11 @@ impl Missing<'_> {
         for e in &deck.equations {
             e.terms.iter().for_each(|t| self.target(&t.target, e.place));
         }
+        for c in &deck.couplings {
+            if let Tied::Nodes(list) = &c.tied {
+                list.iter().for_each(|(t, _)| self.target(t, c.place));
+            }
+        }
         for a in deck.steps.iter().flat_map(|s| &s.actions) {
             match a {
                 Action::Boundary(b) => self.target(&b.target, b.place),
@@ -175,8 +184,16 @@ impl Missing<'_> {
         }
     }
 
-    /// Surfaces and interactions of pairs and ties.
+    /// Surfaces and interactions of pairs, ties and couplings.
     fn surfaces(&mut self) {
+        for c in &self.deck.couplings {
+            if let Tied::Surface(name) = &c.tied {
+                self.surface(name, c.place);
+            }
+            if let Some(o) = &c.orientation {
+                self.named("orientation", o, c.place, &self.deck.orientations);
+            }
+        }
         for p in &self.deck.pairs {
             self.surface(&p.slave, p.place);
             self.surface(&p.master, p.place);

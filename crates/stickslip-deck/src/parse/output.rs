@@ -31,7 +31,7 @@ impl Reader<'_> {
     /// The quantities of a card that are printed; notes on the others.
     fn known_keys(&mut self, card: &Card) -> Vec<String> {
         let known: &[&str] = match card.keyword.as_str() {
-            "NODEPRINT" => &["U", "RF", "V", "A"],
+            "NODEPRINT" => &["U", "RF", "V", "A", "UR", "RM"],
             "ELPRINT" => &["S", "E", "ELSE", "EVOL"],
             _ => &[
                 "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",

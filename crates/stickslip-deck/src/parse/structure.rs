@@ -74,7 +74,7 @@ pub(super) const STRUCTURE: [&str; 6] = [
 ];
 
 /// Cards of a part or of an instance.
-const MESH: [&str; 19] = [
+const MESH: [&str; 25] = [
     "NODE",
     "ELEMENT",
     "NSET",
@@ -90,6 +90,12 @@ const MESH: [&str; 19] = [
     "EQUATION",
     "RIGIDBODY",
     "PRE-TENSIONSECTION",
+    "COUPLING",
+    "KINEMATIC",
+    "DISTRIBUTING",
+    "KINEMATICCOUPLING",
+    "DISTRIBUTINGCOUPLING",
+    "MPC",
     "SPRING",
     "DASHPOT",
     "GAP",

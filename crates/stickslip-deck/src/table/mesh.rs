@@ -141,6 +141,53 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
+        "COUPLING",
+        Data::Nothing,
+        &[
+            read("CONSTRAINTNAME"),
+            read("REFNODE"),
+            read("SURFACE"),
+            read("ORIENTATION"),
+            refused(
+                "INFLUENCERADIUS",
+                "make a surface of the nodes that are to be tied",
+            ),
+            refused("ALPHA", "couplings have no damping"),
+        ],
+    ),
+    card(
+        "KINEMATIC",
+        Data::Lines("first direction, last direction"),
+        &[],
+    ),
+    card(
+        "DISTRIBUTING",
+        Data::Lines("first direction, last direction"),
+        &[
+            read("WEIGHTINGMETHOD"),
+            refused("COUPLING", "moments are spread as those of a continuum are"),
+        ],
+    ),
+    card(
+        "KINEMATICCOUPLING",
+        Data::Lines("node or set of nodes, first direction, last direction"),
+        &[read("REFNODE"), read("ORIENTATION")],
+    ),
+    card(
+        "DISTRIBUTINGCOUPLING",
+        Data::Lines("node or set of nodes, weight"),
+        &[read("ELSET")],
+    ),
+    card(
+        "MPC",
+        Data::Any,
+        &[
+            refused("USER", SUBROUTINE),
+            refused("MODE", SUBROUTINE),
+            INPUT,
+        ],
+    ),
+    card(
         "SPRING",
         Data::Any,
         &[

@@ -7,7 +7,7 @@ pub(super) const HEAT: &str = "temperatures are not computed: take the thermal p
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 pub(super) const LAW: &str =
     "bodies are linear elastic (*ELASTIC): replace the material, or use another program";
-const LINK: &str = "express it by *EQUATION, *TIE or *RIGID BODY";
+const LINK: &str = "express it by *EQUATION, *TIE, *COUPLING, *MPC or *RIGID BODY";
 
 pub(super) const ROWS: &[Row] = &[
     refused_card("PLASTIC", LAW),
@@ -60,11 +60,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("ROBUSTDESIGN", TIME),
     refused_card("GEOSTATIC", TIME),
     refused_card("BASEMOTION", TIME),
-    refused_card("MPC", LINK),
-    refused_card("KINEMATIC", LINK),
-    refused_card("DISTRIBUTING", LINK),
-    refused_card("DISTRIBUTINGCOUPLING", LINK),
-    refused_card("COUPLING", LINK),
     refused_card("NETWORKMPC", LINK),
     refused_card("EMBEDDEDELEMENT", LINK),
     refused_card("CYCLICSYMMETRYMODEL", LINK),
@@ -86,7 +81,6 @@ pub(super) const ROWS: &[Row] = &[
         "CHANGECONTACTTYPE",
         "the type of a contact pair stays the same",
     ),
-    refused_card("KINEMATICCOUPLING", LINK),
     refused_card("CONNECTORSECTION", LINK),
     refused_card("CONNECTORBEHAVIOR", LINK),
     refused_card("FASTENER", LINK),

@@ -11,7 +11,7 @@ use crate::finding::{Finding, Severity};
 
 /// What stands before the card that is looked at: all that it may refer to.
 const MODEL: &str = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 2., 2., 2.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n\
-    *ELEMENT, TYPE=MASS, ELSET=EM\n2, 1\n*ELEMENT, TYPE=SPRINGA, ELSET=ES\n3, 1, 2\n*ELEMENT, TYPE=DASHPOTA, ELSET=ED\n4, 1, 2\n*ELEMENT, TYPE=GAPUNI, ELSET=EG\n5, 1, 2\n*SURFACE, NAME=S\nE, S1\n*SURFACE, NAME=T\nE, S2\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*TIME POINTS, NAME=P\n.5\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n\
+    *ELEMENT, TYPE=MASS, ELSET=EM\n2, 1\n*ELEMENT, TYPE=SPRINGA, ELSET=ES\n3, 1, 2\n*ELEMENT, TYPE=DASHPOTA, ELSET=ED\n4, 1, 2\n*ELEMENT, TYPE=GAPUNI, ELSET=EG\n5, 1, 2\n*ELEMENT, TYPE=DCOUP3D, ELSET=EC\n6, 5\n*SURFACE, NAME=S\nE, S1\n*SURFACE, NAME=T\nE, S2\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*TIME POINTS, NAME=P\n.5\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n\
     *MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.\n";
 
 /// A part and the beginning of an assembly.
@@ -55,6 +55,15 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "EQUATION" => ("", "", "2\n1, 1, 1., 2, 1, 1.\n"),
         "RIGIDBODY" => ("", "REFNODE=5, ELSET=E", ""),
         "PRE-TENSIONSECTION" => ("", "SURFACE=S, NODE=5", "1., 0., 0.\n"),
+        "COUPLING" => ("", "REFNODE=5, SURFACE=S", ""),
+        "KINEMATIC" | "DISTRIBUTING" => (
+            "*COUPLING, REF NODE=5, SURFACE=S, CONSTRAINT NAME=X\n",
+            "",
+            "1, 3\n",
+        ),
+        "KINEMATICCOUPLING" => ("", "REFNODE=5", "N, 1, 3\n"),
+        "DISTRIBUTINGCOUPLING" => ("", "ELSET=EC", "N, 1.\n"),
+        "MPC" => ("", "", "PIN, 1, 2\n"),
         "SPRING" => ("", "ELSET=ES", "\n1.\n"),
         "DASHPOT" => ("", "ELSET=ED", "\n1.\n"),
         "GAP" => ("", "ELSET=EG", "0., 1., 0., 0.\n"),
@@ -133,6 +142,8 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
         ("NORMAL", "TYPE") => "=ELEMENT",
         (_, "POSITION") => "=INPUT",
         ("RIGIDBODY", "NSET") => "=N",
+        (_, "WEIGHTINGMETHOD") => "=UNIFORM",
+        ("COUPLING" | "KINEMATICCOUPLING", "ORIENTATION") => "=O",
         ("RIGIDBODY", "ROTNODE") => "=5",
         (_, "LOCATION") => "=ELEMENT",
         ("ORIENTATION", "SYSTEM") => "=RECTANGULAR",

@@ -43,8 +43,10 @@ pub(super) struct Bodies {
     pub of_element: BTreeMap<u64, (CellRef, usize)>,
     /// Face of a cell, and body, of an element that bounds one.
     pub of_face: BTreeMap<u64, (FacetRef, usize)>,
-    /// Nodes of a `*RIGID BODY` that are part of a body that is elastic: they move as its reference node is prescribed to.
+    /// Nodes of a `*RIGID BODY` that are part of bodies that are elastic: they follow its reference node.
     pub rigid_nodes: BTreeMap<usize, Vec<u64>>,
+    /// Nodes that are reference points of the problem, with the names of these.
+    pub references: BTreeMap<u64, String>,
     /// Section of an element: index into the deck's.
     pub section: BTreeMap<u64, usize>,
     /// Materials as elements have them, and which of them an element has.
@@ -60,6 +62,11 @@ impl Bodies {
 
     pub fn dim(&self) -> usize {
         self.mesh.dim
+    }
+
+    /// Whether a node is a reference point and nothing else.
+    pub fn refers(&self, node: u64) -> bool {
+        self.references.contains_key(&node) && !self.of_node.contains_key(&node)
     }
 
     /// Faces of the mesh, by body. Faces that both neighbours share are inside and left out where all are asked for.
@@ -285,6 +292,7 @@ pub(super) fn connected(job: &mut Job) -> Option<Bodies> {
         of_element,
         of_face,
         rigid_nodes: BTreeMap::new(),
+        references: BTreeMap::new(),
         section: BTreeMap::new(),
         materials: Vec::new(),
         material: BTreeMap::new(),

@@ -24,8 +24,6 @@ pub(super) struct Job<'a> {
     pub(super) changes: Vec<(usize, String, String)>,
     /// What steps do with pretensions: step and line.
     pub(super) tensions: Vec<(usize, String)>,
-    /// Rigid bodies whose reference node is prescribed.
-    pub(super) led: BTreeSet<usize>,
     /// Starts and lengths of the steps.
     pub(super) spans: Vec<[f64; 2]>,
 }
@@ -49,7 +47,6 @@ impl<'a> Job<'a> {
             active: Vec::new(),
             changes: Vec::new(),
             tensions: Vec::new(),
-            led: BTreeSet::new(),
             spans: spans.collect(),
         }
     }

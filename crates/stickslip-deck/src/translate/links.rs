@@ -20,7 +20,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 }
 
 /// A term of an equation or a spring.
-type Term = (u64, [f64; 3]);
+pub(super) type Term = (u64, [f64; 6]);
 
 /// Terms as the problem writes them.
 fn terms(bodies: &Bodies, sets: &mut Sets, numbering: &Numbering, terms: &[Term]) -> String {
@@ -28,11 +28,19 @@ fn terms(bodies: &Bodies, sets: &mut Sets, numbering: &Numbering, terms: &[Term]
     for (node, factors) in terms {
         let label = toml::name(&format!("node-{}", numbering.label(*node)));
         let set = sets.points(bodies, &label, &[*node]);
-        for (c, f) in ["x", "y", "z"][..bodies.dim()].iter().zip(factors) {
-            if *f != 0.0 {
+        let turned = bodies.references.get(node).map(String::as_str);
+        for (i, (c, f)) in toml::COMPONENTS.iter().zip(factors).enumerate() {
+            // What the plane does not have is not there.
+            let there = i < bodies.dim() || i == 5 || i > 2 && bodies.dim() == 3;
+            if *f != 0.0 && there {
+                let set = if i < 3 {
+                    set.as_str()
+                } else {
+                    turned.unwrap_or("")
+                };
                 out.push(format!(
                     "{{ set = {}, component = \"{c}\", factor = {} }}",
-                    toml::text(&set),
+                    toml::text(set),
                     toml::number(*f)
                 ));
             }
@@ -41,7 +49,20 @@ fn terms(bodies: &Bodies, sets: &mut Sets, numbering: &Numbering, terms: &[Term]
     format!("[{}]", out.join(", "))
 }
 
-fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
+/// Displacements along a direction, times a factor.
+fn straight([x, y, z]: [f64; 3], factor: f64) -> [f64; 6] {
+    [x * factor, y * factor, z * factor, 0.0, 0.0, 0.0]
+}
+
+fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 6] {
+    let axis = along_axes(job, node, component % 3, factor);
+    let mut out = [0.0; 6];
+    let first = component - component % 3;
+    out[first..first + 3].copy_from_slice(&axis);
+    out
+}
+
+fn along_axes(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
     let local = job
         .deck
         .transforms
@@ -54,7 +75,7 @@ fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
 }
 
 /// Nodes of no cell that are held in every step: the ground.
-fn ground(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
+pub(super) fn ground(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
     let states = supports::by_step(job);
     let still = |n: &u64| {
         let held = |s: &supports::State, c| s.get(&(*n, c)).is_some_and(|v| v.value == 0.0);
@@ -62,7 +83,8 @@ fn ground(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
     };
     let named = states.first().into_iter().flat_map(|s| s.keys());
     let mut out: BTreeSet<u64> = named.map(|(n, _)| *n).collect();
-    out.retain(|n| !bodies.of_node.contains_key(n) && still(n));
+    let own = |n: &u64| bodies.of_node.contains_key(n) || bodies.references.contains_key(n);
+    out.retain(|n| !own(n) && still(n));
     out
 }
 
@@ -74,11 +96,11 @@ fn on_bodies(
     place: Place,
 ) -> bool {
     for n in nodes {
-        if !bodies.of_node.contains_key(&n) {
+        if !bodies.of_node.contains_key(&n) && !bodies.references.contains_key(&n) {
             job.error(
                 place,
                 format!("node {} belongs to no body", job.deck.label(n)),
-                "only nodes of solid and plane elements move",
+                "only nodes of solid and plane elements and reference nodes move",
             );
             return false;
         }
@@ -123,10 +145,22 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
             let list: Vec<Term> = (e.terms.iter().zip(&nodes))
                 .map(|(t, n)| {
                     let node = if n.len() == 1 { n[0] } else { n[k] };
-                    (node, along(job, node, t.component, t.factor))
+                    let (node, component) = supports::turned(job, node, t.component);
+                    (node, along(job, node, component, t.factor))
                 })
                 .filter(|t| !ground.contains(&t.0))
                 .collect();
+            let turns = |t: &&Term| t.1[3..].iter().any(|f| *f != 0.0);
+            let stiff = |t: &&Term| !bodies.references.contains_key(&t.0);
+            if let Some((n, _)) = list.iter().filter(turns).find(stiff) {
+                let message = format!("node {} cannot turn", job.deck.label(*n));
+                job.error(
+                    e.place,
+                    message,
+                    "only reference nodes have directions 4 to 6",
+                );
+                break;
+            }
             if !on_bodies(job, bodies, list.iter().map(|t| t.0), e.place) {
                 break;
             }
@@ -134,10 +168,13 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
                 (Some(t), Some(n)) => (if n.len() == 1 { n[0] } else { n[k] }, t.component),
                 _ => continue,
             };
-            let name = job.fresh("coupling", &format!("equation-{}", i + 1));
-            let terms = terms(bodies, sets, &job.deck.numbering, &list);
-            job.table("coupling", &name, e.place);
-            job.out.line(&format!("equation = {{ terms = {terms} }}"));
+            let name = equation(
+                job,
+                bodies,
+                sets,
+                (&format!("equation-{}", i + 1), e.place),
+                &list,
+            );
             let steps = held(job, dependent);
             if steps.contains(&false) {
                 job.active.push(("couplings", name, steps));
@@ -218,8 +255,8 @@ fn elongation(job: &mut Job, link: &Link, directions: &[usize]) -> Option<Vec<Te
             let help = "use SPRING2 or DASHPOT2, with directions";
             let line = line(job, link, help)?;
             Some(vec![
-                (link.nodes[0], line.map(|c| -c)),
-                (link.nodes[1], line),
+                (link.nodes[0], straight(line, -1.0)),
+                (link.nodes[1], straight(line, 1.0)),
             ])
         }
     }
@@ -254,6 +291,21 @@ fn is_of(job: &mut Job, link: &Link, kinds: &[&str], (card, place): (&str, Place
         );
     }
     known
+}
+
+/// An equation between displacements; its name.
+pub(super) fn equation(
+    job: &mut Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    (name, place): (&str, Place),
+    list: &[Term],
+) -> String {
+    let name = job.fresh("coupling", name);
+    let terms = terms(bodies, sets, &job.deck.numbering, list);
+    job.table("coupling", &name, place);
+    job.out.line(&format!("equation = {{ terms = {terms} }}"));
+    name
 }
 
 fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
@@ -325,7 +377,10 @@ fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>)
             let Some(along) = given.or_else(|| line(job, &link, help)) else {
                 continue;
             };
-            let list = vec![(link.nodes[0], along.map(|c| -c)), (link.nodes[1], along)];
+            let list = vec![
+                (link.nodes[0], straight(along, -1.0)),
+                (link.nodes[1], straight(along, 1.0)),
+            ];
             if bodies.dim() == 2 && along[0] == 0.0 && along[1] == 0.0 {
                 job.error(
                     g.place,
@@ -353,10 +408,18 @@ fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         if !on_bodies(job, bodies, nodes.iter().copied(), *place) {
             continue;
         }
-        let name = job.fresh("mass", &toml::name(set));
-        let set = sets.points(bodies, &toml::name(&format!("{set}-nodes")), &nodes);
-        job.table("mass", &name, *place);
-        job.out.line(&format!("set = {}", toml::text(&set)));
-        job.out.line(&format!("mass = {}", toml::number(*mass)));
+        let (alone, of_bodies): (Vec<u64>, Vec<u64>) =
+            nodes.into_iter().partition(|n| bodies.refers(*n));
+        let mut groups: Vec<Vec<u64>> = alone.into_iter().map(|n| vec![n]).collect();
+        if !of_bodies.is_empty() {
+            groups.push(of_bodies);
+        }
+        for nodes in groups {
+            let name = job.fresh("mass", &toml::name(set));
+            let set = sets.points(bodies, &toml::name(&format!("{set}-nodes")), &nodes);
+            job.table("mass", &name, *place);
+            job.out.line(&format!("set = {}", toml::text(&set)));
+            job.out.line(&format!("mass = {}", toml::number(*mass)));
+        }
     }
 }

@@ -37,6 +37,7 @@ pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
             .flat_map(|r| [r.reference, r.rotation])
             .flatten(),
     );
+    named.extend(bodies.references.keys());
     let loose: Vec<u64> = deck
         .nodes
         .keys()

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::mesh::FacetRef;
 
-use super::acting::{Given, When, collect, label, open, two_courses};
+use super::acting::{Acting, Given, When, collect, label, open, two_courses};
 use super::bodies::Bodies;
 use super::job::Job;
 use super::sets::Sets;
+use super::supports::turned;
 use super::toml;
 use crate::axes;
 use crate::card::Place;
@@ -40,8 +41,9 @@ pub(super) fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
                     place,
                 } => {
                     for node in job.nodes(target) {
-                        let again = !touched.insert((node, *component));
-                        let before = state.get(&(node, *component)).filter(|_| again);
+                        let at = turned(job, node, *component);
+                        let again = !touched.insert(at);
+                        let before = state.get(&at).filter(|_| again);
                         if before.is_some_and(|b| b.amplitude != *amplitude) {
                             two_courses(job, *place);
                             return None;
@@ -53,7 +55,7 @@ pub(super) fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
                             label: label(job.deck, target),
                             step: i,
                         };
-                        state.insert((node, *component), given);
+                        state.insert(at, given);
                     }
                 }
                 _ => {}
@@ -70,7 +72,10 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     };
     // Directions of one node that act alike are one force, nodes with the same force one load.
     let mut nodes: BTreeMap<(u64, When), ([f64; 3], Place, String)> = BTreeMap::new();
-    for ((node, component), a) in collect(&by_step) {
+    let (moments, forces): (Vec<_>, Vec<_>) =
+        (collect(&by_step).into_iter()).partition(|((_, component), _)| *component >= 3);
+    self::moments(job, bodies, moments);
+    for ((node, component), a) in forces {
         if job.deck.pretension(node).is_some() {
             continue;
         }
@@ -79,11 +84,12 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             .or_insert(([0.0; 3], a.place, a.label));
         entry.0[component] = a.what;
     }
-    type Alike = (When, [u64; 3]);
+    // A reference point is a set of its own.
+    type Alike = (When, [u64; 3], Option<u64>);
     let mut groups: BTreeMap<Alike, (Vec<u64>, Place, String)> = BTreeMap::new();
     for ((node, when), (force, place, label)) in nodes {
         let mut at = node;
-        if !bodies.of_node.contains_key(&node) {
+        if !bodies.of_node.contains_key(&node) && !bodies.refers(node) {
             match stand_in(job, bodies, node) {
                 Some(n) => at = n,
                 None => {
@@ -109,7 +115,8 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             );
             continue;
         }
-        let key = (when, force.map(|f: f64| (f + 0.0).to_bits()));
+        let own = bodies.refers(node).then_some(node);
+        let key = (when, force.map(|f: f64| (f + 0.0).to_bits()), own);
         groups
             .entry(key)
             .or_insert((Vec::new(), place, label))
@@ -118,12 +125,52 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     }
     let mut ordered: Vec<_> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, place, _))| *place);
-    for ((when, force), (nodes, place, label)) in ordered {
+    for ((when, force, _), (nodes, place, label)) in ordered {
         let set = sets.points(bodies, &toml::name(&label), &nodes);
         open(job, &format!("force-{label}"), &set, place, &when);
         let value = toml::numbers(&force.map(f64::from_bits)[..bodies.dim()]);
         job.out
             .line(&format!("nodal-force = {{ value = {value} }}"));
+    }
+}
+
+/// Moments on reference points.
+fn moments(job: &mut Job, bodies: &Bodies, all: Vec<((u64, usize), Acting<f64>)>) {
+    let plane = bodies.dim() == 2;
+    for ((node, component), a) in all {
+        let Some(name) = bodies.references.get(&node).cloned() else {
+            let message = format!(
+                "a moment on node {}, which cannot turn",
+                job.deck.label(node)
+            );
+            job.error(
+                a.place,
+                message,
+                "moments act on reference nodes of *COUPLING and *RIGID BODY of nodes",
+            );
+            continue;
+        };
+        if plane && component != 5 || job.deck.transforms.contains_key(&node) {
+            let message = "a moment out of the plane, or in the local axes of a *TRANSFORM";
+            job.error(
+                a.place,
+                message,
+                "moments act about the axes of the model, in the plane about z",
+            );
+            continue;
+        }
+        let mut value = [0.0; 3];
+        value[component - 3] = a.what;
+        let value = if plane { &value[2..] } else { &value[..] };
+        open(
+            job,
+            &format!("moment-{}", a.label),
+            &name,
+            a.place,
+            &a.when(),
+        );
+        job.out
+            .line(&format!("moment = {{ value = {} }}", toml::numbers(value)));
     }
 }
 

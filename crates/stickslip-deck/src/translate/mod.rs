@@ -11,7 +11,9 @@ mod lint;
 mod loads;
 mod materials;
 mod measure;
+mod multi_point;
 mod pretensions;
+mod references;
 mod sets;
 mod spans;
 mod steps;
@@ -48,6 +50,8 @@ impl Deck {
             return Err(job.failed());
         };
         (bodies.materials, bodies.material) = materials::assign(&mut job, &bodies.section);
+        references::find(&mut job, &mut bodies);
+        let bodies = bodies;
         let mut sets = Sets::new(self, &bodies);
         job.out.line("format = 1");
         if let Some(title) = self.title.as_deref().filter(|t| !t.trim().is_empty()) {
@@ -56,11 +60,13 @@ impl Deck {
         }
         body_tables::write(&mut job, &bodies, &mut sets, &mesh_name);
         materials::write(&mut job, &bodies);
+        references::write(&mut job, &bodies, &mut sets);
         contact::write(&mut job, &bodies, &mut sets);
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
         let drawn = pretensions::write(&mut job, &bodies, &mut sets);
+        multi_point::write(&mut job, &bodies, &mut sets);
         quality(&mut job);
         steps::write(&mut job);
         unprinted(&mut job, &bodies);
@@ -96,6 +102,7 @@ impl Deck {
             surfaces: carried(self, &bodies),
             pairs: job.pairs,
             drawn,
+            references: references::printed(self, &bodies),
             numbering: self.numbering.clone(),
             path: path.to_path_buf(),
             places: job.places,
@@ -127,8 +134,19 @@ fn unprinted(job: &mut Job, bodies: &Bodies) {
                 continue;
             };
             let all = deck.node_sets.get(set).into_iter().flatten();
-            let told = |n: &u64| bodies.of_node.contains_key(n) || deck.pretension(*n).is_some();
-            let none = all.filter(|n| !told(n)).count();
+            let known = |n: &&u64| {
+                let turned = deck.rigid.iter().any(|r| {
+                    let reference = r
+                        .reference
+                        .is_some_and(|n| bodies.references.contains_key(&n));
+                    r.rotation == Some(**n) && reference
+                });
+                turned
+                    || bodies.of_node.contains_key(n)
+                    || bodies.references.contains_key(n)
+                    || deck.pretension(**n).is_some()
+            };
+            let none = all.filter(|n| !known(n)).count();
             if none > 0 {
                 let message = format!(
                     "*NODE PRINT of {set}: {none} nodes that are in no body, such as reference nodes, are not printed"

@@ -111,8 +111,13 @@ impl Sets {
             .collect()
     }
 
-    /// The name by which the problem finds these nodes: `body.set`, or a union.
+    /// The name by which the problem finds these nodes: `body.set`, a union, or a reference point.
     pub fn points(&mut self, bodies: &Bodies, wanted: &str, nodes: &[u64]) -> String {
+        if let &[node] = nodes
+            && bodies.refers(node)
+        {
+            return bodies.references[&node].clone();
+        }
         let key: BTreeSet<u64> = nodes
             .iter()
             .copied()
@@ -136,6 +141,14 @@ impl Sets {
                 name
             }
         }
+    }
+
+    /// The name of a set that joins others.
+    pub fn union(&mut self, wanted: &str, parts: Vec<String>) -> String {
+        let name = free(wanted, |n| self.point_names.contains(n));
+        self.point_names.insert(name.clone());
+        self.unions.insert(name.clone(), parts);
+        name
     }
 
     /// The names by which the problem finds these faces, one a body: `(body, body.set)`.

@@ -37,8 +37,8 @@ impl Value {
 /// By node and direction.
 pub(super) type State = BTreeMap<(u64, usize), Value>;
 
-/// A support under way: what is prescribed along the axes, when.
-type Alike = (When, Option<String>, [Option<(u64, bool)>; 3]);
+/// A support under way: what is prescribed along and about the axes, when, and the reference node if it is of one.
+type Alike = (When, Option<String>, [Option<(u64, bool)>; 6], Option<u64>);
 
 /// In which steps something is prescribed, and in which of them it comes from the one before.
 type When = (Vec<bool>, Vec<bool>);
@@ -51,7 +51,7 @@ fn apply(job: &Job, state: &mut State, b: &Boundary, step: usize) {
     for node in job.nodes(&b.target) {
         for &component in &b.components {
             state.insert(
-                (node, component),
+                turned(job, node, component),
                 Value {
                     value: b.value,
                     amplitude: b.amplitude.clone(),
@@ -62,6 +62,16 @@ fn apply(job: &Job, state: &mut State, b: &Boundary, step: usize) {
                 },
             );
         }
+    }
+}
+
+/// The node and direction that are meant: the displacements of a rotation node are rotations of its reference node.
+pub(super) fn turned(job: &Job, node: u64, component: usize) -> (u64, usize) {
+    let rigid = &job.deck.rigid;
+    let of = rigid.iter().find(|r| r.rotation == Some(node));
+    match of.and_then(|r| r.reference) {
+        Some(reference) if component < 3 => (reference, 3 + component),
+        _ => (node, component),
     }
 }
 
@@ -99,12 +109,23 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         if job.deck.pretension(node).is_some() {
             continue;
         }
-        if !bodies.of_node.contains_key(&node) {
-            reference(job, bodies, sets, when, &values, &states);
+        let refers = bodies.references.contains_key(&node);
+        if !refers && !bodies.of_node.contains_key(&node) {
+            reference(job, bodies, when, &values, &states);
             continue;
         }
         let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
         let all = values[..bodies.dim()].iter().all(Option::is_some);
+        let turned = values[3..].iter().any(Option::is_some);
+        if turned && job.deck.transforms.contains_key(&node) {
+            let message = "rotations in the local axes of a *TRANSFORM";
+            job.error(
+                first.place,
+                message,
+                "leave the reference node out of the set of the *TRANSFORM",
+            );
+            continue;
+        }
         if let Some(t) = job.deck.transforms.get(&node).copied()
             && !(zero && all)
         {
@@ -114,12 +135,21 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let alike = values
             .each_ref()
             .map(|v| v.as_ref().map(|v| ((v.value + 0.0).to_bits(), v.fixed)));
-        let group = groups
-            .entry((steps, amplitude, alike))
-            .or_insert((Vec::new(), first.clone()));
-        group.0.push(node);
+        // A node of a body that others refer to moves with the body and turns on its own.
+        let split = match refers && !bodies.refers(node) {
+            true => [(0..3, None), (3..6, Some(node))],
+            false => [(0..6, refers.then_some(node)), (0..0, None)],
+        };
+        for (range, own) in split {
+            let part = std::array::from_fn(|i| alike[i].filter(|_| range.contains(&i)));
+            if part.iter().any(Option::is_some) {
+                let group = groups
+                    .entry((steps.clone(), amplitude.clone(), part, own))
+                    .or_insert((Vec::new(), first.clone()));
+                group.0.push(node);
+            }
+        }
     }
-    unled(job, bodies);
     // In the order of the deck.
     let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, v))| v.place);
@@ -129,10 +159,10 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 }
 
 /// Every value of every displacement, with the steps in which it holds.
-fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Option<Value>; 3]> {
+fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Option<Value>; 6]> {
     let count = states.len();
     let dofs: BTreeSet<(u64, usize)> = states.iter().flat_map(|s| s.keys().copied()).collect();
-    let mut lines: BTreeMap<Line, [Option<Value>; 3]> = BTreeMap::new();
+    let mut lines: BTreeMap<Line, [Option<Value>; 6]> = BTreeMap::new();
     let mut wrong = BTreeSet::new();
     for (node, component) in dofs {
         let mut values: Vec<(Value, When)> = Vec::new();
@@ -152,7 +182,9 @@ fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Op
             values[at].1.1[i] = v.step < i && v.amplitude.is_some();
         }
         for (v, steps) in values {
-            if component < bodies.dim() {
+            let refers = bodies.references.contains_key(&node);
+            let turns = component == 5 || component > 2 && bodies.dim() == 3;
+            if component < bodies.dim() || refers && turns {
                 let slot = lines.entry((node, steps, v.amplitude.clone())).or_default();
                 slot[component] = Some(v);
                 continue;
@@ -176,29 +208,19 @@ fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Op
     lines
 }
 
-/// Rigid sets of nodes that nothing leads are errors.
-fn unled(job: &mut Job, bodies: &Bodies) {
-    for index in bodies.rigid_nodes.keys() {
-        if !job.led.contains(index) {
-            job.error(
-                job.deck.rigid[*index].place,
-                "the rigid set of nodes is part of a body and its reference node is not prescribed",
-                "prescribe all displacements and hold all rotations of the reference node in every step; a force can act on the nodes themselves, or make a body of its own rigid and *TIE it",
-            );
-        }
-    }
-}
-
 /// The table of nodes that are prescribed alike.
 fn support(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (steps, amplitude, values): Alike,
+    (steps, amplitude, values, own): Alike,
     (nodes, first): (Vec<u64>, Value),
 ) {
     let name = job.fresh("support", &toml::name(&first.label));
-    let set = sets.points(bodies, &toml::name(&first.label), &nodes);
+    let set = match own {
+        Some(node) => bodies.references[&node].clone(),
+        None => sets.points(bodies, &toml::name(&first.label), &nodes),
+    };
     let given = values
         .iter()
         .flatten()
@@ -213,7 +235,7 @@ fn support(
     job.table("support", &name, first.place);
     job.out.line(&format!("set = {}", toml::text(&set)));
     let mut held = Vec::new();
-    for (axis, v) in ["x", "y", "z"].iter().zip(values) {
+    for (axis, v) in toml::COMPONENTS.iter().zip(values) {
         match v {
             Some((_, true)) => held.push(*axis),
             Some((bits, false)) => job
@@ -250,19 +272,14 @@ fn course(
 fn reference(
     job: &mut Job,
     bodies: &Bodies,
-    sets: &mut Sets,
     (node, when, amplitude): (u64, &When, &Option<String>),
-    values: &[Option<Value>; 3],
+    values: &[Option<Value>; 6],
     states: &[State],
 ) {
     let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
         return;
     };
     let rigid = &job.deck.rigid;
-    if rigid.iter().any(|r| r.rotation == Some(node)) {
-        // Judged with the reference node.
-        return;
-    }
     let Some(index) = rigid.iter().position(|r| r.reference == Some(node)) else {
         let mut all = job.deck.elements.values();
         if !all.any(|e| e.nodes.contains(&node)) {
@@ -277,13 +294,9 @@ fn reference(
         return;
     };
     let dim = bodies.dim();
-    let rotation = rigid[index].rotation;
-    // Rotations are directions 4 to 6 of the reference node, or 1 to 3 of the rotation node.
+    // Those of a rotation node have become directions 4 to 6.
     let axes: &[usize] = if dim == 2 { &[2] } else { &[0, 1, 2] };
-    let held = |state: &State, axis: usize| {
-        let value = |key: (u64, usize)| state.get(&key).map(|v| v.value);
-        value((node, 3 + axis)).or_else(|| rotation.and_then(|r| value((r, axis))))
-    };
+    let held = |state: &State, axis: usize| state.get(&(node, 3 + axis)).map(|v| v.value);
     let still = states
         .iter()
         .zip(&when.0)
@@ -305,12 +318,9 @@ fn reference(
     }
     let name = job.fresh("support", &toml::name(&first.label));
     let body = bodies.all.iter().find(|b| b.rigid == Some(index));
-    let set = match (body, bodies.rigid_nodes.get(&index)) {
-        (Some(body), _) => body.name.clone(),
-        (None, Some(nodes)) => sets.points(bodies, &toml::name(&first.label), nodes),
-        _ => return,
+    let Some(set) = body.map(|body| body.name.clone()) else {
+        return;
     };
-    job.led.insert(index);
     let place = first.place;
     let given = values.iter().flatten().map(|v| v.value.abs());
     let largest = given.fold(0.0, f64::max);
@@ -335,7 +345,7 @@ fn local(
     bodies: &Bodies,
     sets: &mut Sets,
     (node, when, amplitude): (u64, &When, &Option<String>),
-    (values, transform): (&[Option<Value>; 3], Transform),
+    (values, transform): (&[Option<Value>; 6], Transform),
 ) {
     let Some(first) = values.iter().flatten().next().cloned() else {
         return;

@@ -1,5 +1,8 @@
 //! Writing TOML that people can read: tables in order, numbers as short as they are exact.
 
+/// Displacements and rotations, in the order of directions 1 to 6.
+pub(super) const COMPONENTS: [&str; 6] = ["x", "y", "z", "rotation-x", "rotation-y", "rotation-z"];
+
 /// A problem file under way.
 #[derive(Debug, Default)]
 pub(super) struct Writer {

@@ -41,6 +41,8 @@ pub struct Translation {
     pub pairs: Vec<(String, String, String)>,
     /// Names of pretensions by their nodes.
     pub(crate) drawn: BTreeMap<u64, String>,
+    /// Nodes that are reference points, with the names of these, and whether their displacements are its rotations.
+    pub references: BTreeMap<u64, (String, bool)>,
     /// How numbers of the mesh are written in the deck.
     pub numbering: Numbering,
     /// Times of `*TIME POINTS` in the time of the analysis.

@@ -3,6 +3,7 @@
 mod beyond;
 mod cards;
 mod changes;
+mod couplings;
 mod elements;
 mod instances;
 mod instances_wrong;

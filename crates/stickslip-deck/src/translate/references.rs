@@ -1,0 +1,273 @@
+//! Reference points of the problem: reference nodes of couplings and rigid sets of nodes, and nodes without a body that springs, masses and equations move.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::bodies::Bodies;
+use super::job::Job;
+use super::sets::Sets;
+use super::{links, toml};
+use crate::card::Place;
+use crate::deck::{Deck, NodeCoupling, SurfaceParts, Tied, Way};
+
+/// Names the nodes that are reference points.
+pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
+    let deck = job.deck;
+    let mut nodes: BTreeSet<u64> = deck.couplings.iter().map(|c| c.reference).collect();
+    for index in bodies.rigid_nodes.keys() {
+        match deck.rigid[*index].reference {
+            Some(n) => nodes.extend([n]),
+            None => job.error(
+                deck.rigid[*index].place,
+                "the rigid set of nodes has no reference node",
+                "give REF NODE: what the nodes follow",
+            ),
+        }
+    }
+    nodes.extend(super::multi_point::references(job, bodies));
+    let ground = links::ground(job, bodies);
+    let loose = loose(job, bodies);
+    nodes.extend(loose.difference(&ground));
+    for n in nodes {
+        let wanted = toml::name(&format!("node-{}", deck.label(n)));
+        let taken = |name: &str| bodies.all.iter().any(|b| b.name == name);
+        let mut name = wanted.clone();
+        while taken(&name) || bodies.references.values().any(|v| *v == name) {
+            name += "-r";
+        }
+        bodies.references.insert(n, name);
+    }
+}
+
+/// Nodes without a body that something moves.
+fn loose(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
+    let deck = job.deck;
+    let sets = deck.springs.iter().map(|s| &s.set);
+    let sets = sets.chain(deck.masses.iter().map(|(set, ..)| set));
+    let elements = sets.filter_map(|s| deck.element_sets.get(s)).flatten();
+    let mut nodes: BTreeSet<u64> = (elements.filter_map(|e| deck.elements.get(e)))
+        .flat_map(|e| e.nodes.iter().copied())
+        .collect();
+    for e in &deck.equations {
+        nodes.extend(e.terms.iter().flat_map(|t| job.nodes(&t.target)));
+    }
+    // The reference node of a body that is rigid as a whole stands for that.
+    let whole = |n: &u64| {
+        let of = |r: &crate::deck::Rigid| [r.reference, r.rotation].contains(&Some(*n));
+        let index = deck.rigid.iter().position(of);
+        index.is_some_and(|i| !bodies.rigid_nodes.contains_key(&i))
+    };
+    nodes.retain(|n| !bodies.of_node.contains_key(n) && !whole(n));
+    nodes
+}
+
+/// The nodes whose results are those of reference points: by name, and whether their displacements are rotations.
+pub(super) fn printed(deck: &Deck, bodies: &Bodies) -> BTreeMap<u64, (String, bool)> {
+    let own = bodies.references.iter().filter(|(n, _)| bodies.refers(**n));
+    let mut out: BTreeMap<u64, (String, bool)> =
+        own.map(|(n, name)| (*n, (name.clone(), false))).collect();
+    for r in &deck.rigid {
+        if let (Some(reference), Some(rotation)) = (r.reference, r.rotation)
+            && let Some(name) = bodies.references.get(&reference)
+        {
+            out.insert(rotation, (name.clone(), true));
+        }
+    }
+    out
+}
+
+/// The tables of reference points and of what is tied to them.
+pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
+    let deck = job.deck;
+    for (node, name) in &bodies.references {
+        let place = (deck.couplings.iter())
+            .find(|c| c.reference == *node)
+            .map_or(Place::default(), |c| c.place);
+        job.table("reference", name, place);
+        let x = &deck.nodes[node][..bodies.dim()];
+        job.out.line(&format!("point = {}", toml::numbers(x)));
+        // A node of a body that others refer to.
+        if bodies.of_node.contains_key(node) {
+            let set = sets.points(bodies, &format!("{name}-point"), &[*node]);
+            tie(job, &format!("{name}-point"), (&set, name), place, "");
+        }
+    }
+    for (index, nodes) in &bodies.rigid_nodes {
+        let rigid = &deck.rigid[*index];
+        let Some(reference) = rigid.reference else {
+            continue;
+        };
+        let label = rigid.nodes.clone().unwrap_or_else(|| "RIGID".into());
+        let set = sets.points(bodies, &toml::name(&label), nodes);
+        let name = format!("rigid-{}", toml::name(&label));
+        tie(
+            job,
+            &name,
+            (&set, &bodies.references[&reference]),
+            rigid.place,
+            "",
+        );
+    }
+    for coupling in &deck.couplings {
+        coupled(job, bodies, sets, coupling);
+    }
+}
+
+/// A kinematic coupling.
+pub(super) fn tie(
+    job: &mut Job,
+    name: &str,
+    (set, reference): (&str, &str),
+    place: Place,
+    more: &str,
+) {
+    let name = job.fresh("coupling", name);
+    job.table("coupling", &name, place);
+    job.out.line(&format!(
+        "kinematic = {{ set = {}, reference = {}{more} }}",
+        toml::text(set),
+        toml::text(reference)
+    ));
+}
+
+fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupling) {
+    let NodeCoupling {
+        name,
+        place,
+        reference,
+        ..
+    } = coupling;
+    let Some(way) = coupling.way else {
+        let help = "*KINEMATIC or *DISTRIBUTING in the next line says how";
+        job.error(
+            *place,
+            format!("coupling {name} does not say how it ties"),
+            help,
+        );
+        return;
+    };
+    let point = bodies.references[reference].clone();
+    let label = toml::name(name);
+    let Some((set, weights)) = tied(job, bodies, sets, coupling) else {
+        return;
+    };
+    if way == Way::Distributing {
+        let name = job.fresh("coupling", &label);
+        job.table("coupling", &name, *place);
+        job.out.line(&format!(
+            "distributing = {{ set = {}, reference = {}{weights} }}",
+            toml::text(&set),
+            toml::text(&point)
+        ));
+        return;
+    }
+    let dim = bodies.dim();
+    let chosen = &coupling.components[..dim];
+    if !chosen.contains(&true) {
+        let message = format!("coupling {name} ties no displacement");
+        job.error(
+            *place,
+            message,
+            "nodes of bodies have directions 1 to 3 alone",
+        );
+        return;
+    }
+    let all = chosen.iter().all(|c| *c);
+    if coupling.orientation.is_some() && !all {
+        job.error(
+            *place,
+            format!("coupling {name} ties some of the directions of an *ORIENTATION"),
+            "tie all directions, or those along the axes of the model",
+        );
+        return;
+    }
+    let axes = ["x", "y", "z"].iter().zip(chosen).filter(|(_, c)| **c);
+    let axes: Vec<&str> = axes.map(|(a, _)| *a).collect();
+    let more = match all {
+        true => String::new(),
+        false => format!(", components = {}", toml::texts(&axes)),
+    };
+    tie(job, &label, (&set, &point), *place, &more);
+}
+
+/// The set that is tied, and the weights of its points as the problem writes them.
+fn tied(
+    job: &mut Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    coupling: &NodeCoupling,
+) -> Option<(String, String)> {
+    let (place, name) = (coupling.place, toml::name(&coupling.name));
+    let nothing = |job: &mut Job, what: &str| {
+        let message = format!("coupling {} ties {what}", coupling.name);
+        job.error(
+            place,
+            message,
+            "name a surface or nodes of solid or plane elements",
+        );
+    };
+    match &coupling.tied {
+        Tied::Surface(surface) => {
+            let Some(found) = job.deck.surfaces.get(surface) else {
+                nothing(job, &format!("the surface {surface}, which is not there"));
+                return None;
+            };
+            if let SurfaceParts::Nodes(nodes) = &found.parts {
+                let own = own(bodies, coupling, nodes);
+                if own.is_empty() {
+                    nothing(job, "no node of a body");
+                    return None;
+                }
+                let set = sets.points(bodies, &toml::name(surface), &own);
+                return Some((set, ", weights = \"uniform\"".into()));
+            }
+            let by = bodies.faces(&found.parts);
+            let facets = sets.facets(bodies, &toml::name(surface), &by);
+            match facets.as_slice() {
+                [] => {
+                    nothing(job, "no face of a body");
+                    None
+                }
+                [(_, one)] => Some((one.clone(), String::new())),
+                // The points of faces of several bodies.
+                _ => {
+                    let names = facets.into_iter().map(|(_, name)| name).collect();
+                    Some((sets.union(&name, names), String::new()))
+                }
+            }
+        }
+        Tied::Nodes(list) => {
+            let mut by_weight: BTreeMap<u64, Vec<u64>> = BTreeMap::new();
+            for (target, weight) in list {
+                let nodes = job.nodes(target);
+                let own = own(bodies, coupling, &nodes);
+                by_weight.entry(weight.to_bits()).or_default().extend(own);
+            }
+            let all: Vec<u64> = by_weight.values().flatten().copied().collect();
+            if all.is_empty() {
+                nothing(job, "no node of a body");
+                return None;
+            }
+            let set = sets.points(bodies, &format!("{name}-nodes"), &all);
+            if by_weight.len() == 1 {
+                return Some((set, ", weights = \"uniform\"".into()));
+            }
+            let mut parts = Vec::new();
+            for (i, (weight, nodes)) in by_weight.iter().enumerate() {
+                let part = sets.points(bodies, &format!("{name}-nodes-{}", i + 1), nodes);
+                let weight = toml::number(f64::from_bits(*weight));
+                parts.push(format!(
+                    "{{ set = {}, weight = {weight} }}",
+                    toml::text(&part)
+                ));
+            }
+            let weights = format!(", weights.sets = [{}]", parts.join(", "));
+            Some((set, weights))
+        }
+    }
+}
+
+/// Nodes of bodies, without the reference node.
+fn own(bodies: &Bodies, coupling: &NodeCoupling, nodes: &[u64]) -> Vec<u64> {
+    let own = |n: &&u64| bodies.of_node.contains_key(n) && **n != coupling.reference;
+    nodes.iter().filter(own).copied().collect()
+}
