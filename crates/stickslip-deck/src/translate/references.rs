@@ -41,7 +41,9 @@ pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
 /// Nodes without a body that something moves.
 fn loose(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
     let deck = job.deck;
-    let sets = deck.springs.iter().map(|s| &s.set);
+    let sections = deck.springs.iter().chain(&deck.dashpots);
+    let sets = sections.map(|s| &s.set);
+    let sets = sets.chain(deck.gaps.iter().map(|g| &g.set));
     let sets = sets.chain(deck.masses.iter().map(|(set, ..)| set));
     let elements = sets.filter_map(|s| deck.element_sets.get(s)).flatten();
     let mut nodes: BTreeSet<u64> = (elements.filter_map(|e| deck.elements.get(e)))
