@@ -171,6 +171,7 @@ fn run(
         block: 0,
         stiffness,
         density: 7800.0,
+        ..Part::default()
     };
     let body = Elastic::new("bench", mesh.clone(), Space::Solid, formulation, vec![part])
         .expect("a sound body");

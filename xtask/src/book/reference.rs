@@ -103,6 +103,7 @@ impl Schema<'_> {
         page.push_str(&prose(&untitled(text(definition))));
         page.push_str("\n\n");
         let mut next: Vec<(String, String, String)> = Vec::new();
+        let mut later: Vec<(String, String, String)> = Vec::new();
         if let Some(properties) = definition["properties"]
             .as_object()
             .filter(|p| !p.is_empty())
@@ -112,7 +113,7 @@ impl Schema<'_> {
             for (key, property) in properties {
                 self.row(page, key, property, required.contains(key.as_str()));
                 if let Some(target) = self.target(property) {
-                    next.push((format!("{path}.{key}"), format!("`{key}`"), target));
+                    later.push((format!("{path}.{key}"), format!("`{key}`"), target));
                 }
             }
             page.push('\n');
@@ -136,6 +137,8 @@ impl Schema<'_> {
             }
             page.push('\n');
         }
+        // What most come for is said first.
+        next.append(&mut later);
         for (path, _, target) in next {
             if self.words(&target).is_some() {
                 continue;
@@ -215,13 +218,26 @@ impl Schema<'_> {
         let direct = property["$ref"].as_str();
         let found = direct.or_else(|| inside.iter().find_map(|p| p["$ref"].as_str()))?;
         let name = found.strip_prefix("#/$defs/")?;
-        // Alternatives that are no tables are said in the row.
-        let definition = self.definition(name);
-        (definition["anyOf"].is_null()).then(|| name.to_string())
+        // Of alternatives the one that is a table has keys to be listed; the others are said in the row.
+        match self.definition(name)["anyOf"].as_array() {
+            None => Some(name.to_string()),
+            Some(all) => all.iter().find_map(|one| self.target(one)),
+        }
+    }
+
+    /// What a property may be, where that is more than one thing.
+    fn alternatives(&self, property: &Value) -> Option<&Vec<Value>> {
+        let direct = property["$ref"].as_str();
+        let name = direct.or_else(|| property["anyOf"][0]["$ref"].as_str())?;
+        self.definition(name.strip_prefix("#/$defs/")?)["anyOf"].as_array()
     }
 
     /// The type of a property in words.
     fn kind(&self, property: &Value) -> String {
+        if let Some(all) = self.alternatives(property) {
+            let kinds: Vec<String> = all.iter().map(|one| self.kind(one)).collect();
+            return kinds.join(" or ");
+        }
         let name = match &property["type"] {
             Value::String(name) => name.as_str(),
             Value::Array(names) => names

@@ -85,6 +85,7 @@ fn summary(problem: &Problem) -> String {
         ("sets", names(&problem.set)),
         ("reference points", names(&problem.reference)),
         ("loads", names(&problem.load)),
+        ("temperatures", names(&problem.temperature)),
         ("supports", names(&problem.support)),
         ("probes", names(&problem.probe)),
     ] {

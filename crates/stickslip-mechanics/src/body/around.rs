@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Elastic, Part};
+use super::{At, Elastic, Part};
 use crate::mesh::CellRef;
 use crate::system::Dofs;
 
@@ -38,7 +38,14 @@ impl Elastic {
         blocks.dedup();
         let parts = blocks.iter().enumerate().filter_map(|(block, old)| {
             let part = self.parts.iter().find(|p| p.block == *old)?;
-            Some(Part { block, ..*part })
+            let own = cells.iter().filter(|c| c.block == *old);
+            let graded = part.cells.as_ref();
+            let graded = graded.map(|all| own.map(|c| all[c.cell]).collect::<Vec<_>>());
+            Some(Part {
+                block,
+                cells: graded.map(Arc::new),
+                ..part.clone()
+            })
         });
         let parts = parts.collect();
         let elastic = Elastic::new(
@@ -48,8 +55,12 @@ impl Elastic {
             self.formulation,
             parts,
         );
+        let elastic = elastic.ok()?;
         Some(Around {
-            elastic: elastic.ok()?,
+            elastic: match &self.temperatures {
+                None => elastic,
+                Some(all) => elastic.heated(Arc::new(all.extract(&points))),
+            },
             points,
             at,
         })
@@ -57,14 +68,15 @@ impl Elastic {
 }
 
 impl Around {
-    /// Stress at the point `[Pa]`, the same as [`Elastic::nodal_stress`] has there; `u` are the displacements of the whole mesh by dof.
-    pub fn stress(&self, dofs: Dofs, u: &[f64]) -> [f64; 6] {
+    /// Stress at the point `[Pa]`, the same as [`Elastic::nodal_stress`] has there, at displacements of the whole mesh.
+    pub fn stress<'a>(&self, dofs: Dofs, at: impl Into<At<'a>>) -> [f64; 6] {
+        let At { u, warm } = at.into();
         let own: Vec<f64> = self
             .points
             .iter()
             .flat_map(|&p| u[dofs.of(p, 0)..dofs.of(p, 0) + dofs.dim].iter().copied())
             .collect();
-        self.elastic.nodal_stress(&own)[self.at]
+        self.elastic.nodal_stress(At { u: &own, warm })[self.at]
     }
 }
 

@@ -3,12 +3,12 @@
 use super::geometry::{Table, by_nodes, point};
 use super::recover::stress_of;
 use super::scheme::{Scheme, printed_rule};
-use super::{Elastic, StressPoint};
+use super::{At, Elastic, StressPoint};
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
 
 /// Numbers a point.
-const WIDTH: usize = 16;
+const WIDTH: usize = 22;
 
 /// The state of one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,12 +31,17 @@ pub struct CellState {
 }
 
 impl Elastic {
-    /// Visits every cell at the displacements `u` `[m]` (by dof of the whole mesh), parts and cells in order.
-    pub fn each_cell_state(&self, u: &[f64], visit: &mut (dyn FnMut(&CellState) + Send)) {
+    /// Visits every cell at displacements, parts and cells in order.
+    pub fn each_cell_state<'a>(
+        &self,
+        at: impl Into<At<'a>>,
+        visit: &mut (dyn FnMut(&CellState) + Send),
+    ) {
+        let at = at.into();
         for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
                 self.mesh.blocks[p.block].kind,
-                Elastic::part_states(self, part, u, visit)
+                Elastic::part_states(self, part, at, visit)
             );
         }
     }
@@ -44,7 +49,7 @@ impl Elastic {
     fn part_states<const N: usize>(
         &self,
         part: usize,
-        u: &[f64],
+        at: At,
         visit: &mut (dyn FnMut(&CellState) + Send),
     ) {
         let block = self.parts[part].block;
@@ -53,7 +58,7 @@ impl Elastic {
         let table = Table::<N>::with_rule(kind, rule);
         self.each_cell::<N>(
             part,
-            u,
+            at,
             3 + rule.len() * WIDTH,
             |medium, [x, v], recovered, values| {
                 values[0] = recovered.energy();
@@ -75,7 +80,11 @@ impl Elastic {
                     }
                     out[3] = volume;
                     out[4..10].copy_from_slice(&strain);
-                    out[10..16].copy_from_slice(&stress_of(&medium.acting, &strain));
+                    // Where the points are others, the thermal strain is the same in all of the cell.
+                    let thermal = recovered.thermal[q];
+                    let elastic = std::array::from_fn(|v| strain[v] - thermal[v]);
+                    out[10..16].copy_from_slice(&stress_of(&medium.acting, &elastic));
+                    out[16..].copy_from_slice(&thermal);
                 }
             },
             |cell, values| {
@@ -86,6 +95,7 @@ impl Elastic {
                     volume: v[3],
                     strain: std::array::from_fn(|i| v[4 + i]),
                     stress: std::array::from_fn(|i| v[10 + i]),
+                    thermal: std::array::from_fn(|i| v[16 + i]),
                 };
                 visit(&CellState {
                     cell,

@@ -9,15 +9,15 @@ use super::kernel::{self, Scratch};
 use super::medium::Medium;
 use super::scheme::stiffness_rule;
 use super::waves::in_order;
-use super::{Formulation, Space};
+use super::{Formulation, Space, Temperatures};
 use crate::error::Diagnostic;
 use crate::linear::{BlockCsr, Digest};
-use crate::material::{Stiffness, constrained_modulus, plane_stress};
+use crate::material::{Dilation, Stiffness, constrained_modulus, plane_stress};
 use crate::mesh::{Block, Mesh};
 use crate::system::{Fields, State};
 
 /// A block of cells and what it is made of.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Part {
     /// Index into [`Mesh::blocks`].
     pub block: usize,
@@ -25,6 +25,10 @@ pub struct Part {
     pub stiffness: Stiffness,
     /// Mass per volume `[kg/m³]`.
     pub density: f64,
+    /// How it expands when it is heated, if it does.
+    pub dilation: Option<Arc<Dilation>>,
+    /// Stiffness of each cell `[Pa]`, where they differ; `stiffness` is that of one of them then.
+    pub cells: Option<Arc<Vec<Stiffness>>>,
 }
 
 /// A linear elastic body: some blocks of a mesh, each with a material.
@@ -38,6 +42,7 @@ pub struct Elastic {
     /// Stiffness as it acts in the space (condensed for plane stress), by part.
     pub(super) acting: Vec<Stiffness>,
     points: Vec<usize>,
+    pub(super) temperatures: Option<Arc<Temperatures>>,
 }
 
 impl Elastic {
@@ -120,7 +125,26 @@ impl Elastic {
             parts,
             acting,
             points,
+            temperatures: None,
         })
+    }
+
+    /// The body with temperatures at its points.
+    pub fn heated(self, temperatures: Arc<Temperatures>) -> Self {
+        Elastic {
+            temperatures: Some(temperatures),
+            ..self
+        }
+    }
+
+    /// The stiffness of a cell as it acts in the space.
+    pub(super) fn acting_in(&self, part: usize, cell: usize) -> Stiffness {
+        let in_plane_stress = matches!(self.space, Space::PlaneStress { .. });
+        match &self.parts[part].cells {
+            None => self.acting[part],
+            Some(cells) if in_plane_stress => plane_stress(&cells[cell]),
+            Some(cells) => cells[cell],
+        }
     }
 
     /// The mesh it is part of.
@@ -158,45 +182,40 @@ impl Elastic {
     /// Hands out the stiffness matrix of every cell, shape `(n dim, n dim)` row by row, with the cell's points; parts
     /// and cells in order.
     pub fn element_matrices(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
-        for (part, acting) in self.parts.iter().zip(&self.acting) {
-            let block = &self.mesh.blocks[part.block];
+        for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
-                block.kind,
-                matrices(
-                    &self.mesh,
-                    block,
-                    self.space,
-                    self.formulation,
-                    acting,
-                    visit
-                )
+                self.mesh.blocks[p.block].kind,
+                Elastic::part_matrices(self, part, visit)
             );
         }
     }
-}
 
-fn matrices<const N: usize>(
-    mesh: &Mesh,
-    block: &Block,
-    space: Space,
-    formulation: Formulation,
-    acting: &Stiffness,
-    visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
-) {
-    let medium = Medium::<N>::new(block.kind, space, formulation, acting);
-    let width = (N * space.dim()).pow(2);
-    in_order(
-        block.connectivity.len() / N,
-        width,
-        |first, part| {
-            let mut scratch = Scratch::<N>::new();
-            for (c, out) in part.chunks_exact_mut(width).enumerate() {
-                let x = coordinates(&mesh.points, block, first + c);
-                kernel::stiffness(&medium, &x, &mut scratch, out);
-            }
-        },
-        |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),
-    );
+    fn part_matrices<const N: usize>(
+        &self,
+        part: usize,
+        visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
+    ) {
+        let block = &self.mesh.blocks[self.parts[part].block];
+        let (space, acting) = (self.space, &self.acting[part]);
+        let medium = Medium::<N>::new(block.kind, space, self.formulation, acting);
+        let width = (N * space.dim()).pow(2);
+        in_order(
+            block.connectivity.len() / N,
+            width,
+            |first, values| {
+                let mut scratch = Scratch::<N>::new();
+                let mut graded = self.parts[part].cells.as_ref().map(|_| medium.clone());
+                for (c, out) in values.chunks_exact_mut(width).enumerate() {
+                    let x = coordinates(&self.mesh.points, block, first + c);
+                    if let Some(medium) = &mut graded {
+                        medium.set_stiffness(&self.acting_in(part, first + c));
+                    }
+                    kernel::stiffness(graded.as_ref().unwrap_or(&medium), &x, &mut scratch, out);
+                }
+            },
+            |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),
+        );
+    }
 }
 
 /// The first cell whose volume is not positive at a quadrature point.
@@ -251,6 +270,9 @@ impl Elastic {
             digest.bytes(block.kind.name().as_bytes());
             digest.word(block.connectivity.len() as u64);
             (block.connectivity.iter()).for_each(|&point| digest.word(point as u64));
+            for stiffness in part.cells.iter().flat_map(|cells| cells.iter()) {
+                digest.floats(stiffness.as_flattened());
+            }
         }
     }
 

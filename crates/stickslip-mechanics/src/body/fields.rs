@@ -1,7 +1,7 @@
 //! Output fields of a body.
 
 use super::geometry::by_nodes;
-use super::{Elastic, extrapolate};
+use super::{At, Elastic, extrapolate};
 use crate::system::{Fields, Location, State};
 
 /// The von Mises stress of a stress xx yy zz xy yz xz, in its unit.
@@ -23,12 +23,15 @@ struct Recovery {
 struct Sums<const K: usize> {
     values: Vec<[f64; K]>,
     cells: Vec<f64>,
-    /// What they are, from strain and stress at a quadrature point.
-    of: fn(&[f64; 6], &[f64; 6]) -> [f64; K],
+    /// What they are, from the strain at a quadrature point, what of it is thermal, and the stress.
+    of: Quantity<K>,
 }
 
+/// A quantity that follows from strain, thermal strain and stress.
+type Quantity<const K: usize> = fn([&[f64; 6]; 3]) -> [f64; K];
+
 impl<const K: usize> Sums<K> {
-    fn new(count: usize, of: fn(&[f64; 6], &[f64; 6]) -> [f64; K]) -> Self {
+    fn new(count: usize, of: Quantity<K>) -> Self {
         Sums {
             values: vec![[0.0; K]; count],
             cells: vec![0.0; count],
@@ -43,27 +46,23 @@ impl<const K: usize> Sums<K> {
     }
 
     /// Adds the values of a part of a body, and returns energy and volume of every cell.
-    fn add_part<const N: usize>(
-        &mut self,
-        body: &Elastic,
-        part: usize,
-        u: &[f64],
-    ) -> Vec<[f64; 2]> {
+    fn add_part<const N: usize>(&mut self, body: &Elastic, part: usize, at: At) -> Vec<[f64; 2]> {
         let block = &body.mesh.blocks[body.parts[part].block];
         let fit = extrapolate::matrix(block.kind, body.space, body.formulation);
         let of = self.of;
         let mut energies = Vec::with_capacity(block.connectivity.len() / N);
         body.each_cell::<N>(
             part,
-            u,
+            at,
             K * N + 2,
             |_, _, recovered, values| {
                 let (at_nodes, cell) = values.split_at_mut(K * N);
                 for (out, row) in at_nodes.chunks_exact_mut(K).zip(&fit) {
                     out.fill(0.0);
-                    let states = recovered.strain.iter().zip(&recovered.stress);
-                    for (weight, (strain, stress)) in row.iter().zip(states) {
-                        for (o, s) in out.iter_mut().zip(of(strain, stress)) {
+                    for (q, weight) in row.iter().enumerate() {
+                        let r = recovered;
+                        let state = [&r.strain[q], &r.thermal[q], &r.stress[q]];
+                        for (o, s) in out.iter_mut().zip(of(state)) {
                             *o += weight * s;
                         }
                     }
@@ -87,8 +86,9 @@ impl<const K: usize> Sums<K> {
 }
 
 /// Strain, and behind it the strain energy per volume.
-fn strain_and_energy(strain: &[f64; 6], stress: &[f64; 6]) -> [f64; 7] {
-    let twice: f64 = strain.iter().zip(stress).map(|(e, s)| e * s).sum();
+fn strain_and_energy([strain, thermal, stress]: [&[f64; 6]; 3]) -> [f64; 7] {
+    let elastic = strain.iter().zip(thermal).map(|(e, t)| e - t);
+    let twice: f64 = elastic.zip(stress).map(|(e, s)| e * s).sum();
     let [xx, yy, zz, xy, yz, xz] = *strain;
     [xx, yy, zz, xy, yz, xz, 0.5 * twice]
 }
@@ -98,24 +98,24 @@ impl Elastic {
     /// the quadrature points to the nodes of each cell by a least-squares fit of the order of the linear element, then
     /// averaged over the cells of this body that meet at the point. Different materials that share points are averaged
     /// too.
-    pub fn nodal_stress(&self, u: &[f64]) -> Vec<[f64; 6]> {
-        self.recovery(u).stress
+    pub fn nodal_stress<'a>(&self, at: impl Into<At<'a>>) -> Vec<[f64; 6]> {
+        self.recovery(at.into()).stress
     }
 
     /// Strain at the body's points, six components with engineering shear strains, and behind them the strain energy per volume `[J/m³]`
     /// without that of hourglass control: extrapolated and averaged as [`nodal_stress`](Elastic::nodal_stress) does. The strain across a
     /// body in plane stress is not filled in.
-    fn nodal_strain(&self, u: &[f64]) -> Vec<[f64; 7]> {
+    fn nodal_strain(&self, at: At) -> Vec<[f64; 7]> {
         let mut sums = Sums::new(self.mesh.points.len(), strain_and_energy);
-        self.visit_parts(u, &mut sums);
+        self.visit_parts(at, &mut sums);
         sums.means(self.points())
     }
 
     /// Adds `E` (points, six components) and `ENER` (points, strain energy per volume `[J/m³]`). Other bodies' points keep what is
     /// there, zero at first.
-    pub fn strain_fields(&self, u: &[f64], out: &mut Fields) {
+    pub fn strain_fields<'a>(&self, at: impl Into<At<'a>>, out: &mut Fields) {
         let count = self.mesh.points.len();
-        let all = self.nodal_strain(u);
+        let all = self.nodal_strain(at.into());
         let e = out.shared("E", Location::Point, 6, count, 0.0);
         for (&p, values) in self.points().iter().zip(&all) {
             e.values[6 * p..6 * p + 6].copy_from_slice(&values[..6]);
@@ -127,10 +127,10 @@ impl Elastic {
     }
 
     /// Visits every cell once.
-    fn recovery(&self, u: &[f64]) -> Recovery {
+    fn recovery(&self, at: At) -> Recovery {
         // By point of the mesh; points of other bodies stay unused.
-        let mut sums = Sums::new(self.mesh.points.len(), |_, stress| *stress);
-        let cells = self.visit_parts(u, &mut sums);
+        let mut sums = Sums::new(self.mesh.points.len(), |[_, _, stress]| *stress);
+        let cells = self.visit_parts(at, &mut sums);
         Recovery {
             stress: sums.means(self.points()),
             cells,
@@ -138,12 +138,12 @@ impl Elastic {
     }
 
     /// Sums values at points, and returns energy and volume of every cell, part by part.
-    fn visit_parts<const K: usize>(&self, u: &[f64], sums: &mut Sums<K>) -> Vec<Vec<[f64; 2]>> {
+    fn visit_parts<const K: usize>(&self, at: At, sums: &mut Sums<K>) -> Vec<Vec<[f64; 2]>> {
         (self.parts.iter().enumerate())
             .map(|(part, p)| {
                 by_nodes!(
                     self.mesh.blocks[p.block].kind,
-                    Sums::add_part(sums, self, part, u)
+                    Sums::add_part(sums, self, part, at)
                 )
             })
             .collect()
@@ -154,7 +154,7 @@ impl Elastic {
     ///
     /// `MISES` is that of the averaged stress. Other bodies' points and cells keep what is there, zero at first.
     pub(super) fn add_fields(&self, state: &State, out: &mut Fields) {
-        let Recovery { stress, cells } = self.recovery(&state.u);
+        let Recovery { stress, cells } = self.recovery(state.into());
         let count = self.mesh.points.len();
         let s = out.shared("S", Location::Point, 6, count, 0.0);
         for (&p, stress) in self.points().iter().zip(&stress) {
@@ -176,6 +176,25 @@ impl Elastic {
             for (v, [energy, _]) in whole.values[starts[p.block]..].iter_mut().zip(energies) {
                 *v = *energy;
             }
+        }
+        self.add_heat(state, out);
+    }
+
+    /// Adds `NT` (points, temperature) and `THE` (points, six components of thermal strain), where temperatures are given.
+    fn add_heat(&self, state: &State, out: &mut Fields) {
+        let Some(temperatures) = &self.temperatures else {
+            return;
+        };
+        let count = self.mesh.points.len();
+        let all = temperatures.at(state.t);
+        let nt = out.shared("NT", Location::Point, 1, count, 0.0);
+        self.points().iter().for_each(|&p| nt.values[p] = all[p]);
+        let mut sums = Sums::new(count, |[_, thermal, _]| *thermal);
+        self.visit_parts(state.into(), &mut sums);
+        let thermal = sums.means(self.points());
+        let the = out.shared("THE", Location::Point, 6, count, 0.0);
+        for (&p, thermal) in self.points().iter().zip(&thermal) {
+            the.values[6 * p..6 * p + 6].copy_from_slice(thermal);
         }
     }
 }

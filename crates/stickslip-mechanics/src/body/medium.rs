@@ -5,7 +5,7 @@ use super::hourglass::{Hourglass, modulus};
 use super::incompatible::Modes;
 use super::operator::Operator;
 use super::scheme::{Scheme, stiffness_rule};
-use super::{Formulation, Space};
+use super::{Formulation, Space, warmth};
 use crate::material::Stiffness;
 use crate::shape::ElementKind;
 
@@ -27,6 +27,8 @@ pub(super) struct Medium<const N: usize> {
     pub modes: Modes<N>,
     /// Shape functions at the centre, where the stress of a uniform strain is taken to be.
     pub centre: [f64; N],
+    /// What the temperatures of the nodes weigh at the points of the rule.
+    pub warmth: Vec<[f64; N]>,
 }
 
 impl<const N: usize> Medium<N> {
@@ -51,7 +53,15 @@ impl<const N: usize> Medium<N> {
             modulus: modulus(acting, space),
             modes: Modes::new(kind, rule),
             centre,
+            warmth: warmth::weights(kind, scheme, rule),
         }
+    }
+
+    /// The same cells with another stiffness.
+    pub fn set_stiffness(&mut self, acting: &Stiffness) {
+        self.acting = *acting;
+        self.operator = Operator::new(acting, self.space, self.scheme);
+        self.modulus = modulus(acting, self.space);
     }
 
     /// Number of points at which a cell has its stresses.

@@ -12,6 +12,7 @@ mod extrapolate;
 mod facets;
 mod fields;
 mod geometry;
+pub mod heat;
 mod hourglass;
 mod incompatible;
 pub mod internal;
@@ -26,7 +27,9 @@ mod redistribution;
 mod rigid;
 mod scheme;
 mod space;
+mod temperatures;
 mod turning;
+mod warmth;
 mod waves;
 
 pub use anchors::{Anchors, Hold, spread};
@@ -36,11 +39,14 @@ pub use elastic::{Elastic, Part};
 pub use facets::{area_vectors, positive_areas, tributary_areas};
 pub use mass::MassKind;
 pub use moments::MassMoments;
-pub use recover::StressPoint;
+pub use recover::{At, StressPoint, Warm};
 pub use rigid::{RigidMode, rigid_modes};
 pub use space::{Formulation, Space};
+pub use temperatures::{TemperatureField, Temperatures};
 pub use turning::Turning;
 
+#[cfg(test)]
+mod heated_tests;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

@@ -4,11 +4,12 @@ use super::geometry::{Nodal, Point, by_nodes, coordinates, point};
 use super::hourglass::MODES;
 use super::medium::Medium;
 use super::scheme::Scheme;
+use super::warmth::Warmth;
 use super::waves::in_order;
 use super::{Elastic, Space, hourglass};
 use crate::material::Stiffness;
 use crate::mesh::{Block, CellRef};
-use crate::system::Dofs;
+use crate::system::{Dofs, State};
 
 /// The state of one quadrature point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,8 +22,54 @@ pub struct StressPoint {
     pub volume: f64,
     /// Strain xx yy zz xy yz xz, shear strains as engineering strains; in plane stress zz is not filled in.
     pub strain: [f64; 6],
+    /// What of it is thermal.
+    pub thermal: [f64; 6],
     /// Stress xx yy zz xy yz xz `[Pa]`.
     pub stress: [f64; 6],
+}
+
+/// Displacements `[m]` by dof of the whole mesh, and how warm bodies are with them.
+#[derive(Debug, Clone, Copy)]
+pub struct At<'a> {
+    /// Displacements.
+    pub u: &'a [f64],
+    /// Which temperatures there are.
+    pub warm: Warm<'a>,
+}
+
+/// Which temperatures bodies have.
+#[derive(Debug, Clone, Copy)]
+pub enum Warm<'a> {
+    /// Those of the start: nothing has expanded.
+    AtStart,
+    /// Those of a time.
+    AtTime(f64),
+    /// Those with factors and shares of the fields.
+    Weighted(&'a [[f64; 2]]),
+}
+
+impl<'a> From<&'a State> for At<'a> {
+    fn from(state: &'a State) -> Self {
+        At {
+            u: &state.u,
+            warm: Warm::AtTime(state.t),
+        }
+    }
+}
+
+impl<'a> From<&'a [f64]> for At<'a> {
+    fn from(u: &'a [f64]) -> Self {
+        At {
+            u,
+            warm: Warm::AtStart,
+        }
+    }
+}
+
+impl<'a> From<&'a Vec<f64>> for At<'a> {
+    fn from(u: &'a Vec<f64>) -> Self {
+        At::from(u.as_slice())
+    }
 }
 
 /// Most quadrature points a cell has: hex20.
@@ -33,6 +80,8 @@ pub(super) struct Recovered<const N: usize> {
     /// Derivatives and volumes there; with uniform strain the means.
     pub points: Vec<Point<N>>,
     pub strain: [[f64; 6]; MAX_POINTS],
+    /// Thermal strain there.
+    pub thermal: [[f64; 6]; MAX_POINTS],
     pub stress: [[f64; 6]; MAX_POINTS],
     /// The mean dilatation of the cell.
     dilatation: f64,
@@ -66,6 +115,7 @@ impl<const N: usize> Recovered<N> {
         Recovered {
             points: Vec::with_capacity(MAX_POINTS),
             strain: [[0.0; 6]; MAX_POINTS],
+            thermal: [[0.0; 6]; MAX_POINTS],
             stress: [[0.0; 6]; MAX_POINTS],
             dilatation: 0.0,
             vectors: [[0.0; N]; MODES],
@@ -73,8 +123,14 @@ impl<const N: usize> Recovered<N> {
         }
     }
 
-    /// Fills it for the cell with nodes `x` displaced by `u`.
-    pub fn compute(&mut self, of: &Medium<N>, x: &Nodal<N>, u: &Nodal<N>) {
+    /// Fills it for the cell with nodes `x` displaced by `u`, as warm as at the start where nothing is said of it.
+    pub fn compute(
+        &mut self,
+        of: &Medium<N>,
+        x: &Nodal<N>,
+        u: &Nodal<N>,
+        warmth: Option<&Warmth<N>>,
+    ) {
         let space = of.space;
         self.points.clear();
         self.points
@@ -106,6 +162,9 @@ impl<const N: usize> Recovered<N> {
                 shift(strain, self.dilatation);
             }
         }
+        if let Some(warmth) = warmth {
+            self.set_thermal(of, warmth);
+        }
         self.set_stress(of);
         if of.scheme == Scheme::Incompatible {
             of.modes.add_strains(
@@ -120,15 +179,31 @@ impl<const N: usize> Recovered<N> {
         }
     }
 
-    fn set_stress(&mut self, of: &Medium<N>) {
-        for (strain, stress) in self
-            .strain
-            .iter()
-            .zip(&mut self.stress)
-            .take(self.points.len())
-        {
-            *stress = stress_of(&of.acting, strain);
+    /// Thermal strains at the points; with mean dilatation the cell has the mean of theirs, too.
+    fn set_thermal(&mut self, of: &Medium<N>, warmth: &Warmth<N>) {
+        let each = self.points.iter().zip(&mut self.thermal).zip(&of.warmth);
+        let (mut volume, mut dilatation) = (0.0, 0.0);
+        for ((p, thermal), weights) in each {
+            *thermal = warmth.strain(weights);
+            volume += p.volume;
+            dilatation += p.volume * trace(thermal);
         }
+        if of.scheme == Scheme::MeanDilatation {
+            for thermal in &mut self.thermal[..self.points.len()] {
+                shift(thermal, dilatation / volume);
+            }
+        }
+    }
+
+    fn set_stress(&mut self, of: &Medium<N>) {
+        for q in 0..self.points.len() {
+            self.stress[q] = stress_of(&of.acting, &self.elastic(q));
+        }
+    }
+
+    /// Strain without its thermal part at a point.
+    pub fn elastic(&self, q: usize) -> [f64; 6] {
+        std::array::from_fn(|v| self.strain[q][v] - self.thermal[q][v])
     }
 
     /// The strain at another point of the cell last computed, whose strains are those of its displacements `u` but for the
@@ -143,13 +218,11 @@ impl<const N: usize> Recovered<N> {
 
     /// Strain energy of the cell.
     pub fn energy(&self) -> f64 {
-        let inside: f64 = self
-            .points
-            .iter()
-            .zip(self.strain.iter().zip(&self.stress))
-            .map(|(p, (e, s))| 0.5 * p.volume * e.iter().zip(s).map(|(e, s)| e * s).sum::<f64>())
-            .sum();
-        inside + self.hourglass()
+        let at = |(q, p): (usize, &Point<N>)| {
+            let both = self.elastic(q).into_iter().zip(self.stress[q]);
+            0.5 * p.volume * both.map(|(e, s)| e * s).sum::<f64>()
+        };
+        self.points.iter().enumerate().map(at).sum::<f64>() + self.hourglass()
     }
 
     /// What of it is energy of the motions without strain.
@@ -246,46 +319,70 @@ impl Elastic {
     pub(super) fn each_cell<const N: usize>(
         &self,
         part: usize,
-        u: &[f64],
+        at: At,
         width: usize,
         extract: impl Fn(&Medium<N>, [&Nodal<N>; 2], &Recovered<N>, &mut [f64]) + Sync,
         consume: impl FnMut(usize, &[f64]) + Send,
     ) {
-        let block = &self.mesh.blocks[self.parts[part].block];
+        let own = &self.parts[part];
+        let block = &self.mesh.blocks[own.block];
         let medium = self.medium::<N>(part);
         let dofs = self.dofs();
+        let heat = self.temperatures.as_ref().zip(own.dilation.as_ref());
+        let heat = heat.and_then(|(temperatures, dilation)| {
+            let rises = match at.warm {
+                Warm::AtStart => return None,
+                Warm::AtTime(t) => temperatures.rises(t),
+                Warm::Weighted(weights) => temperatures.weighted(weights),
+            };
+            Some((temperatures, dilation, rises))
+        });
         in_order(
             block.connectivity.len() / N,
             width,
             |first, values| {
                 let mut recovered = Recovered::new();
+                let mut graded = own.cells.as_ref().map(|_| medium.clone());
                 for (c, out) in values.chunks_exact_mut(width).enumerate() {
-                    let x = coordinates(&self.mesh.points, block, first + c);
-                    let v = gather(u, dofs, block, first + c);
-                    recovered.compute(&medium, &x, &v);
-                    extract(&medium, [&x, &v], &recovered, out);
+                    let cell = first + c;
+                    let x = coordinates(&self.mesh.points, block, cell);
+                    let v = gather(at.u, dofs, block, cell);
+                    let nodes = &block.connectivity[cell * N..(cell + 1) * N];
+                    let warmth = heat.as_ref().map(|(temperatures, dilation, rises)| Warmth {
+                        dilation,
+                        start: std::array::from_fn(|a| temperatures.start[nodes[a]]),
+                        rise: std::array::from_fn(|a| rises[nodes[a]]),
+                    });
+                    if let Some(medium) = &mut graded {
+                        medium.set_stiffness(&self.acting_in(part, cell));
+                    }
+                    let medium = graded.as_ref().unwrap_or(&medium);
+                    recovered.compute(medium, &x, &v, warmth.as_ref());
+                    extract(medium, [&x, &v], &recovered, out);
                 }
             },
             consume,
         );
     }
 
-    /// Adds the internal force at the displacements `u` `[m]` to `out` `[N]`, both by dof of the whole mesh.
-    pub fn internal_force(&self, u: &[f64], out: &mut [f64]) {
+    /// Adds the internal force at displacements to `out` `[N]`, by dof of the whole mesh: without any, and at a time, what temperatures press
+    /// with against what holds the body.
+    pub fn internal_force<'a>(&self, at: impl Into<At<'a>>, out: &mut [f64]) {
+        let at = at.into();
         for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
                 self.mesh.blocks[p.block].kind,
-                Elastic::part_force(self, part, u, out)
+                Elastic::part_force(self, part, at, out)
             );
         }
     }
 
-    fn part_force<const N: usize>(&self, part: usize, u: &[f64], out: &mut [f64]) {
+    fn part_force<const N: usize>(&self, part: usize, at: At, out: &mut [f64]) {
         let block = &self.mesh.blocks[self.parts[part].block];
         let dofs = self.dofs();
         self.each_cell::<N>(
             part,
-            u,
+            at,
             N * dofs.dim,
             |medium, _, recovered, values| recovered.force(medium, values),
             |cell, values| {
@@ -300,16 +397,16 @@ impl Elastic {
     }
 
     /// Strain energy and volume of every cell of a part, in order.
-    pub(super) fn cell_energies(&self, part: usize, u: &[f64]) -> Vec<[f64; 2]> {
+    pub(super) fn cell_energies(&self, part: usize, at: At) -> Vec<[f64; 2]> {
         let kind = self.mesh.blocks[self.parts[part].block].kind;
-        by_nodes!(kind, Elastic::part_energies(self, part, u))
+        by_nodes!(kind, Elastic::part_energies(self, part, at))
     }
 
-    fn part_energies<const N: usize>(&self, part: usize, u: &[f64]) -> Vec<[f64; 2]> {
+    fn part_energies<const N: usize>(&self, part: usize, at: At) -> Vec<[f64; 2]> {
         let mut all = Vec::new();
         self.each_cell::<N>(
             part,
-            u,
+            at,
             2,
             |_, _, recovered, values| {
                 values[0] = recovered.energy();
@@ -320,11 +417,12 @@ impl Elastic {
         all
     }
 
-    /// The strain energy at the displacements `u` `[m]`, by dof of the whole mesh `[J]`.
-    pub fn strain_energy(&self, u: &[f64]) -> f64 {
+    /// The strain energy at displacements `[J]`.
+    pub fn strain_energy<'a>(&self, at: impl Into<At<'a>>) -> f64 {
+        let at = at.into();
         (0..self.parts.len())
             .map(|part| {
-                self.cell_energies(part, u)
+                self.cell_energies(part, at)
                     .iter()
                     .map(|e| e[0])
                     .sum::<f64>()
@@ -337,7 +435,7 @@ impl Elastic {
         let rest = vec![0.0; self.dofs().count()];
         (0..self.parts.len())
             .map(|part| {
-                self.cell_energies(part, &rest)
+                self.cell_energies(part, At::from(&rest))
                     .iter()
                     .map(|e| e[1])
                     .sum::<f64>()
@@ -345,15 +443,16 @@ impl Elastic {
             .sum()
     }
 
-    /// Stress and strain at every quadrature point at the displacements `u` `[m]`; parts, cells and points in order. A cell with the
+    /// Stress and strain at every quadrature point at displacements; parts, cells and points in order. A cell with the
     /// mean of all strains has one point, its centre.
-    pub fn stress_at_quadrature(&self, u: &[f64]) -> Vec<StressPoint> {
+    pub fn stress_at_quadrature<'a>(&self, at: impl Into<At<'a>>) -> Vec<StressPoint> {
+        let at = at.into();
         let mut all = Vec::new();
         for (part, p) in self.parts.iter().enumerate() {
             let kind = self.mesh.blocks[p.block].kind;
             by_nodes!(
                 kind,
-                Elastic::part_stress(self, part, u, &mut |point| all.push(point))
+                Elastic::part_stress(self, part, at, &mut |point| all.push(point))
             );
         }
         all
@@ -362,15 +461,15 @@ impl Elastic {
     fn part_stress<const N: usize>(
         &self,
         part: usize,
-        u: &[f64],
+        at: At,
         visit: &mut (dyn FnMut(StressPoint) + Send),
     ) {
-        const WIDTH: usize = 16;
+        const WIDTH: usize = 22;
         let block = self.parts[part].block;
         let points = self.medium::<N>(part).stations();
         self.each_cell::<N>(
             part,
-            u,
+            at,
             points * WIDTH,
             |medium, [x, _], recovered, values| {
                 for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
@@ -381,6 +480,7 @@ impl Elastic {
                     out[3] = recovered.points[q].volume;
                     out[4..10].copy_from_slice(&recovered.strain[q]);
                     out[10..16].copy_from_slice(&recovered.stress[q]);
+                    out[16..].copy_from_slice(&recovered.thermal[q]);
                 }
             },
             |cell, values| {
@@ -391,6 +491,7 @@ impl Elastic {
                         volume: v[3],
                         strain: std::array::from_fn(|i| v[4 + i]),
                         stress: std::array::from_fn(|i| v[10 + i]),
+                        thermal: std::array::from_fn(|i| v[16 + i]),
                     });
                 }
             },

@@ -162,6 +162,7 @@ pub fn body(mesh: Mesh, space: Space, formulation: Formulation, stiffness: Stiff
             block,
             stiffness,
             density: 2.0,
+            ..Part::default()
         })
         .collect();
     Elastic::new("block", Arc::new(mesh), space, formulation, parts).expect("sound")

@@ -438,6 +438,7 @@ fn bad_bodies_say_what_is_wrong() {
             block: 0,
             stiffness: isotropic(1.0, 0.3),
             density: 0.0,
+            ..Part::default()
         }];
         Elastic::new("lug", Arc::new(mesh), space, formulation, parts).expect_err("bad")
     };
@@ -473,6 +474,7 @@ fn bad_bodies_say_what_is_wrong() {
             block,
             stiffness: isotropic(1.0, 0.3),
             density: 0.0,
+            ..Part::default()
         });
     }
     let twice = Elastic::new(

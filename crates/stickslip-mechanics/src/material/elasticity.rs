@@ -3,6 +3,7 @@
 use super::check::{self, MaterialError};
 use super::reduce::constrained_modulus;
 use super::stiffness::Stiffness;
+use crate::math::Vec3;
 
 /// A linear elastic material.
 pub trait Elasticity {
@@ -14,6 +15,14 @@ pub trait Elasticity {
 
     /// Mass per volume `[kg/m³]`.
     fn density(&self) -> f64;
+
+    /// The material's own axes as rows, where it has some: along them thermal expansion is given.
+    ///
+    /// # Errors
+    /// Axes that do not span a plane.
+    fn frame(&self) -> Result<Option<[Vec3; 3]>, MaterialError> {
+        Ok(None)
+    }
 
     /// A modulus `[Pa]` by which other quantities are made dimensionless: the largest constrained modulus
     /// (uniaxial strain), see [`constrained_modulus`].

@@ -7,8 +7,10 @@
 #![allow(clippy::needless_range_loop)]
 
 mod anisotropic;
+mod axes;
 mod check;
 mod elasticity;
+mod expansion;
 mod isotropic;
 mod orthotropic;
 mod reduce;
@@ -17,6 +19,7 @@ mod stiffness;
 pub use anisotropic::{Anisotropic, Entries};
 pub use check::{MaterialError, smallest_eigenvalue};
 pub use elasticity::Elasticity;
+pub use expansion::{Dilation, Expansion, ExpansionTable};
 pub use isotropic::Isotropic;
 pub use orthotropic::Orthotropic;
 pub use reduce::{constrained_modulus, plane_stress};

@@ -1,8 +1,9 @@
+use super::axes;
 use super::check::{self, MaterialError, modulus};
 use super::elasticity::Elasticity;
 use super::reduce::rotate;
 use super::stiffness::Stiffness;
-use crate::math::{Vec3, add_scaled, cross, dot, inverse, norm, normalize};
+use crate::math::{Vec3, inverse};
 use crate::registry::Samples;
 
 /// Three orthogonal planes of symmetry.
@@ -40,23 +41,6 @@ pub struct Orthotropic {
 }
 
 impl Orthotropic {
-    /// The material's axes as rows of a rotation.
-    fn frame(&self) -> Result<Option<[Vec3; 3]>, MaterialError> {
-        let Some([a, b]) = self.axes else {
-            return Ok(None);
-        };
-        let error = || {
-            MaterialError::new("axes", format!("axes {a:?} and {b:?} do not span a plane"))
-                .help("give two vectors that are neither zero nor parallel, for instance [[1, 0, 0], [0, 1, 0]]")
-        };
-        let first = normalize(a).ok_or_else(error)?;
-        let across = add_scaled(b, -dot(first, b), first);
-        let second = normalize(across)
-            .filter(|_| norm(across) > 1e-6 * norm(b))
-            .ok_or_else(error)?;
-        Ok(Some([first, second, cross(first, second)]))
-    }
-
     /// The Poisson's ratio to look at when the compliance is not positive definite.
     fn suspect(&self) -> &'static str {
         let pairs = [
@@ -132,6 +116,10 @@ impl Elasticity for Orthotropic {
             Some(axes) => rotate(&c, &axes),
             None => c,
         })
+    }
+
+    fn frame(&self) -> Result<Option<[Vec3; 3]>, MaterialError> {
+        self.axes.map(axes::frame).transpose()
     }
 
     fn density(&self) -> f64 {

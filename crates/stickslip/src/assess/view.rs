@@ -33,6 +33,7 @@ impl<'a> View<'a> {
             (None, None) => return self.external_forces(),
         };
         out.iter_mut().zip(contact).for_each(|(out, c)| *out += c);
+        (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
         // Equations act like contact and do not count as what resists.
         self.contact.couplings.add_equation_forces(&mut out);
         out

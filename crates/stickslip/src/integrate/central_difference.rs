@@ -80,7 +80,7 @@ impl Integrator for Explicit {
                 damped: total.damped,
                 // ΔT = Δuᵀ m ā + dt²/8 Δ(aᵀ m a)
                 numerical: -dt * dt / 8.0 * (total.turned[1] - total.turned[0]),
-                impact: 0.0,
+                ..Flow::default()
             },
             kinetic: 0.5 * total.kinetic,
             strain: 0.5 * total.strain,

@@ -221,7 +221,7 @@ impl Explicit {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
         let constraints = frame.constraints(model, soon);
-        explicit.loaded = !model.loads.is_empty();
+        explicit.loaded = !model.loads.is_empty() || model.heat.is_some();
         for interface in &mut contact.interfaces {
             frame.ledger.initial += interface.use_springs(true);
         }
@@ -258,7 +258,7 @@ impl Explicit {
         let both = self.force.iter().zip(u);
         let strain: f64 = 0.5 * both.map(|(f, u)| f * u).sum::<f64>();
         let energy = &mut frame.ledger;
-        let strain = strain + contact.couplings.energy().stored;
+        let strain = strain + contact.couplings.energy().stored + energy.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);

@@ -392,7 +392,7 @@ impl Implicit {
             work,
             damped,
             numerical,
-            impact: 0.0,
+            ..Flow::default()
         }
     }
 }

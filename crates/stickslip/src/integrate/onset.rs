@@ -113,8 +113,8 @@ impl Implicit {
             *u = *to;
         }
         let internal = times(&solver.stiffness, &frame.state.u);
-        let strain = 0.5 * dot(&frame.state.u, &internal);
         let energy = &mut frame.ledger;
+        let strain = 0.5 * dot(&frame.state.u, &internal) + energy.thermal;
         energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
         frame.motion.internal = internal;
         frame.motion.start.clone_from(&frame.state.u);

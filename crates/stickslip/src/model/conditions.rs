@@ -90,9 +90,16 @@ impl Frame {
         constraints
     }
 
-    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
-    /// the bodies.
+    /// External forces at a time and what temperatures press with, which acts like them.
     pub(crate) fn external(&self, model: &Model, t: f64) -> Vec<f64> {
+        let mut external = self.loads(model, t);
+        model.add_thermal_forces(t, 1.0, &mut external);
+        external
+    }
+
+    /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
+    /// the bodies. They move bodies as wholes: what temperatures press with has no resultant but rounding.
+    pub(crate) fn loads(&self, model: &Model, t: f64) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
         for load in &model.loads {
             load.external(t, &mut external);

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::heat::Heat;
 use super::limits::Limits;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
@@ -34,6 +35,8 @@ pub struct Model {
     pub references: Vec<Reference>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Temperatures, where some are given.
+    pub heat: Option<Heat>,
     /// Springs to ground.
     pub springs: Vec<Spring>,
     /// Masses at points beside those of the cells `[kg]`.
@@ -127,7 +130,7 @@ impl Body {
     /// Adds strain and strain energy per volume at the points, `E` and `ENER`: more than [`fields`](Body::fields) has.
     pub fn strain_fields(&self, state: &State, out: &mut Fields) {
         match self.rigid {
-            None => self.elastic.strain_fields(&state.u, out),
+            None => self.elastic.strain_fields(state, out),
             Some(_) => self.elastic.strain_fields(&vec![0.0; state.u.len()], out),
         }
     }

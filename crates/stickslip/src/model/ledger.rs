@@ -15,6 +15,8 @@ pub(crate) struct Flow {
     pub numerical: f64,
     /// Taken from masses that met what does not give way.
     pub impact: f64,
+    /// By how much the strain energy is more than that without thermal strain at the end, and that of bodies which are held as they are meshed.
+    pub thermal: [f64; 2],
 }
 
 /// How often what is left of the balance may be fed in by the scheme: part of that is no loss, but comes back, as the energy of a central difference is
@@ -43,7 +45,7 @@ pub struct EnergyLedger {
     /// up lets contact act over all of an increment, also over the part in which it was open. Negative if bodies came out of a
     /// penetration.
     pub artificial: f64,
-    /// Work of loads and supports.
+    /// Work of loads and supports, and of temperatures against what keeps bodies from expanding.
     pub external_work: f64,
     /// Work of moving primary surfaces: obstacles, belts, and overlap that is resolved.
     pub belt_work: f64,
@@ -53,6 +55,13 @@ pub struct EnergyLedger {
     /// By how much `friction` may be off at most in quasi-static increments, as nobody knows when within them points began to slide. It shows in
     /// no balance; smaller increments make it smaller.
     pub uncertain: f64,
+    /// By how much `strain` is more than it were without thermal strain. Thermal forces enter their work like loads; with this it is that of the
+    /// strain itself.
+    #[serde(skip)]
+    pub(crate) thermal: f64,
+    /// Energy that it would take to hold all bodies as they are meshed: rounding of the strain energy is relative to it.
+    #[serde(skip)]
+    held: f64,
     #[serde(skip)]
     passed: f64,
     #[serde(skip)]
@@ -96,7 +105,10 @@ impl EnergyLedger {
         self.rayleigh_damping += flow.damped;
         self.numerical += flow.numerical;
         self.kinetic = kinetic;
-        self.strain = strain;
+        let [thermal, held] = flow.thermal;
+        self.strain = strain + thermal;
+        self.external_work += thermal - std::mem::replace(&mut self.thermal, thermal);
+        self.held = held;
         let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
         self.contact = sum(|e| e.stored);
         self.friction = sum(|e| e.dissipated);
@@ -152,10 +164,11 @@ impl EnergyLedger {
             .max(-(self.residual + self.numerical) / FED)
     }
 
-    /// Everything stored and dissipated.
+    /// Everything stored and dissipated, and what heat could store.
     fn in_play(&self) -> f64 {
         self.kinetic
             + self.strain
+            + self.held
             + self.contact
             + self.friction
             + self.contact_damping
@@ -194,6 +207,8 @@ crate::keep!(EnergyLedger {
     belt_work,
     path,
     uncertain,
+    thermal,
+    held,
     passed,
     moved,
     exceeded,
@@ -213,5 +228,6 @@ crate::keep!(Flow {
     work,
     damped,
     numerical,
-    impact
+    impact,
+    thermal
 });

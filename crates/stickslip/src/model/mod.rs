@@ -7,10 +7,12 @@ pub(crate) mod definition;
 pub(crate) mod drivers;
 pub(crate) mod frame;
 pub(crate) mod free_bodies;
+pub(crate) mod heat;
 pub(crate) mod ledger;
 pub(crate) mod limits;
 pub(crate) mod scene;
 pub(crate) mod setup;
+pub(crate) mod thermal;
 pub(crate) mod unheld;
 
 pub use contact::Contact;
@@ -20,6 +22,7 @@ pub use definition::{
     Reference, Rigid, Solution, Step, Support,
 };
 pub use frame::{Frame, Motion};
+pub use heat::Heat;
 pub use ledger::{EnergyLedger, EnergyQuality};
 pub use limits::{GateMode, Limits};
 pub use scene::Scene;

@@ -22,9 +22,9 @@ impl<'a> Scene<'a> {
         self.frame.constraints(self.model, t)
     }
 
-    /// External forces at a time.
-    pub(crate) fn external(&self, t: f64) -> Vec<f64> {
-        self.frame.external(self.model, t)
+    /// Loads at a time: external forces that move bodies as wholes.
+    pub(crate) fn loads(&self, t: f64) -> Vec<f64> {
+        self.frame.loads(self.model, t)
     }
 
     /// Dofs that are prescribed at the time of the state, by dof.
@@ -48,6 +48,8 @@ impl<'a> Scene<'a> {
     pub fn external_forces(&self) -> Vec<f64> {
         let both = self.frame.forces.iter().zip(&self.frame.load);
         let mut out: Vec<f64> = both.map(|(reaction, load)| reaction + load).collect();
+        // What bodies press with themselves, being warm, is none of it.
+        (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
         self.contact.couplings.add_equation_forces(&mut out);
         out
     }

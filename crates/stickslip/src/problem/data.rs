@@ -11,6 +11,7 @@ use super::initial::Initial;
 use super::interface::Interface;
 use super::load::Load;
 use super::mass::Mass;
+use super::material::Material;
 use super::model::Model;
 use super::obstacle::Obstacle;
 use super::output::Output;
@@ -22,8 +23,8 @@ use super::set::Set;
 use super::solver::Solver;
 use super::step::Step;
 use super::support::Support;
+use super::temperature::Temperature;
 use crate::error::{Diagnostic, ProblemError};
-use crate::material::Material;
 
 /// The format of the problem file that this version reads.
 pub const FORMAT: u32 = 1;
@@ -66,6 +67,9 @@ pub struct Problem {
     /// Forces and springs, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub load: BTreeMap<String, Load>,
+    /// Temperatures of sets, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub temperature: BTreeMap<String, Temperature>,
     /// Masses at points, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub mass: BTreeMap<String, Mass>,
@@ -78,7 +82,7 @@ pub struct Problem {
     /// Factors over time, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub amplitude: BTreeMap<String, AmplitudeTable>,
-    /// Initial displacements and velocities, by name.
+    /// Initial displacements, velocities and temperatures, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub initial: BTreeMap<String, Initial>,
     /// The steps of the analysis, in order.

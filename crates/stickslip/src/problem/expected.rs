@@ -103,6 +103,30 @@ impl<'s> Expected<'s> {
     }
 }
 
+/// Of several alternatives the one for a value of this type; the schema itself where there is no choice, or none is.
+pub(super) fn alternative<'s>(root: &'s Json, schema: &'s Json, value: &Value) -> &'s Json {
+    let kind = match value {
+        DeValue::Table(_) => "object",
+        DeValue::Array(_) => "array",
+        DeValue::String(_) => "string",
+        DeValue::Boolean(_) => "boolean",
+        _ => "number",
+    };
+    let reference = schema.get("$ref").and_then(Json::as_str);
+    if let Some(target) = reference.and_then(|r| root.pointer(r.strip_prefix('#')?)) {
+        return alternative(root, target, value);
+    }
+    let all = schema.get("anyOf").and_then(Json::as_array);
+    let fits = |s: &&'s Json| {
+        let inner = alternative(root, s, value);
+        Expected::of(root, inner).allows(kind)
+    };
+    match all.into_iter().flatten().find(fits) {
+        Some(fitting) => alternative(root, fitting, value),
+        None => schema,
+    }
+}
+
 pub(super) fn strings(list: Option<&Json>) -> impl Iterator<Item = &str> {
     let list = list.and_then(Json::as_array).into_iter().flatten();
     list.filter_map(Json::as_str)

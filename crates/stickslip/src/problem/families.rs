@@ -2,6 +2,7 @@ use serde_json::Value;
 
 use super::{prose, schema};
 use crate::body::couplings::CouplingKind;
+use crate::body::heat::TemperatureKind;
 use crate::body::loads::LoadKind;
 use crate::contact::discretisation::DiscretisationModel;
 use crate::contact::enforcement::EnforcementModel;
@@ -72,6 +73,7 @@ pub fn families() -> Vec<FamilyListing> {
         ),
         listing::<KinematicsModel>("KinematicsModel", "[interface.NAME] kinematics.KIND"),
         listing::<LoadKind>("Load", "[load.NAME.KIND]"),
+        listing::<TemperatureKind>("Temperature", "[temperature.NAME.KIND]"),
         listing::<CouplingKind>("Coupling", "[coupling.NAME.KIND]"),
         listing::<SchemeModel>("SchemeModel", "[step.dynamic] scheme.KIND"),
     ]

@@ -2,7 +2,9 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// `[initial.NAME]`: displacements at the start of the analysis and velocities at the start of a dynamic step.
+use crate::body::heat::TemperatureKind;
+
+/// `[initial.NAME]`: displacements and temperatures at the start of the analysis, and velocities at the start of a dynamic step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -19,6 +21,9 @@ pub struct Initial {
     /// in 3D.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin: Option<Vec<f64>>,
+    /// Temperature at the start of the analysis, at which nothing has expanded: `temperature.uniform = { value = 20 }`; 0 if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<TemperatureKind>,
     /// Displacements and velocities from a result file `.vtu` of the same mesh, relative to the folder of the problem file; instead of
     /// `displacement`, `velocity` and `spin`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

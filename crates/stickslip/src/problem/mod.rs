@@ -25,6 +25,7 @@ mod interface;
 mod key;
 mod load;
 mod mass;
+mod material;
 mod model;
 mod nearest;
 mod obstacle;
@@ -41,6 +42,7 @@ mod solver;
 mod step;
 mod structure;
 mod support;
+mod temperature;
 mod tree;
 
 use std::path::Path;
@@ -60,6 +62,7 @@ pub use initial::Initial;
 pub use interface::{FacetShape, Interface, Roles};
 pub use load::Load;
 pub use mass::Mass;
+pub use material::{ConstantsAt, Material};
 pub use model::{Model, SpaceKind};
 pub use nearest::nearest;
 pub use obstacle::Obstacle;
@@ -75,6 +78,7 @@ pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
 pub use step::{Increments, Step};
 pub use support::{Component, Support};
+pub use temperature::Temperature;
 
 impl Problem {
     /// Reads and checks the text of a problem file; `file` is named in messages.

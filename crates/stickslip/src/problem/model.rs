@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use crate::body::Space;
 use crate::system::Component;
 
 /// `[model]`: the space in which the bodies live.
@@ -45,6 +46,21 @@ impl SpaceKind {
             Component::X | Component::Y => true,
             Component::Z | Component::RotationX | Component::RotationY => self == SpaceKind::Solid,
             Component::RotationZ => self != SpaceKind::Axisymmetric,
+        }
+    }
+
+    /// The space, of unit thickness in the plane.
+    pub(super) fn bare(self) -> Space {
+        self.with(1.0)
+    }
+
+    /// The space, of a thickness in the plane.
+    pub(super) fn with(self, thickness: f64) -> Space {
+        match self {
+            SpaceKind::PlaneStrain => Space::PlaneStrain { thickness },
+            SpaceKind::PlaneStress => Space::PlaneStress { thickness },
+            SpaceKind::Axisymmetric => Space::Axisymmetric,
+            SpaceKind::Solid => Space::Solid,
         }
     }
 

@@ -25,6 +25,9 @@ pub struct Step {
     /// falls linearly to zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loads: Option<Vec<String>>,
+    /// The temperatures that act in this step; all if not given. Points whose temperature is not listed any more go back to the one of the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperatures: Option<Vec<String>>,
     /// The interfaces active in this step; all if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interfaces: Option<Vec<String>>,

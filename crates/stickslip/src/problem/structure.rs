@@ -10,7 +10,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::advice;
-use super::expected::{Expected, strings};
+use super::expected::{Expected, alternative, strings};
 use super::nearest::suggest;
 use super::prose::first_sentence;
 use super::tree::{self, Table, Value};
@@ -73,7 +73,11 @@ impl<'s> Walk<'s> {
 
     /// `at` is the place of the key.
     fn value(&mut self, schema: &'s Json, value: &Spanned<Value>, at: Range<usize>) {
-        let expected = Expected::of(self.root, schema);
+        let fitting = alternative(self.root, schema, value.get_ref());
+        let expected = Expected {
+            description: Expected::of(self.root, schema).description,
+            ..Expected::of(self.root, fitting)
+        };
         let span = tree::show(at.clone(), value);
         match value.get_ref() {
             DeValue::Table(table) if expected.allows("object") => self.table(&expected, table, at),

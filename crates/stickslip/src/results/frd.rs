@@ -27,19 +27,22 @@ pub enum Quantity {
     Force,
     /// `ENER`: strain energy per volume, averaged as stress.
     Energy,
+    /// `NDTEMP`: temperature, where some are given.
+    Temperature,
     /// `CONTACT`: gap, slip, pressure and shear at the points of interfaces.
     Contact,
 }
 
 impl Quantity {
     /// Every quantity, in the order of the file.
-    pub const ALL: [Quantity; 7] = [
+    pub const ALL: [Quantity; 8] = [
         Quantity::Displacement,
         Quantity::Velocity,
         Quantity::Stress,
         Quantity::Strain,
         Quantity::Force,
         Quantity::Energy,
+        Quantity::Temperature,
         Quantity::Contact,
     ];
 }
@@ -201,6 +204,7 @@ impl Writer {
         wanted.dedup();
         wanted.retain(|quantity| match quantity {
             Quantity::Velocity => view.model.moves(),
+            Quantity::Temperature => view.model.heat.is_some(),
             Quantity::Contact => !view.contact.interfaces.is_empty(),
             _ => true,
         });
@@ -308,6 +312,7 @@ fn block<'a>(
         Quantity::Velocity => at("VELO", "V", &["V1", "V2", "V3"], Shape::Vector),
         Quantity::Force => at("FORC", "FORC", &["F1", "F2", "F3"], Shape::Vector),
         Quantity::Stress => at("STRESS", "S", STRESSES, Shape::Tensor),
+        Quantity::Temperature => at("NDTEMP", "NT", &["T"], Shape::Scalar),
         Quantity::Energy => at("ENER", "ENER", &["ENER"], Shape::Scalar),
         Quantity::Strain => {
             let mut block = at("TOSTRAIN", "E", STRAINS, Shape::Tensor)?;

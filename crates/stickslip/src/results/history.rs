@@ -181,7 +181,7 @@ fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
         }
         // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
         let stress = match around {
-            Some(around) => around.stress(model.dofs, &view.frame.state.u),
+            Some(around) => around.stress(model.dofs, &view.frame.state),
             None => [0.0; 6],
         };
         for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {

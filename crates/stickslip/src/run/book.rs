@@ -52,9 +52,11 @@ pub(crate) fn ledger_after(
     // The energy of couplings counts with that of the bodies.
     let couplings = &contact.couplings;
     let (stored, coupled) = (couplings.energy().stored, couplings.work());
+    let at = &accepted.state;
     let flow = Flow {
         work: accepted.flow.work + coupled,
         damped: accepted.flow.damped + couplings.damped(),
+        thermal: model.thermal_energy(at.t, &at.u),
         ..accepted.flow
     };
     let interfaces: Vec<_> = contact.interfaces.iter().map(|i| i.energy()).collect();

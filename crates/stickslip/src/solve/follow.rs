@@ -133,7 +133,7 @@ impl Solver {
     ) -> bool {
         self.set_out(frame, contact, (trial, false));
         self.seen.tell(&Work::Following);
-        let external = frame.external(model, trial.to);
+        let external = frame.loads(model, trial.to);
         let bodies = self.floating.bodies();
         let closure = close(model, frame, contact, (bodies, &external), trial);
         let mut names = Vec::new();
@@ -181,7 +181,7 @@ impl Solver {
     /// Lays anchors.
     pub fn anchor(&mut self, model: &Model, frame: &Frame, contact: &mut Contact, trial: Trial) {
         self.set_out(frame, contact, (trial, false));
-        let external = frame.external(model, trial.to);
+        let external = frame.loads(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
         // What draws the parts of a bolt together is no load on the whole of it.
         let tension = contact.couplings.tension(trial.to);

@@ -33,7 +33,7 @@ impl Floating {
         let mut pushed = vec![0.0; self.bodies().len()];
         if !pushed.is_empty() {
             for t in ends.chain([frame.state.t]) {
-                let external = frame.external(model, t);
+                let external = frame.loads(model, t);
                 for (most, free) in pushed.iter_mut().zip(self.bodies()) {
                     *most = f64::max(*most, along(free, &external));
                 }
@@ -58,7 +58,7 @@ impl Floating {
         if self.pushed.iter().all(|most| *most == 0.0) {
             return false;
         }
-        let external = frame.external(model, trial.to);
+        let external = frame.loads(model, trial.to);
         let mut both = self.bodies().iter().zip(&self.pushed);
         both.any(|(free, &most)| most > 0.0 && along(free, &external) <= NO_LOAD * most)
     }

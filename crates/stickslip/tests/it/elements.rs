@@ -26,6 +26,7 @@ fn elastic(mesh: Mesh, space: Space, formulation: Formulation, poisson: f64) -> 
         block,
         stiffness,
         density: 7800.0,
+        ..Part::default()
     });
     let parts = parts.collect();
     Elastic::new("body", Arc::new(mesh), space, formulation, parts).unwrap_or_else(|e| {

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use stickslip::error::line_column;
-use stickslip::problem::{Document, Interface, Load, MeshSource, Problem, families, schema};
+use stickslip::problem::{Document, Interface, Load, Material, MeshSource, Problem, Temperature};
+use stickslip::problem::{families, schema};
 use stickslip::registry::Family;
 
 const SOUND: &str = r#"format = 1
@@ -291,7 +292,9 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "interfaces = [\"base\"]",
         "interfaces = []\nsupports = []",
-        &["36:1 nothing acts in this step: no support, no load, no interface, no coupling"],
+        &[
+            "36:1 nothing acts in this step: no support, no load, no temperature, no interface, no coupling",
+        ],
     ),
     (
         "[obstacle.floor.plane]",
@@ -589,8 +592,8 @@ fn every_model_survives_the_way_to_text_and_back() {
     survives(|p, generator| {
         p.body.get_mut("block").unwrap().mesh = MeshSource::Generate(generator);
     });
-    survives(|p, material| {
-        p.material.insert("steel".into(), material);
+    survives(|p, material: stickslip::material::Material| {
+        p.material.insert("steel".into(), Material::from(material));
     });
     survives(|p, shape| {
         p.obstacle.get_mut("floor").unwrap().shape = shape;
@@ -608,6 +611,14 @@ fn every_model_survives_the_way_to_text_and_back() {
             kind,
         };
         p.load.insert("push".into(), load);
+    });
+    survives(|p, kind| {
+        let temperature = Temperature {
+            set: "block.top".into(),
+            amplitude: None,
+            kind,
+        };
+        p.temperature.insert("warm".into(), temperature);
     });
 }
 

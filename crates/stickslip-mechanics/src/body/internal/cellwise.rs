@@ -31,7 +31,7 @@ impl<const N: usize, const D: usize> CellForce<N, D> for Cellwise<N, D> {
                 }
                 to
             };
-            recovered.compute(&self.0, &take(x), &take(u));
+            recovered.compute(&self.0, &take(x), &take(u), None);
             recovered.force(&self.0, force.as_flattened_mut());
             for (node, force) in f.iter_mut().zip(&force) {
                 for (row, value) in node.iter_mut().zip(force) {

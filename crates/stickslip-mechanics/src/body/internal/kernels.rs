@@ -1,5 +1,7 @@
 //! Which kernel computes which cells of a part.
 
+use std::collections::BTreeMap;
+
 use super::super::medium::Medium;
 use super::super::scheme::Scheme;
 use super::super::{Elastic, Formulation, Space};
@@ -23,24 +25,47 @@ const PARALLEL: f64 = 2e-13;
 /// The kernels for part `part` of a body, each with its cells in ascending order.
 pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> {
     let block = &body.mesh.blocks[body.parts[part].block];
-    let acting = &body.acting[part];
+    let all = 0..(block.connectivity.len() / block.kind.node_count()) as u32;
+    if body.parts[part].cells.is_none() {
+        return of_cells(body, block, &body.acting[part], all.collect());
+    }
+    // Cells of different stiffness are as many materials.
+    let mut alike: BTreeMap<Vec<u64>, Vec<u32>> = BTreeMap::new();
+    for cell in all {
+        let acting = body.acting_in(part, cell as usize);
+        let bits = acting.as_flattened().iter().map(|c| c.to_bits());
+        alike.entry(bits.collect()).or_default().push(cell);
+    }
+    let each = alike.into_values().flat_map(|cells| {
+        let acting = body.acting_in(part, cells[0] as usize);
+        of_cells(body, block, &acting, cells)
+    });
+    each.collect()
+}
+
+/// The kernels for some cells of a block that have one stiffness.
+fn of_cells(
+    body: &Elastic,
+    block: &Block,
+    acting: &Stiffness,
+    cells: Vec<u32>,
+) -> Vec<(Box<dyn Kernel>, Vec<u32>)> {
     let (kind, space, formulation) = (block.kind, body.space, body.formulation);
-    let all = 0..(block.connectivity.len() / kind.node_count()) as u32;
     let scheme = Scheme::of(kind, formulation);
     if matches!(scheme, Scheme::Uniform | Scheme::Incompatible) {
         let kernel = bilinear(kind, space, formulation, acting);
-        return vec![(kernel, all.collect())];
+        return vec![(kernel, cells)];
     }
     if kind == ElementKind::Hex8 {
         let mean = scheme == Scheme::MeanDilatation;
-        let (parallel, other) =
-            all.partition(|&cell| is_parallelepiped(&body.mesh.points, block, cell));
+        let (parallel, other) = (cells.into_iter())
+            .partition(|&cell| is_parallelepiped(&body.mesh.points, block, cell));
         return vec![
             (hexahedron(acting, mean, true), parallel),
             (hexahedron(acting, mean, false), other),
         ];
     }
-    vec![(simple(kind, space, formulation, acting), all.collect())]
+    vec![(simple(kind, space, formulation, acting), cells)]
 }
 
 /// quad4 and hex8 with the mean strain or modes inside the cell.

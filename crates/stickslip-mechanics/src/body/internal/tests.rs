@@ -117,6 +117,7 @@ fn mixed(formulation: Formulation) -> Elastic {
         block,
         stiffness,
         density: 1.0,
+        ..Part::default()
     })
     .collect();
     Elastic::new("mixed", mesh.into(), Space::Solid, formulation, parts).expect("sound")
@@ -159,6 +160,7 @@ fn bodies_add_up_and_points_of_none_are_free_of_force() {
             block,
             stiffness,
             density: 1.0,
+            ..Part::default()
         };
         Elastic::new(
             "half",

@@ -33,7 +33,7 @@ struct Push {
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
     let model = view.model;
     let held = view.constraints(t).fixed;
-    let loads = view.external(t);
+    let loads = view.loads(t);
     let scale_of_loads = vector::norm(&loads);
     for body in &model.bodies {
         let mut dofs: Vec<usize> =

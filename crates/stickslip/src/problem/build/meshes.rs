@@ -8,11 +8,10 @@ use std::sync::Arc;
 use super::super::{Body, MeshSource, Problem};
 use super::cuts::{self, BuiltCut};
 use super::fault::problem_error;
-
+use super::heat::Law;
 use crate::body::Part;
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::io::gmsh;
-use crate::material::Stiffness;
 use crate::math::{add, scale};
 use crate::mesh::{Block, CellRef, Mesh};
 
@@ -34,18 +33,16 @@ pub(super) struct BuiltBody {
     pub parts: Vec<Part>,
     /// Points of its parts that are cut off from the first.
     pub pieces: Vec<Vec<usize>>,
+    /// The material of each part.
+    pub materials: Vec<String>,
 }
 
-pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<Built, Error> {
-    let mut materials: BTreeMap<&str, (Stiffness, f64)> = BTreeMap::new();
-    for (name, material) in &problem.material {
-        let model = material.as_dyn();
-        let stiffness = model.stiffness().map_err(|e| {
-            let key = format!("material.{name}");
-            problem_error(vec![Diagnostic::new(key, e.to_string())])
-        })?;
-        materials.insert(name, (stiffness, model.density()));
-    }
+pub(super) fn build(
+    problem: &Problem,
+    folder: &Path,
+    given: &Meshes,
+    laws: &BTreeMap<&str, Law>,
+) -> Result<Built, Error> {
     let mut files: Meshes = BTreeMap::new();
     let mut mesh = Mesh::default();
     let (mut bodies, mut all_cuts) = (Vec::new(), Vec::new());
@@ -86,11 +83,13 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
             .iter()
             .zip(at.blocks.clone())
             .map(|(material, block)| {
-                let (stiffness, density) = materials[material.as_str()];
+                let law = &laws[material.as_str()];
                 Part {
                     block,
-                    stiffness,
-                    density,
+                    stiffness: law.stiffness,
+                    density: law.density,
+                    dilation: law.dilation.clone(),
+                    cells: None,
                 }
             })
             .collect();
@@ -100,6 +99,7 @@ pub(super) fn build(problem: &Problem, folder: &Path, given: &Meshes) -> Result<
             blocks: at.blocks.clone(),
             parts,
             pieces,
+            materials: assigned,
         });
         all_cuts.extend(cuts.into_iter().map(|cut| cut.moved(&at)));
     }

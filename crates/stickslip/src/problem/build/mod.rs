@@ -5,6 +5,7 @@ mod couplings;
 mod cuts;
 mod faces;
 mod fault;
+mod heat;
 mod initial;
 mod meshes;
 mod pretensions;
@@ -16,15 +17,17 @@ mod snap;
 mod surfaces;
 mod unused;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Problem, SpaceKind};
+use super::Problem;
+use crate::body::Elastic;
 use crate::body::couplings::{Couplings, Ground};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
-use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
-use crate::model::{Body, Contact, Model, OutputPlan, Prescribed, Probe, Setup, Support};
+use crate::mesh::FacetRef;
+use crate::model::{Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Setup, Support};
 use crate::newton::Settings;
 use crate::system::{Dofs, Links, Motion};
 pub use meshes::Meshes;
@@ -81,8 +84,9 @@ impl Problem {
         given: &Meshes,
         moves: snap::Moves,
     ) -> Result<Setup, Error> {
-        let space = space(self);
-        let mut built = meshes::build(self, folder, given)?;
+        let space = self.model.space.with(self.model.thickness.unwrap_or(1.0));
+        let laws = heat::laws(self)?;
+        let mut built = meshes::build(self, folder, given, &laws)?;
         snap::apply(&moves, &mut built.mesh)?;
         let mesh = Arc::new(built.mesh);
         let stiff = self.body.values().filter(|b| b.rigid).count();
@@ -94,6 +98,7 @@ impl Problem {
         let referred = references::numbered(self, hidden);
         let mut bodies = Vec::new();
         let mut links = Vec::new();
+        let mut materials = Vec::new();
         let mut densities = vec![0.0; mesh.blocks.len()];
         for part in built.bodies {
             let formulation = self.body[&part.name].formulation;
@@ -102,6 +107,7 @@ impl Problem {
             }
             let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
                 .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+            materials.push(part.materials);
             let part_name = part.name.clone();
             let rigid = self.body[&part_name].rigid.then(|| {
                 let hidden = mesh.points.len() + 2 * links.len();
@@ -124,16 +130,25 @@ impl Problem {
             });
         }
         let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
-        let inside = inside.copied().collect();
-        let sets = Sets::new(self, (&mesh, &bodies), (inside, referred))?;
+        let inside: BTreeSet<FacetRef> = inside.copied().collect();
+        let timeline = Timeline::new(self);
+        let beside = (inside, referred);
+        let sets = Sets::new(self, (&mesh, &bodies), beside.clone())?;
         links.extend(references::links(self, &sets, &mesh, space)?);
         let links = Links::new(dofs, links);
+        let temperatures = heat::temperatures(self, &sets, &mesh, space, &timeline)?;
+        let mut heat = None;
+        if let Some(temperatures) = temperatures {
+            let warmed = heat::warm(self, bodies, temperatures, &materials, &laws)?;
+            bodies = warmed.0;
+            heat = Some(Heat::new(warmed.1));
+        }
+        let sets = Sets::new(self, (&mesh, &bodies), beside)?;
         let rigid = RigidBodies {
             links: &links,
             bodies: &bodies,
             dofs,
         };
-        let timeline = Timeline::new(self);
         let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
             masses: &masses,
@@ -193,6 +208,7 @@ impl Problem {
             bodies,
             references,
             loads,
+            heat,
             springs,
             masses,
             supports,
@@ -232,16 +248,6 @@ impl Problem {
             },
             notes,
         })
-    }
-}
-
-fn space(problem: &Problem) -> Space {
-    let thickness = problem.model.thickness.unwrap_or(1.0);
-    match problem.model.space {
-        SpaceKind::PlaneStrain => Space::PlaneStrain { thickness },
-        SpaceKind::PlaneStress => Space::PlaneStress { thickness },
-        SpaceKind::Axisymmetric => Space::Axisymmetric,
-        SpaceKind::Solid => Space::Solid,
     }
 }
 

@@ -75,6 +75,37 @@ impl Timeline {
         })
     }
 
+    /// Factor and share (see [`Temperatures`](crate::body::Temperatures)) of a temperature, which comes and goes like a load. `taken`: steps in which
+    /// something with an amplitude takes its place at once.
+    pub fn temperature(
+        &self,
+        problem: &Problem,
+        name: &str,
+        amplitude: Option<&str>,
+        taken: &[bool],
+    ) -> [Schedule; 2] {
+        let steps = problem.step.iter();
+        let active: Vec<bool> = (steps.clone())
+            .map(|s| listed(s.temperatures.as_ref(), name))
+            .collect();
+        let sudden: Vec<bool> = steps.map(|s| s.dynamic.is_some()).collect();
+        let table = table(problem, amplitude);
+        let whole = table.as_ref().map(|_| Course::Ramp(1.0, 1.0));
+        [table.map(Course::Table), whole].map(|given| {
+            let mut step = 0;
+            self.schedule(&active, |on, factor, _| {
+                let at_once = sudden[step] || !on && taken[step];
+                step += 1;
+                match (on, &given) {
+                    (true, Some(course)) => course.clone(),
+                    (true, None) => Course::Ramp(if at_once { 1.0 } else { factor }, 1.0),
+                    (false, _) if factor != 0.0 && !at_once => Course::Ramp(factor, 0.0),
+                    (false, _) => Course::Off,
+                }
+            })
+        })
+    }
+
     /// Supports lead from where the points are to the value over the first step in which they act, then hold.
     pub fn support(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
         let active: Vec<bool> = problem

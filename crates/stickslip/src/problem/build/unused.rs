@@ -15,7 +15,9 @@ pub(super) fn tables(problem: &Problem) -> Vec<String> {
     let couplings = problem.coupling.values().map(|c| &c.amplitude);
     let drawn = problem.step.iter().flat_map(|s| s.pretension.values());
     let drawn = drawn.map(|t| &t.amplitude);
+    let temperatures = problem.temperature.values().map(|t| &t.amplitude);
     let amplitudes = supports.chain(loads).chain(couplings).chain(drawn);
+    let amplitudes = amplitudes.chain(temperatures);
     let amplitudes = amplitudes.flatten();
     let mut out = left(problem.obstacle.keys(), "obstacle", &of(obstacles));
     out.extend(left(problem.material.keys(), "material", &of(materials)));
@@ -32,6 +34,7 @@ fn of<'a>(names: impl Iterator<Item = &'a String>) -> BTreeSet<&'a str> {
 fn sets(problem: &Problem) -> BTreeSet<&str> {
     let mut used = of(problem.support.values().map(|s| &s.set));
     used.extend(of(problem.load.values().map(|l| &l.set)));
+    used.extend(of(problem.temperature.values().map(|t| &t.set)));
     used.extend(of(problem.mass.values().map(|m| &m.set)));
     used.extend(of(problem.initial.values().map(|i| &i.set)));
     for interface in problem.interface.values() {

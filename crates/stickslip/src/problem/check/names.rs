@@ -35,6 +35,17 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             &problem.amplitude,
         );
     }
+    for (name, temperature) in &problem.temperature {
+        let key = |last| ["temperature", name, last];
+        set(problem, findings, &key("set"), &temperature.set);
+        one_of(
+            findings,
+            &key("amplitude"),
+            temperature.amplitude.as_deref(),
+            "amplitudes",
+            &problem.amplitude,
+        );
+    }
     for (name, coupling) in &problem.coupling {
         let kind = coupling.kind.kind();
         for (below, named) in coupling.kind.as_dyn().sets() {
@@ -92,7 +103,7 @@ fn misspelled(name: &str) -> Option<&'static str> {
 
 /// All names of tables; those that differ by nothing but capitals are one name on some file systems, and in decks.
 fn spelled(problem: &Problem, findings: &mut Findings) {
-    let tables: [(&str, Vec<&String>); 14] = [
+    let tables: [(&str, Vec<&String>); 15] = [
         ("body", problem.body.keys().collect()),
         ("material", problem.material.keys().collect()),
         ("obstacle", problem.obstacle.keys().collect()),
@@ -101,6 +112,7 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
         ("interface", problem.interface.keys().collect()),
         ("support", problem.support.keys().collect()),
         ("load", problem.load.keys().collect()),
+        ("temperature", problem.temperature.keys().collect()),
         ("mass", problem.mass.keys().collect()),
         ("coupling", problem.coupling.keys().collect()),
         ("pretension", problem.pretension.keys().collect()),

@@ -23,13 +23,19 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         let p = problem;
         listed(findings, &at("supports"), &step.supports, &p.support);
         listed(findings, &at("loads"), &step.loads, &p.load);
+        listed(
+            findings,
+            &at("temperatures"),
+            &step.temperatures,
+            &p.temperature,
+        );
         listed(findings, &at("interfaces"), &step.interfaces, &p.interface);
         listed(findings, &at("couplings"), &step.couplings, &p.coupling);
         // Free flight is a motion as well.
         if step.dynamic.is_none() && idle(problem, step) {
             findings.add(
                 &["step", &i],
-                "nothing acts in this step: no support, no load, no interface, no coupling",
+                "nothing acts in this step: no support, no load, no temperature, no interface, no coupling",
                 "list what is active, or leave the lists out to activate all that is declared",
             );
         }
@@ -72,6 +78,7 @@ fn idle(problem: &Problem, step: &Step) -> bool {
     }
     count(&step.supports, &problem.support) == 0
         && count(&step.loads, &problem.load) == 0
+        && count(&step.temperatures, &problem.temperature) == 0
         && count(&step.interfaces, &problem.interface) == 0
         && count(&step.couplings, &problem.coupling) == 0
         && problem.pretension.is_empty()

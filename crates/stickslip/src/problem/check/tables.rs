@@ -1,7 +1,7 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
 use super::super::reference::spin_matrix;
-use super::super::{FacetShape, Initial, Interface, Problem, Select, SpaceKind};
+use super::super::{FacetShape, Initial, Interface, Material, Problem, Select, SpaceKind};
 use super::findings::Findings;
 use crate::body::Formulation;
 use crate::contact::enforcement::Multipliers;
@@ -42,6 +42,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
     rigid(problem, findings);
     materials(problem, findings);
+    heat(problem, findings);
     obstacles(problem, findings);
     for (name, set) in &problem.set {
         select(problem, findings, name, &set.select);
@@ -125,16 +126,17 @@ fn spin(problem: &Problem, findings: &mut Findings, name: &str, initial: &Initia
         findings.add(&["initial", name, "spin"], message, "");
     }
     let given = displacement.is_some() || velocity.is_some() || spin.is_some();
+    let warm = initial.temperature.is_some();
     match (result, given) {
         (Some(_), true) => findings.add(
             &["initial", name, "result"],
             "`result` excludes `displacement`, `velocity` and `spin`",
             "keep one of the two",
         ),
-        (None, false) => findings.add(
+        (None, false) if !warm => findings.add(
             &["initial", name],
             "nothing is given",
-            "give displacement, velocity, spin or result",
+            "give displacement, velocity, spin, temperature or result",
         ),
         _ => {}
     }
@@ -153,6 +155,69 @@ fn materials(problem: &Problem, findings: &mut Findings) {
         let mut key: Vec<&str> = key.to_vec();
         key.extend(error.parameter.split('.'));
         findings.add(&key, message, error.help.unwrap_or_default());
+    }
+}
+
+/// Fields of temperature, and materials by temperature.
+fn heat(problem: &Problem, findings: &mut Findings) {
+    let space = problem.model.space.bare();
+    for (name, temperature) in &problem.temperature {
+        let key = ["temperature", name, temperature.kind.kind()];
+        findings.faults(&key, temperature.kind.as_dyn().faults(space));
+    }
+    for (name, initial) in &problem.initial {
+        if let Some(kind) = &initial.temperature {
+            let key = ["initial", name, "temperature", kind.kind()];
+            findings.faults(&key, kind.as_dyn().faults(space));
+        }
+    }
+    for (name, material) in &problem.material {
+        if let Some(expansion) = &material.expansion
+            && let Ok(frame) = material.as_dyn().frame()
+            && let Err(e) = expansion.dilation(frame)
+        {
+            let mut key = vec!["material", name];
+            key.extend(e.parameter.split('.'));
+            findings.add(&key, e.message, e.help.unwrap_or_default());
+        }
+        constants(findings, name, material);
+    }
+}
+
+/// Elastic constants at further temperatures.
+fn constants(findings: &mut Findings, name: &str, material: &Material) {
+    let mut before = material.temperature;
+    if before.is_some() && material.at.is_empty() {
+        findings.add(
+            &["material", name, "temperature"],
+            "the elastic constants hold at every temperature",
+            "remove the key, or give those at other temperatures by `at`",
+        );
+    }
+    if before.is_none() && !material.at.is_empty() {
+        findings.add(
+            &["material", name, "at"],
+            "the temperature of the first elastic constants is missing",
+            "give `temperature`, at which those beside it hold",
+        );
+    }
+    for (i, row) in material.at.iter().enumerate() {
+        let i = i.to_string();
+        let key = ["material", name, "at", &i];
+        if before.is_some_and(|t| t >= row.temperature) {
+            let message = format!(
+                "the temperature {} does not follow the one before",
+                row.temperature
+            );
+            let at = [&key[..], &["temperature"]].concat();
+            findings.add(&at, message, "temperatures increase");
+        }
+        before = Some(row.temperature);
+        if let Err(error) = row.kind.as_dyn().check() {
+            let mut key = [&key[..], &[row.kind.kind()]].concat();
+            key.extend(error.parameter.split('.'));
+            findings.add(&key, error.message, error.help.unwrap_or_default());
+        }
     }
 }
 

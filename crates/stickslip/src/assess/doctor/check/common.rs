@@ -117,14 +117,12 @@ pub(super) fn forced(scene: &Scene) -> bool {
     forced_by_loads(scene) || scene.model.moves()
 }
 
-/// Whether loads or pretensions act in the analysis.
+/// Whether loads, pretensions or temperatures act in the analysis.
 pub(super) fn forced_by_loads(scene: &Scene) -> bool {
     let model = scene.model;
     let couplings = scene.contact.couplings.all().iter();
-    if couplings
-        .into_iter()
-        .any(|c| matches!(&c.tie, Tie::Pretension(p) if p.draws()))
-    {
+    let draws = |tie: &Tie| matches!(tie, Tie::Pretension(p) if p.draws());
+    if couplings.into_iter().any(|c| draws(&c.tie)) || model.is_heated() {
         return true;
     }
     model.loads.iter().any(|l| {

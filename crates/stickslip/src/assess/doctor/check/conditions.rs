@@ -15,6 +15,7 @@ const DIFFERENT: f64 = 1e-9;
 pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     let model = view.model;
     let mut out: Vec<Finding> = contradictions(model);
+    out.extend(inert(model));
     let belts = view.contact.interfaces.iter().any(|i| !i.belt.is_empty());
     let overlaps = view.contact.interfaces.iter().zip(measured).any(|(i, m)| {
         let points = i.points.iter().zip(&m.gaps);
@@ -32,6 +33,24 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         );
     }
     out
+}
+
+/// Temperatures of bodies that do not expand.
+fn inert(model: &Model) -> Vec<Finding> {
+    let expands = |p: &usize| {
+        let mut bodies = model.elastic().filter(|b| b.points.contains(p));
+        bodies.any(|b| b.elastic.parts().iter().any(|part| part.dilation.is_some()))
+    };
+    let fields = model.heat.iter().flat_map(|h| &h.temperatures.fields);
+    let idle = fields.filter(|f| !f.entries.iter().any(|(p, _)| expands(p)));
+    let finding = |name: &String| {
+        let message =
+            format!("temperature {name} changes nothing: no material of its bodies expands");
+        Finding::new(DoctorCause::NothingActs, Severity::Warning, message)
+            .blame(Guilty::key(format!("temperature.{name}"), ""))
+            .advise("give their materials an `expansion`, the coefficient of thermal expansion")
+    };
+    idle.map(|field| finding(&field.name)).collect()
 }
 
 fn contradictions(model: &Model) -> Vec<Finding> {

@@ -47,6 +47,15 @@ fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
             scaled: true,
         });
     }
+    for field in model.heat.iter().flat_map(|h| &h.temperatures.fields) {
+        all.push(Acting {
+            what: "temperature",
+            name: &field.name,
+            schedule: &field.factor,
+            counts: field.entries.iter().any(|e| e.1 != 0.0),
+            scaled: true,
+        });
+    }
     for interface in &scene.contact.interfaces {
         all.push(Acting {
             what: "interface",
