@@ -141,6 +141,8 @@ pub struct Material {
     pub density_at: Vec<(f64, f64)>,
     /// Rayleigh damping: factors of mass and stiffness.
     pub damping: Option<[f64; 2]>,
+    /// Thermal expansion.
+    pub expansion: Option<Expansion>,
     /// Where.
     pub place: Place,
 }
@@ -154,6 +156,15 @@ pub enum Elastic {
     Engineering([f64; 9]),
     /// The stiffness in the order 11 22 33 12 13 23, symmetric.
     Full(Box<[[f64; 6]; 6]>),
+}
+
+/// `*EXPANSION`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expansion {
+    /// Temperature and one secant coefficient, or three along the axes of the material.
+    pub rows: Vec<(f64, Vec<f64>)>,
+    /// `ZERO`: the temperature at which the secants begin.
+    pub zero: f64,
 }
 
 /// `*SOLID SECTION`.
@@ -473,7 +484,7 @@ pub struct InitialCondition {
     pub place: Place,
 }
 
-/// `*INITIAL CONDITIONS` of temperature.
+/// A line of `*TEMPERATURE`, or of `*INITIAL CONDITIONS` of temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Temperature {
     /// Nodes.
@@ -547,6 +558,13 @@ pub enum Procedure {
     },
 }
 
+impl Step {
+    /// Whether inertia has a part in it.
+    pub fn is_dynamic(&self) -> bool {
+        matches!(self.procedure, Procedure::Dynamic { .. })
+    }
+}
+
 impl Default for Procedure {
     fn default() -> Self {
         Procedure::Static {
@@ -577,6 +595,15 @@ pub enum Action {
         amplitude: Option<String>,
         /// Where.
         place: Place,
+    },
+    /// `OP=NEW` on `*TEMPERATURE`.
+    ClearTemperatures,
+    /// A line of `*TEMPERATURE`.
+    Temperature {
+        /// Nodes and temperature.
+        of: Temperature,
+        /// Amplitude.
+        amplitude: Option<String>,
     },
     /// `OP=NEW` on `*DLOAD` or `*DSLOAD`.
     ClearDistributed,

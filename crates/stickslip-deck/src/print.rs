@@ -264,6 +264,24 @@ impl Printer {
             }
         };
         for key in keys {
+            if key.starts_with("NT") {
+                let of = |t: f64| {
+                    let heat = analysis.model.heat.as_ref();
+                    heat.map(|h| h.temperatures.at(t))
+                };
+                let all = of(analysis.frame.state.t);
+                let _ = write!(
+                    out,
+                    "\n temperatures for set {set} and time {}\n\n",
+                    time(self.time)
+                );
+                for (node, point) in nodes.iter().filter_map(|n| Some((n, self.points.get(n)?))) {
+                    let known = all.as_ref().and_then(|all| all.get(*point));
+                    let t = known.copied().unwrap_or(0.0);
+                    row(out, &self.label(*node), &[t]);
+                }
+                continue;
+            }
             let turns = key.starts_with("UR") || key.starts_with("RM");
             let (title, values) = match key.as_str() {
                 "UR" => ("rotations (rx,ry,rz)", analysis.frame.state.u.clone()),
@@ -322,7 +340,7 @@ impl Printer {
         let mut by_id = BTreeMap::new();
         for body in &model.bodies {
             body.elastic
-                .each_cell_state(&analysis.frame.state.u, &mut |state: &CellState| {
+                .each_cell_state(&analysis.frame.state, &mut |state: &CellState| {
                     let block = &model.mesh.blocks[state.cell.block];
                     by_id.insert(block.cell_ids[state.cell.cell], state.clone());
                 });
@@ -331,15 +349,16 @@ impl Printer {
             |what: &str| format!("\n {what} for set {set} and time {}\n\n", time(self.time));
         for key in keys {
             match key.as_str() {
-                "S" | "E" => {
+                "S" | "E" | "ME" => {
                     let what = match key.as_str() {
                         "S" => "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)",
+                        "ME" => "mechanical strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)",
                         _ => "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)",
                     };
                     out.push_str(&title(what));
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
                         let axes = self.element_axes.get(id).filter(|_| !global);
-                        tensors(out, &self.label(*id), cell, (key == "S", axes));
+                        tensors(out, &self.label(*id), cell, (key, axes));
                     }
                 }
                 "ELSE" | "EVOL" => {
@@ -490,13 +509,17 @@ fn tensors(
     out: &mut String,
     label: &str,
     cell: &CellState,
-    (stress, axes): (bool, Option<&[Vec3; 3]>),
+    (key, axes): (&str, Option<&[Vec3; 3]>),
 ) {
     for (i, p) in cell.points.iter().enumerate() {
         // Shear strains are those of the tensor, half of ours.
-        let v = match stress {
-            true => tensor(&p.stress, 1.0, axes),
-            false => tensor(&p.strain, 0.5, axes),
+        let v = match key {
+            "S" => tensor(&p.stress, 1.0, axes),
+            "E" => tensor(&p.strain, 0.5, axes),
+            _ => {
+                let elastic = std::array::from_fn(|v| p.strain[v] - p.thermal[v]);
+                tensor(&elastic, 0.5, axes)
+            }
         };
         row(out, &format!("{label} {:>3}", i + 1), &v);
     }

@@ -41,6 +41,7 @@ const CARDS: &[(&str, Read)] = &[
     ("ELASTIC", |r, c| r.elastic(c)),
     ("DENSITY", |r, c| r.density(c)),
     ("DAMPING", |r, c| r.damping(c)),
+    ("EXPANSION", |r, c| r.expansion(c)),
     ("SOLIDSECTION", |r, c| r.solid_section(c)),
     ("ORIENTATION", |r, c| r.orientation(c)),
     ("DISTRIBUTION", |r, c| r.distribution(c)),
@@ -67,6 +68,7 @@ const CARDS: &[(&str, Read)] = &[
     ("DYNAMIC", |r, c| r.dynamics(c)),
     ("BOUNDARY", |r, c| r.boundary(c)),
     ("CLOAD", |r, c| r.forces(c)),
+    ("TEMPERATURE", |r, c| r.temperature(c)),
     ("DLOAD", |r, c| r.distributed(c)),
     ("DSLOAD", |r, c| r.surface_loads(c)),
     ("NODEPRINT", |r, c| r.print(c)),
@@ -86,10 +88,11 @@ const CARDS: &[(&str, Read)] = &[
 ];
 
 /// Cards that stand beneath a material or an interaction.
-pub(super) const BENEATH: [&str; 6] = [
+pub(super) const BENEATH: [&str; 7] = [
     "ELASTIC",
     "DENSITY",
     "DAMPING",
+    "EXPANSION",
     "SURFACEBEHAVIOR",
     "FRICTION",
     "CONTACTDAMPING",

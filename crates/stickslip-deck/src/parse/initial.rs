@@ -1,8 +1,8 @@
-//! What holds at the start.
+//! What holds at the start, and temperatures of any time.
 
 use super::reader::Reader;
-use crate::card::Card;
-use crate::deck::{InitialCondition, Temperature};
+use crate::card::{Card, Data};
+use crate::deck::{Action, InitialCondition, Temperature};
 use crate::text::clip;
 
 impl Reader<'_> {
@@ -49,22 +49,41 @@ impl Reader<'_> {
 
     pub(super) fn initial_temperatures(&mut self, card: &Card) {
         for data in &card.data {
-            let Some(target) = self.target(data, 0) else {
-                continue;
-            };
-            let value = self.number(data, 1, 0.0);
-            if data.fields.len() > 2 && self.number(data, 2, 0.0) != 0.0 {
-                self.error(
-                    data.place,
-                    "temperatures do not vary across a section",
-                    "write node or set, temperature",
-                );
+            if let Some(temperature) = self.warm(data) {
+                self.deck.temperatures.push(temperature);
             }
-            self.deck.temperatures.push(Temperature {
-                target,
-                value,
-                place: data.place,
-            });
         }
+    }
+
+    pub(super) fn temperature(&mut self, card: &Card) {
+        if self.own_step(card).is_none() {
+            return;
+        }
+        self.operation(card, Action::ClearTemperatures);
+        let amplitude = self.course(card);
+        for data in &card.data {
+            if let Some(of) = self.warm(data) {
+                let amplitude = amplitude.clone();
+                self.act(Action::Temperature { of, amplitude });
+            }
+        }
+    }
+
+    /// Nodes and their temperature.
+    fn warm(&mut self, data: &Data) -> Option<Temperature> {
+        let target = self.target(data, 0)?;
+        let value = self.number(data, 1, 0.0);
+        if data.fields.len() > 2 && self.number(data, 2, 0.0) != 0.0 {
+            self.error(
+                data.place,
+                "temperatures do not vary across a section",
+                "write node or set, temperature",
+            );
+        }
+        Some(Temperature {
+            target,
+            value,
+            place: data.place,
+        })
     }
 }

@@ -73,8 +73,8 @@ impl Reader<'_> {
                 {
                     self.error(
                         data.place,
-                        "temperatures are not computed",
-                        "take the thermal part out",
+                        "temperatures are no unknowns here",
+                        "give them by *TEMPERATURE",
                     );
                     return None;
                 }

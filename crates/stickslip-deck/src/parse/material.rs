@@ -3,7 +3,7 @@
 use super::fields::parameter;
 use super::reader::{Context, Reader};
 use crate::card::{Card, Data};
-use crate::deck::{Elastic, Material, Section};
+use crate::deck::{Elastic, Expansion, Material, Section};
 use crate::text::clip;
 
 /// Constants of a material by temperature: `count` numbers and a temperature a row, eight numbers a line, whatever is missing at its end.
@@ -117,6 +117,27 @@ impl Reader<'_> {
             ["ALPHA", "BETA"].map(|name| parameter(self, card, name).unwrap_or(0.0));
         if let Some(material) = self.own(card) {
             material.damping = Some([alpha, beta]);
+        }
+    }
+
+    pub(super) fn expansion(&mut self, card: &Card) {
+        if self.line(card).is_none() {
+            return;
+        }
+        let count = match card.get("TYPE").unwrap_or("ISO") {
+            "ISO" | "ISOTROPIC" | "" => 1,
+            "ORTHO" | "ORTHOTROPIC" => 3,
+            other => {
+                let message = format!("*EXPANSION of type {} is not supported", clip(other));
+                let help = "types are ISO and ORTHO: give the coefficients along the axes of an *ORIENTATION";
+                self.error(card.place, message, help);
+                return;
+            }
+        };
+        let zero = parameter(self, card, "ZERO").unwrap_or(0.0);
+        let rows = rows(self, card, count);
+        if let Some(material) = self.own(card) {
+            material.expansion = Some(Expansion { rows, zero });
         }
     }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::fields::{absent, listing};
 use super::reader::Reader;
 use crate::card::Place;
-use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target, Tied};
+use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target, Temperature, Tied};
 
 /// Names that are missing: where, what, and what there is.
 struct Missing<'a> {
@@ -179,6 +179,7 @@ impl Missing<'_> {
                     place,
                     ..
                 } => self.target(target, *place),
+                Action::Temperature { of, .. } => self.target(&of.target, of.place),
                 _ => {}
             }
         }
@@ -230,6 +231,10 @@ impl Missing<'_> {
                     place,
                     ..
                 })
+                | Action::Temperature {
+                    amplitude: Some(name),
+                    of: Temperature { place, .. },
+                }
                 | Action::Force {
                     amplitude: Some(name),
                     place,

@@ -31,8 +31,8 @@ impl Reader<'_> {
     /// The quantities of a card that are printed; notes on the others.
     fn known_keys(&mut self, card: &Card) -> Vec<String> {
         let known: &[&str] = match card.keyword.as_str() {
-            "NODEPRINT" => &["U", "RF", "V", "A", "UR", "RM"],
-            "ELPRINT" => &["S", "E", "ELSE", "EVOL"],
+            "NODEPRINT" => &["U", "RF", "V", "A", "UR", "RM", "NT", "NT11"],
+            "ELPRINT" => &["S", "E", "ME", "ELSE", "EVOL"],
             _ => &[
                 "CDIS", "CDISP", "CSTR", "CSTRESS", "CELS", "CF", "CNUM", "CFN", "CFS",
             ],
@@ -280,6 +280,7 @@ fn quantity(of: FieldsOf, key: &str) -> Option<Quantity> {
         (FieldsOf::Nodes, "U") => Quantity::Displacement,
         (FieldsOf::Nodes, "V") => Quantity::Velocity,
         (FieldsOf::Nodes, "RF") => Quantity::Force,
+        (FieldsOf::Nodes, "NT" | "NT11") => Quantity::Temperature,
         (FieldsOf::Elements, "S") => Quantity::Stress,
         (FieldsOf::Elements, "E" | "LE") => Quantity::Strain,
         (FieldsOf::Elements, "ENER") => Quantity::Energy,

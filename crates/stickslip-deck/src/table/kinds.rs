@@ -9,7 +9,7 @@ pub(crate) const NETWORKS: &str = "networks of flows";
 pub(crate) const CONNECTORS: &str = "connectors";
 pub(crate) const COHESIVE: &str = "cohesive elements";
 pub(crate) const USER_ELEMENTS: &str = "elements of the user";
-pub(crate) const HEAT: &str = "heat and temperatures";
+pub(crate) const HEAT: &str = "temperatures by heat transfer";
 
 /// The kind of a refused card, in the plural, from what it is about, or from the help that it has in common with others.
 pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {

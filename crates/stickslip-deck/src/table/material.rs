@@ -1,8 +1,8 @@
 //! Materials and sections.
 
-use super::row::{Data, Row, card, harmless, harmless_card, idle, read, refused};
+use super::row::{Data, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
 
-const HEAT: &str = "temperatures are not computed, and what would change them is refused";
+const HEAT: &str = "temperatures are given, not computed: heat does not flow";
 const CONSTANT: &str = "constants depend on temperature only";
 
 pub(super) const ROWS: &[Row] = &[
@@ -48,9 +48,16 @@ pub(super) const ROWS: &[Row] = &[
             harmless("COMPOSITE", "it acts on modes, which are not computed"),
         ],
     ),
-    harmless_card(
+    card(
         "EXPANSION",
-        "bodies keep the temperature that they have at the start, so that nothing expands: *TEMPERATURE is refused",
+        Data::Any,
+        &[
+            read("TYPE"),
+            read("ZERO"),
+            refused("DEPENDENCIES", CONSTANT),
+            refused("USER", SUBROUTINE),
+            refused("PORE", "fluids in pores are not computed"),
+        ],
     ),
     harmless_card("CONDUCTIVITY", HEAT),
     harmless_card("SPECIFICHEAT", HEAT),

@@ -3,7 +3,7 @@
 use super::row::{Row, refused_card};
 
 pub(super) const TIME: &str = "only *STATIC and *DYNAMIC steps are computed";
-pub(super) const HEAT: &str = "temperatures are not computed: take the thermal part out, or prescribe what it does as displacements and loads";
+pub(super) const HEAT: &str = "heat does not flow here: give the temperatures themselves, by *TEMPERATURE in a *STATIC or *DYNAMIC step";
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 pub(super) const LAW: &str =
     "bodies are linear elastic (*ELASTIC): replace the material, or use another program";
@@ -37,7 +37,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("COUPLEDTEMPERATURE-DISPLACEMENT", HEAT),
     refused_card("UNCOUPLEDTEMPERATURE-DISPLACEMENT", HEAT),
     refused_card("HEATTRANSFER", HEAT),
-    refused_card("TEMPERATURE", HEAT),
     refused_card("CFLUX", HEAT),
     refused_card("DFLUX", HEAT),
     refused_card("FILM", HEAT),

@@ -10,6 +10,7 @@ const SUBMODEL: &str =
 const CYCLIC: &str = "cyclic symmetry is not computed: model the whole body";
 const FREQUENCY: &str = "loads of steady vibrations are not computed";
 const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
+const FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";
 const ZERO: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
 const ACCURACY: &str = "it controls the lengths of increments; those are stickslip's own, in the bounds of the data line";
 
@@ -134,6 +135,27 @@ pub(super) const ROWS: &[Row] = &[
             refused("FOLLOWER", FOLLOWER),
             refused("REAL", FREQUENCY),
             refused("IMAGINARY", FREQUENCY),
+            refused("USER", SUBROUTINE),
+        ],
+    ),
+    card(
+        "TEMPERATURE",
+        Data::Lines("node or set of nodes, temperature"),
+        &[
+            read("OP"),
+            read("AMPLITUDE"),
+            read("TIMEDELAY"),
+            refused("FILE", FILES),
+            refused("BSTEP", FILES),
+            refused("ESTEP", FILES),
+            refused("BINC", FILES),
+            refused("EINC", FILES),
+            refused("INTERPOLATE", FILES),
+            refused("MIDSIDE", FILES),
+            refused("ABSOLUTEEXTERIORTOLERANCE", FILES),
+            refused("SUBMODEL", SUBMODEL),
+            refused("STEP", SUBMODEL),
+            refused("DATASET", SUBMODEL),
             refused("USER", SUBROUTINE),
         ],
     ),

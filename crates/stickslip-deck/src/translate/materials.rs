@@ -5,10 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::bodies::{Bodies, Turned};
 use super::job::Job;
 use super::toml;
-use crate::deck::{Deck, Elastic, Local, Material, Section};
+use crate::deck::{Action, Deck, Elastic, Expansion, Local, Material, Section};
+
+/// Unit vectors along the local axes.
+type Axes = [[f64; 3]; 3];
 
 /// The local axes of an element in its section: those at its centre, where they turn with the place.
-pub(super) fn axes_of(deck: &Deck, element: u64, section: &Section) -> Option<[[f64; 3]; 3]> {
+pub(super) fn axes_of(deck: &Deck, element: u64, section: &Section) -> Option<Axes> {
     let orientation = deck.orientations.get(section.orientation.as_ref()?)?;
     let own = orientation.elements.get(&element);
     let nodes = &deck.elements.get(&element)?.nodes;
@@ -34,10 +37,11 @@ pub(super) fn assign(
     for (element, index) in section_of {
         let section = &deck.sections[*index];
         let material = deck.materials.get(&section.material);
-        let directed = !matches!(
-            material.and_then(|m| m.elastic.as_ref()),
-            Some(Elastic::Isotropic(_)) | None
-        );
+        let directed = material.is_some_and(|m| {
+            let mut rows = m.elastic_at.iter();
+            rows.any(|(_, e)| !matches!(e, Elastic::Isotropic(_)))
+                || m.expansion.as_ref().is_some_and(Expansion::has_axes)
+        });
         let orientation = section.orientation.as_ref().filter(|_| directed);
         let axes = orientation.and_then(|_| axes_of(deck, *element, section));
         let wanted = match orientation {
@@ -95,70 +99,110 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             job.error(material.place, message, "bodies are linear elastic");
             continue;
         }
-        let (elastic, density) = match constants(job, bodies, material, &section.material) {
-            Some((Some(elastic), density)) => (elastic, density),
-            _ => continue,
+        let axes = axes.as_ref();
+        let Some((rows, density)) = constants(job, bodies, material, &section.material) else {
+            continue;
         };
-        let elastic = &elastic;
         job.table("material", name, material.place);
-        let density = match density {
-            Some(d) => format!(", density = {}", toml::number(d)),
-            None => String::new(),
-        };
-        match elastic {
-            Elastic::Isotropic([young, poisson]) => job.out.line(&format!(
-                "isotropic = {{ young = {}, poisson = {}{density} }}",
-                toml::number(*young),
-                toml::number(*poisson)
-            )),
-            Elastic::Engineering(v) => {
-                let names = [
-                    "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23",
-                ];
-                let mut parts: Vec<String> = names
-                    .iter()
-                    .zip(v)
-                    .map(|(n, x)| format!("{n} = {}", toml::number(*x)))
-                    .collect();
-                if let Some(o) = axes {
-                    parts.push(format!(
-                        "axes = [{}, {}]",
-                        toml::numbers(&o[0]),
-                        toml::numbers(&o[1])
-                    ));
-                }
-                job.out.line(&format!(
-                    "orthotropic = {{ {}{density} }}",
-                    parts.join(", ")
-                ));
+        if let [(first, elastic), rest @ ..] = rows.as_slice() {
+            job.out.line(&written(elastic, density, axes));
+            if !rest.is_empty() {
+                let at = |(t, e): &(f64, Elastic)| {
+                    let (t, e) = (toml::number(*t), written(e, None, axes));
+                    format!("{{ temperature = {t}, {e} }}")
+                };
+                let rest: Vec<String> = rest.iter().map(at).collect();
+                job.out
+                    .line(&format!("temperature = {}", toml::number(*first)));
+                job.out.line(&format!("at = [{}]", rest.join(", ")));
             }
-            Elastic::Full(c) => {
-                let c = turned(c, axes.as_ref());
-                let rows: Vec<String> = c.iter().map(|row| toml::numbers(row)).collect();
-                job.out.line(&format!(
-                    "anisotropic = {{ stiffness = [{}]{density} }}",
-                    rows.join(", ")
-                ));
-            }
+        }
+        if let Some(expansion) = &material.expansion {
+            job.out.line(&expansion.written(axes));
         }
     }
 }
 
-/// Elastic constants and density at the temperature that the elements of the material have, which stays what it is at the start.
+/// The line of elastic constants in the axes of an orientation.
+fn written(elastic: &Elastic, density: Option<f64>, axes: Option<&Axes>) -> String {
+    let density = match density {
+        Some(d) => format!(", density = {}", toml::number(d)),
+        None => String::new(),
+    };
+    match elastic {
+        Elastic::Isotropic([young, poisson]) => format!(
+            "isotropic = {{ young = {}, poisson = {}{density} }}",
+            toml::number(*young),
+            toml::number(*poisson)
+        ),
+        Elastic::Engineering(v) => {
+            let names = [
+                "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23",
+            ];
+            let mut parts: Vec<String> = names
+                .iter()
+                .zip(v)
+                .map(|(n, x)| format!("{n} = {}", toml::number(*x)))
+                .collect();
+            parts.extend(axes.map(directions));
+            format!("orthotropic = {{ {}{density} }}", parts.join(", "))
+        }
+        Elastic::Full(c) => {
+            let c = turned(c, axes);
+            let rows: Vec<String> = c.iter().map(|row| toml::numbers(row)).collect();
+            format!(
+                "anisotropic = {{ stiffness = [{}]{density} }}",
+                rows.join(", ")
+            )
+        }
+    }
+}
+
+/// The key of the axes of an orientation.
+fn directions(axes: &Axes) -> String {
+    let [first, second] = [axes[0], axes[1]].map(|a| toml::numbers(&a));
+    format!("axes = [{first}, {second}]")
+}
+
+impl Expansion {
+    /// Whether it is along axes.
+    fn has_axes(&self) -> bool {
+        self.rows.iter().any(|(_, along)| along.len() > 1)
+    }
+
+    /// Its line in the axes of an orientation.
+    fn written(&self, axes: Option<&Axes>) -> String {
+        let axes = axes.filter(|_| self.has_axes());
+        if let ([(_, along)], None) = (self.rows.as_slice(), axes) {
+            return match along.as_slice() {
+                [a] => format!("expansion = {}", toml::number(*a)),
+                along => format!("expansion = {}", toml::numbers(along)),
+            };
+        }
+        let row = |(t, along): &(f64, Vec<f64>)| toml::numbers(&[&[*t], along.as_slice()].concat());
+        let rows: Vec<String> = self.rows.iter().map(row).collect();
+        let mut parts = vec![format!("table = [{}]", rows.join(", "))];
+        parts.push(format!("zero = {}", toml::number(self.zero)));
+        parts.extend(axes.map(directions));
+        format!("expansion = {{ {} }}", parts.join(", "))
+    }
+}
+
+/// Elastic constants by temperature, and density. Where its elements have one temperature throughout, a material has the constants of that; elastic
+/// ones that are left are those of the temperatures of its cells.
+#[allow(clippy::type_complexity)]
 fn constants(
     job: &mut Job,
     bodies: &Bodies,
     material: &Material,
     name: &str,
-) -> Option<(Option<Elastic>, Option<f64>)> {
+) -> Option<(Vec<(f64, Elastic)>, Option<f64>)> {
+    let first = material.elastic_at.iter().take(1).cloned().collect();
     if material.elastic_at.len() < 2 && material.density_at.len() < 2 {
-        return Some((material.elastic.clone(), material.density));
+        return Some((first, material.density));
     }
     let deck = job.deck;
-    let mut at: BTreeMap<u64, f64> = BTreeMap::new();
-    for t in &deck.temperatures {
-        at.extend(job.nodes(&t.target).into_iter().map(|n| (n, t.value)));
-    }
+    let at = super::temperatures::at_start(job);
     let own = bodies
         .section
         .iter()
@@ -166,21 +210,27 @@ fn constants(
     let nodes = own.flat_map(|(e, _)| deck.elements[e].nodes.iter());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for n in nodes {
-        // CalculiX starts at zero where nothing is said.
         let t = at.get(n).copied().unwrap_or(0.0);
         (low, high) = (low.min(t), high.max(t));
     }
-    if high > low {
+    let changes = |s: &crate::deck::Step| {
+        let mut actions = s.actions.iter();
+        actions.any(|a| matches!(a, Action::Temperature { .. }))
+    };
+    if high > low && material.density_at.len() > 1 {
         job.error(
             material.place,
-            format!("the material {name} depends on temperature, and its elements have temperatures from {low} to {high}"),
+            format!("the density of the material {name} depends on temperature, and its elements have temperatures from {low} to {high}"),
             "give its elements one temperature by *INITIAL CONDITIONS, or a material of its own to the elements of each temperature",
         );
         return None;
     }
-    let elastic = between(&material.elastic_at, low, |a, b, w| a.mix(b, w));
     let density = between(&material.density_at, low, |a, b, w| a + w * (b - a));
-    Some((elastic, density))
+    if high > low || deck.steps.iter().any(changes) {
+        return Some((material.elastic_at.clone(), density));
+    }
+    let elastic = between(&material.elastic_at, low, |a, b, w| a.mix(b, w));
+    Some((elastic.map(|e| (low, e)).into_iter().collect(), density))
 }
 
 /// Linear between the rows of a table over temperature, constant outside.
@@ -214,7 +264,7 @@ impl Elastic {
 }
 
 /// The stiffness in the global axes and in the order xx yy zz xy yz xz, from one in the order 11 22 33 12 13 23 of the material.
-fn turned(c: &[[f64; 6]; 6], axes: Option<&[[f64; 3]; 3]>) -> [[f64; 6]; 6] {
+fn turned(c: &[[f64; 6]; 6], axes: Option<&Axes>) -> [[f64; 6]; 6] {
     let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     let ours = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     let at = |i: usize, j: usize| {

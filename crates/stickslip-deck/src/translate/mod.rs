@@ -18,6 +18,7 @@ mod sets;
 mod spans;
 mod steps;
 mod supports;
+mod temperatures;
 mod toml;
 mod translation;
 mod volumes;
@@ -64,6 +65,7 @@ impl Deck {
         contact::write(&mut job, &bodies, &mut sets);
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
+        temperatures::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
         let drawn = pretensions::write(&mut job, &bodies, &mut sets);
         multi_point::write(&mut job, &bodies, &mut sets);

@@ -44,6 +44,7 @@ fn acting(job: &mut Job, step: usize) {
     for (kind, table) in [
         ("supports", None),
         ("loads", None),
+        ("temperatures", None),
         ("interfaces", Some("interface.")),
         ("couplings", Some("coupling.")),
     ] {

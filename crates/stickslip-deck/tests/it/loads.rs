@@ -294,10 +294,12 @@ fn constants_are_those_of_the_temperature_at_the_start() {
             1e-9,
         );
     }
-    let message = refused(&text(
-        rows,
-        &(at("50.") + &at("60.").replace("N,", "NTOP,")),
-    ));
+    // Half of its nodes at 50, half at 60: the cell has the constants of 55.
+    let both = at("50.") + &at("60.").replace("N,", "NTOP,");
+    let graded = run("temperature-graded", &text(rows, &both));
+    near(graded.u(7)[2], 10.0 / 2100.0, 1e-9);
+    let dense = text(rows, &both).replace("*EXPANSION", "*DENSITY\n1., 0.\n2., 100.\n*EXPANSION");
+    let message = refused(&dense);
     assert!(message.contains("temperatures from 50 to 60"), "{message}");
     let message = refused(&text("1000., 0., 100.\n3000., 0., 0.\n", ""));
     assert!(message.contains("does not follow"), "{message}");

@@ -237,7 +237,7 @@ fn included_files_stand_in_the_middle_of_data() {
 
 #[test]
 fn keywords_that_do_not_matter_are_noted_and_others_refused() {
-    let deck = with("*PREPRINT, ECHO=NO\n*RESTART, WRITE\n*EXPANSION\n");
+    let deck = with("*PREPRINT, ECHO=NO\n*RESTART, WRITE\n*CONDUCTIVITY\n");
     assert!(deck.materials.is_empty());
     assert_eq!(
         deck.notes
