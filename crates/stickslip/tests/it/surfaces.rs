@@ -41,7 +41,7 @@ fn case(space: &str, order: usize, floor: bool) -> String {
         "format = 1\nmodel.space = \"{space}\"\n\
          body.block = {{ generate.{kind} = {{ {block}{element} }}, material = \"m\" }}\n\
          material.m.isotropic = {{ young = 1e9, poisson = 0.0 }}\n\
-         interface.joint = {{ secondary = \"block.bottom\", primary = \"{primary}\" }}\n\
+         interface.joint = {{ secondary = \"block.bottom\", primary = \"{primary}\", roles = \"as-named\" }}\n\
          support.top = {{ set = \"block.top\", x = 0, {out}{up} = -1e-3 }}\n\
          step = [{{ duration = 1, increments = {{ fixed = 2 }} }}]\n"
     );
