@@ -38,12 +38,19 @@ const report = (() => {
   }
 
   // A number in few digits.
-  function number(value) {
+  function number(value, digits = 3) {
     if (value === null || Number.isNaN(value)) return "–";
     if (value === 0) return "0";
     const size = Math.abs(value);
-    if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(4)));
-    return value.toExponential(3).replace(/\.?0*e\+?/, "e");
+    if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(digits)));
+    return value.toExponential(digits - 1).replace(/\.?0*e\+?/, "e");
+  }
+
+  // A library that is kept packed until it is needed: it becomes a script of this page.
+  async function library(key) {
+    const script = document.createElement("script");
+    script.textContent = new TextDecoder().decode(await bytes(key));
+    document.head.append(script);
   }
 
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -68,5 +75,5 @@ const report = (() => {
     });
   }
 
-  return { meta, trouble, singles, doubles, indices, shorts, number, colour, element, attempt };
+  return { meta, trouble, library, singles, doubles, indices, shorts, number, colour, element, attempt };
 })();

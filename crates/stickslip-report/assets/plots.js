@@ -57,7 +57,7 @@ report.attempt(async () => {
       cursor: { drag: { x: true, y: false }, sync: options.sync ? { key: options.sync } : undefined, points: { size: 6 } },
       bands: options.bands,
       scales: { x: { time: false }, y: log ? { distr: 3 } : { range } },
-      axes: [axis(along.name), { ...axis(""), size: 68, values: (u, ticks) => ticks.map((t) => (t === null ? "" : number(t))) }],
+      axes: [axis(along.name), { ...axis(""), size: 68, values: (u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 5))) }],
       series: [{ label: along.name, value: shown }, ...lines.map((line, i) => ({
         label: line.label, value: line.shown || shown, stroke: line.stroke || inks[i % inks.length], width: 1.8,
         dash: dashes[Math.floor(i / inks.length) % dashes.length], fill: line.fill,
@@ -156,8 +156,14 @@ report.attempt(async () => {
     const [low, high] = [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
     return high - low > 1e-3 * Math.max(Math.abs(low), Math.abs(high));
   };
-  const wanted = [/\.CF[NS]\d$/, /\.RF\d$/, /\.U\d$/, /^ALL/];
-  const first = wanted.map((p) => names.filter((n) => p.test(n) && changes(n))).find((l) => l.length) || names.slice(-1);
+  const most = (name) => get(name).reduce((m, v) => (v === null ? m : Math.max(m, Math.abs(v))), 0);
+  // What is nothing beside its like is rounding.
+  const tell = (list) => {
+    const largest = Math.max(...list.map(most));
+    return list.filter((n) => most(n) > 1e-6 * largest);
+  };
+  const wanted = [/\.CF[NS]\d$/, /\.RF\d$/, /\.U\d$/, /^ALL/, /\./, /^(OPEN|STICK|SLIP)$/, /^(?!STEP|INC|ATT|ITRS|TIME|DT)/];
+  const first = wanted.map((p) => tell(names.filter((n) => p.test(n) && changes(n)))).find((l) => l.length) || names.slice(-1);
   const chosen = new Set(first.slice(0, 4));
   const boxes = names.map((name) => {
     const box = element("input", { type: "checkbox", onchange: () => { box.checked ? chosen.add(name) : chosen.delete(name); draw(); } });

@@ -6,6 +6,7 @@ report.attempt(async () => {
   const { element, number } = report;
   const by = (id) => document.getElementById(id);
   const canvas = by("canvas");
+  await report.library("three");
   let renderer;
   try {
     renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -45,7 +46,7 @@ report.attempt(async () => {
     texture.needsUpdate = true;
     return texture;
   };
-  const ramps = { ordered: ramp(model.ordered), signed: ramp(model.signed) };
+  const ramps = { ordered: ramp(model.ordered), signed: ramp(model.signed), carried: ramp(model.carried) };
   const rgb = (c) => new THREE.Vector3(c[0] / 255, c[1] / 255, c[2] / 255);
   const uniforms = {
     factor: { value: 1 }, ramp: { value: ramps.ordered }, status: { value: 0 }, lit: { value: flat ? 0 : 1 }, nothing: { value: rgb(model.nothing) },
@@ -247,7 +248,8 @@ report.attempt(async () => {
   }
 
   // What is shown.
-  const state = { frame: frames - 1, field: null, factor: model.scale, values: null, playing: null };
+  const opening = Math.max(0, Math.min(frames - 1, model.start ?? frames - 1));
+  const state = { frame: opening, field: null, factor: model.scale, values: null, playing: null };
 
   function move() {
     const out = attributes.motion.array;
@@ -280,7 +282,7 @@ report.attempt(async () => {
     if (by("own-range").checked && low <= high && !field.status) {
       const wide = Math.max(Math.abs(low), Math.abs(high));
       signed = low < -0.05 * wide && high > 0.05 * wide;
-      span = signed ? [-wide, wide] : [low, high];
+      span = signed ? [-wide, wide] : [field.carried ? Math.min(0, low) : low, high];
     }
     const width = span[1] - span[0];
     for (let i = 0; i < n; i++) {
@@ -292,7 +294,7 @@ report.attempt(async () => {
     }
     attributes.datum.needsUpdate = true;
     uniforms.status.value = field.status ? 1 : 0;
-    uniforms.ramp.value = signed ? ramps.signed : ramps.ordered;
+    uniforms.ramp.value = signed ? ramps.signed : field.carried ? ramps.carried : ramps.ordered;
     for (const body of bodies) body.marks.visible = flat && field.partial;
     bar(field, span, signed, low, high);
   }
@@ -316,7 +318,7 @@ report.attempt(async () => {
       }
       model.statuses.forEach((s, i) => place.append(key(s.colour, `${s.name} (${counts[i]})`)));
     } else {
-      const anchors = signed ? model.signed : model.ordered;
+      const anchors = signed ? model.signed : field.carried ? model.carried : model.ordered;
       const ramp = element("div", { class: "ramp" });
       ramp.style.background = `linear-gradient(to top, ${anchors.map(css).join(", ")})`;
       const ticks = element("div", { class: "ticks" });
@@ -330,7 +332,7 @@ report.attempt(async () => {
   function show(frame) {
     state.frame = Math.max(0, Math.min(frames - 1, frame));
     by("frame").value = String(state.frame);
-    const words = `time ${number(model.times[state.frame])} (${state.frame + 1} of ${frames})`;
+    const words = `time ${number(model.times[state.frame], 5)} (${state.frame + 1} of ${frames})`;
     by("frame-time").textContent = words;
     by("frame").setAttribute("aria-valuetext", words);
     move();
@@ -393,6 +395,11 @@ report.attempt(async () => {
       return q === NOTHING ? NaN : Math.abs(back(state.field.range, q));
     });
     const most = values.reduce((m, v) => (v > m ? v : m), 0);
+    if (flat) {
+      look(home);
+      near(bodies, values, most);
+      return;
+    }
     const sums = bodies.map((body) => {
       const [loaded, whole] = [new THREE.Vector3(), new THREE.Vector3()];
       const [a, b, c] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
@@ -414,13 +421,19 @@ report.attempt(async () => {
     bodies.forEach((body, i) => toggle(body, i === largest || sums[i].dot(direction) > 0));
     direction.normalize();
     look(Math.abs(direction.z) > 0.7 ? [direction.x + 0.35, direction.y - 0.5, direction.z] : [direction.x, direction.y, direction.z + 0.45]);
-    // Near the part that carries something.
+    near([bodies[largest]], values, most);
+  }
+
+  // As near to the part that carries something as shows what is around it.
+  function near(those, values, most) {
     const [box, at, mid] = [new THREE.Box3(), new THREE.Vector3(), new THREE.Vector3()];
-    const moved = (p) => {
-      for (let c = 0; c < 3; c++) at.setComponent(c, positions[3 * p + c] + state.factor * attributes.motion.array[3 * p + c]);
-      return at.add(bodies[largest].group.position);
-    };
-    for (const p of bodies[largest].points) if (values[p] > 1e-3 * most) box.expandByPoint(moved(p));
+    for (const body of those) {
+      for (const p of body.points) {
+        if (!(values[p] > 1e-3 * most)) continue;
+        for (let c = 0; c < 3; c++) at.setComponent(c, positions[3 * p + c] + state.factor * attributes.motion.array[3 * p + c]);
+        box.expandByPoint(at.add(body.group.position));
+      }
+    }
     if (box.isEmpty()) return;
     box.getCenter(mid);
     const part = box.getSize(at).length() / 2;
@@ -468,8 +481,8 @@ report.attempt(async () => {
   add("Whole", whole);
   if (!flat) {
     for (const [words, d] of [["x", [1, 0, 0]], ["y", [0, -1, 0]], ["z", [0, 0, 1]], ["Below", [0, 0, -1]]]) add(words, () => look(d));
-    if (model.fields.some((f) => f.partial)) add("Contact", () => report.attempt(contact));
   }
+  if (model.fields.some((f) => f.partial)) add("Contact", () => report.attempt(contact));
   for (const body of bodies) {
     body.box = element("input", { type: "checkbox", checked: true, onchange: () => toggle(body, body.box.checked) });
     if (bodies.length > 1) by("bodies").append(element("label", {}, body.box, body.name));
@@ -538,10 +551,16 @@ report.attempt(async () => {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", theme);
   theme();
   new ResizeObserver(fit).observe(canvas.parentElement);
-  const start = ["MISES", "U", "CPRESS"].find((name) => model.fields.some((f) => f.name === name && f.range[1] > f.range[0]));
-  show(frames - 1);
-  await choose(flat && model.fields.some((f) => f.name === "CPRESS") && !start ? "CPRESS" : start);
+  const start = ["CPRESS", "MISES", "U"].find((name) => model.fields.some((f) => f.name === name && f.range[1] > f.range[0]));
+  show(opening);
+  await choose(start);
   look(home);
-  show(frames - 1);
+  show(opening);
+  // What surfaces carry is looked at from near, and nothing is moved to where it is not.
+  if (state.field && state.field.contact) {
+    factor.value = "1";
+    setFactor(1);
+    await contact();
+  }
   canvas.dataset.ready = "yes";
 });

@@ -17,6 +17,20 @@ pub const ORDERED: &[Rgb] = &[
     [253, 231, 37],
 ];
 
+/// From nothing to much, for what surfaces carry: pale where nothing is, so that the spot that carries stands out on a body that is lit. *magma* (Smith and van
+/// der Walt, CC0) backwards, which darkens all the way and is told apart by people who are colour-blind.
+pub const CARRIED: &[Rgb] = &[
+    [247, 246, 240],
+    [253, 231, 170],
+    [254, 202, 141],
+    [253, 150, 104],
+    [241, 96, 93],
+    [205, 63, 113],
+    [158, 47, 127],
+    [113, 31, 129],
+    [68, 15, 118],
+];
+
 /// From negative over zero to positive: blue, light grey, red.
 pub const SIGNED: &[Rgb] = &[
     [33, 74, 147],
@@ -66,12 +80,18 @@ pub struct Scale {
     pub signed: bool,
     /// Whether the numbers are the status of contact.
     pub status: bool,
+    /// Whether they are what a surface carries, from zero.
+    pub carried: bool,
 }
 
 impl Scale {
     /// The list of anchors.
     pub fn anchors(&self) -> &'static [Rgb] {
-        if self.signed { SIGNED } else { ORDERED }
+        match (self.signed, self.carried) {
+            (true, _) => SIGNED,
+            (_, true) => CARRIED,
+            _ => ORDERED,
+        }
     }
 
     /// The colour of a value.
@@ -111,6 +131,7 @@ mod tests {
             range: [1.0, 1.0],
             signed: false,
             status: false,
+            carried: false,
         };
         assert_eq!(scale.colour(1.0), ORDERED[4]);
         assert_eq!(hex([1, 160, 255]), "#01a0ff");
@@ -120,5 +141,6 @@ mod tests {
     fn lightness_grows_along_the_ordered_list() {
         let light = |c: &Rgb| 2 * u32::from(c[0]) + 7 * u32::from(c[1]) + u32::from(c[2]);
         assert!(ORDERED.is_sorted_by_key(light));
+        assert!(CARRIED.is_sorted_by(|a, b| light(a) > light(b)));
     }
 }

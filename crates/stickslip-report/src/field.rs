@@ -43,10 +43,40 @@ pub const NAMES: &[&str] = &[
 /// The field that holds the status of contact: 0 open, 1 stick, 2 slip.
 pub const STATUS: &str = "CSTATUS";
 
+/// Fields of contact that begin at zero and grow with what a surface carries.
+const CARRIED: &[&str] = &["CPRESS", "CDISS", "CWEAR"];
+
 impl Field {
+    /// Whether surfaces of contact have it and nothing else.
+    pub fn of_contact(&self) -> bool {
+        self.array.starts_with('C')
+            && self.array != "CFORCE"
+            && WORDS.iter().any(|(name, _)| self.stem() == *name)
+    }
+
+    /// Whether it begins at zero and grows with what a surface carries.
+    pub fn carried(&self) -> bool {
+        CARRIED.contains(&self.name.as_str())
+    }
+
+    /// Whether its sign changes where the model is mirrored along an axis. Directions along a surface are x laid into it, and the one across.
+    pub fn turns(&self, axis: usize) -> bool {
+        match (self.stem(), self.component) {
+            ("CSHEAR" | "CSLIP", _) => self.name.ends_with('1') == (axis == 0),
+            ("U" | "V" | "A" | "RF" | "CFORCE", Some(c)) => c == axis,
+            ("S", Some(c)) => [[3, 5], [3, 4], [4, 5]][axis].contains(&c),
+            _ => false,
+        }
+    }
+
+    /// The name of its array without the number of a direction.
+    pub fn stem(&self) -> &str {
+        self.array.trim_end_matches(['1', '2', '3'])
+    }
+
     /// The name with what it means: `CPRESS, contact pressure`.
     pub fn label(&self) -> String {
-        let stem = self.array.trim_end_matches(['1', '2', '3']);
+        let stem = self.stem();
         let words = WORDS.iter().find(|(name, _)| *name == stem);
         match (words, self.component) {
             (None, _) => self.name.clone(),
@@ -121,6 +151,15 @@ pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     (range[0] <= range[1]).then_some(range)
 }
 
+/// What colours of a field should span, and whether zero is in the middle.
+pub fn span_of(field: Option<&Field>, range: [f64; 2]) -> ([f64; 2], bool) {
+    let ([low, high], signed) = span(range);
+    match field.is_some_and(Field::carried) && !signed {
+        true => ([low.min(0.0), high.max(0.0)], false),
+        false => ([low, high], signed),
+    }
+}
+
 /// The range that colours should span: zero in the middle where there are values on both sides of it.
 pub fn span([low, high]: [f64; 2]) -> ([f64; 2], bool) {
     let wide = low.abs().max(high.abs());
@@ -164,6 +203,21 @@ mod tests {
         assert_eq!(all[1].label(), "U, displacement (magnitude)");
         assert_eq!(all[2].label(), "U1, displacement");
         assert_eq!(all[11].label(), "XYZ");
+        assert!(
+            all[0].of_contact()
+                && all[0].carried()
+                && !all[1].of_contact()
+                && !all[11].of_contact()
+        );
+        // What is odd under a mirror along x: U1, S12 and S13.
+        let odd: Vec<&str> = all
+            .iter()
+            .filter(|f| f.turns(0))
+            .map(|f| f.name.as_str())
+            .collect();
+        assert_eq!(odd, ["U1", "S12", "S13"]);
+        assert_eq!(span_of(Some(&all[0]), [2., 3.]), ([0., 3.], false));
+        assert_eq!(span_of(Some(&all[1]), [2., 3.]), ([2., 3.], false));
     }
 
     #[test]

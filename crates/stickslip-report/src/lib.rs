@@ -11,7 +11,9 @@ mod obstacle;
 mod pack;
 pub mod plot;
 mod results;
+mod sheet;
 mod skin;
+mod units;
 
 pub use field::NAMES;
 pub use html::{Limits, Report, page, write as report};

@@ -60,7 +60,8 @@ pub fn indices(values: impl Iterator<Item = u32>) -> String {
     packed(&bytes)
 }
 
-fn packed(bytes: &[u8]) -> String {
+/// Bytes as text.
+pub fn packed(bytes: &[u8]) -> String {
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
     let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
     base64(&written.expect("writing to memory does not fail"))

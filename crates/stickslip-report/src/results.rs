@@ -39,6 +39,8 @@ pub struct Results {
     pub history: csv::Table,
     /// The times of `fields.pvd`.
     pub frames: Vec<Frame>,
+    /// What `interfaces.pvd` lists: the surfaces of the interfaces at these times.
+    pub surfaces: Vec<pvd::Part>,
     /// What is missing, a sentence each.
     pub missing: Vec<String>,
 }
@@ -89,6 +91,7 @@ impl Results {
             problem_text: String::new(),
             history: csv::Table::default(),
             frames: Vec::new(),
+            surfaces: Vec::new(),
             missing,
         };
         if let Some(path) = summary {
@@ -120,6 +123,11 @@ impl Results {
                 }
                 results.frames.push(Frame { time, file });
             }
+        }
+        // A run without interfaces has none.
+        let surfaces = directory.join("interfaces.pvd");
+        if surfaces.is_file() && !results.frames.is_empty() {
+            results.surfaces = listed(&surfaces)?;
         }
         Ok(results)
     }
@@ -159,4 +167,17 @@ impl Results {
 
 fn read(path: &Path) -> Result<String, Error> {
     stickslip::io::input::read_text(path).map_err(|e| Error::io(path, e))
+}
+
+/// Reads the list of surfaces; a file of it that is not there is an error.
+fn listed(path: &Path) -> Result<Vec<pvd::Part>, Error> {
+    let parts = pvd::read_parts(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match parts.iter().find(|part| !folder.join(&part.file).is_file()) {
+        Some(gone) => Err(fault(
+            path,
+            format!("it lists `{}`, which is not there", gone.file),
+        )),
+        None => Ok(parts),
+    }
 }

@@ -2,30 +2,31 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::ValueHint;
-use stickslip_report::plot::{self, Picture, View, When};
+use stickslip_report::plot::{self, Along, Picture, Plane, Units, View, When, Zoom};
 
 use super::completions::Words;
 use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::print;
 
-/// Make a picture of results, PNG or SVG, or plot columns of the history.
+/// Make a picture of results, PNG or SVG: the bodies, what an interface carries, or columns of the history.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The folder with the results of a run.
     #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
-    /// The file to write, ending with .png or .svg; `plot.png` or `history.png` in the folder if not given.
+    /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The von Mises stress if not
-    /// given.
+    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The contact pressure if not
+    /// given, or the von Mises stress where nothing touches.
     #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,
-    /// Which of the times at which fields were written: `last`, a number from 1, or `all`, a file each.
-    #[arg(long, value_name = "last|N|all", default_value = "last", value_parser = when)]
+    /// Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each.
+    #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
     time: When,
-    /// Factor of the displacements; with `auto` the largest is about a twentieth of the model.
+    /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where
+    /// that would open or close gaps.
     #[arg(long, value_name = "auto|X", default_value = "auto", value_parser = scale)]
     scale: Scale,
     /// From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
@@ -34,6 +35,28 @@ pub struct Arguments {
     /// Draw this body only; may be repeated.
     #[arg(long, value_name = "NAME")]
     body: Vec<String>,
+    /// Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact
+    /// is shown.
+    #[arg(long, value_name = "auto|contact|whole|X", default_value = "auto", value_parser = zoom)]
+    zoom: Zoom,
+    /// What is in the middle of the picture.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
+    at: Option<Place>,
+    /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled.
+    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["field", "view", "body", "at", "arrows", "cut", "mirror", "history"])]
+    along: Option<String>,
+    /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
+    #[arg(long, value_name = "yes|no", value_parser = yes)]
+    arrows: Option<bool>,
+    /// Draw only cells whose middle is below this plane, to look inside; through the middle of the model if no place is given.
+    #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
+    cut: Option<Plane>,
+    /// Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given.
+    #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
+    mirror: Option<Plane>,
+    /// Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are.
+    #[arg(long, value_name = "LENGTH,STRESS", value_parser = units)]
+    units: Option<Units>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     size: [u32; 2],
@@ -61,11 +84,12 @@ struct Scale(Option<f64>);
 
 fn when(text: &str) -> Result<When, String> {
     match text {
+        "peak" => Ok(When::Peak),
         "last" => Ok(When::Last),
         "all" => Ok(When::All),
         _ => match text.parse() {
             Ok(n) => Ok(When::Number(n)),
-            Err(_) => Err("`last`, `all` or a number from 1".into()),
+            Err(_) => Err("`peak`, `last`, `all` or a number from 1".into()),
         },
     }
 }
@@ -82,6 +106,40 @@ fn scale(text: &str) -> Result<Scale, String> {
 
 fn view(text: &str) -> Result<View, String> {
     text.parse()
+}
+
+fn zoom(text: &str) -> Result<Zoom, String> {
+    text.parse()
+}
+
+fn plane(text: &str) -> Result<Plane, String> {
+    text.parse()
+}
+
+fn units(text: &str) -> Result<Units, String> {
+    text.parse()
+}
+
+fn yes(text: &str) -> Result<bool, String> {
+    match text {
+        "yes" => Ok(true),
+        "no" => Ok(false),
+        _ => Err("`yes` or `no`".into()),
+    }
+}
+
+/// A place in the model.
+#[derive(Debug, Clone, Copy)]
+struct Place([f64; 3]);
+
+fn place(text: &str) -> Result<Place, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|t| t.trim().parse().ok()).collect();
+    let numbers = numbers.filter(|all| all.iter().all(|x| x.is_finite()));
+    match numbers.as_deref() {
+        Some(&[x, y]) => Ok(Place([x, y, 0.0])),
+        Some(&[x, y, z]) => Ok(Place([x, y, z])),
+        _ => Err("two or three coordinates with commas between them".into()),
+    }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -105,6 +163,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
 pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failure> {
     given::results(&arguments.directory)?;
     let output = arguments.output.as_deref();
+    if let Some(interface) = arguments
+        .along
+        .as_ref()
+        .filter(|_| arguments.history.is_empty())
+    {
+        let wanted = Along {
+            interface: interface.clone(),
+            when: arguments.time,
+            zoom: arguments.zoom,
+            size: arguments.size,
+            units: arguments.units.clone(),
+        };
+        let files = plot::along(&arguments.directory, output, &wanted)?;
+        return Ok((files, Vec::new()));
+    }
     if arguments.history.is_empty() {
         let picture = Picture {
             field: arguments.field.clone(),
@@ -113,6 +186,12 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
             view: arguments.view,
             bodies: arguments.body.clone(),
             size: arguments.size,
+            zoom: arguments.zoom,
+            at: arguments.at.map(|at| at.0),
+            arrows: arguments.arrows,
+            cut: arguments.cut,
+            mirror: arguments.mirror,
+            units: arguments.units.clone(),
         };
         return Ok(plot::picture(&arguments.directory, output, &picture)?);
     }

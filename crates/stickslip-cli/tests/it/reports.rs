@@ -41,6 +41,14 @@ fn a_report_and_pictures_are_made_of_what_a_run_leaves() {
             "plot.png",
         ),
         (&["--history", "base.CFN2,ALLSE"], "history.png"),
+        (&["--along", "base", "--zoom", "whole"], "base.png"),
+        (
+            &[
+                "--zoom", "2", "--at", "-0.5,0", "--arrows", "no", "--mirror", "x", "--units",
+                "m,Pa",
+            ],
+            "plot.png",
+        ),
     ] {
         let _ = std::fs::remove_file(results.join(file));
         let mut all = vec!["plot", &folder];
@@ -68,7 +76,18 @@ fn what_cannot_be_drawn_is_an_error_of_the_input() {
         ),
         (
             vec!["plot", &folder, "--time", "now"],
-            "`last`, `all` or a number",
+            "`peak`, `last`, `all` or a number",
+        ),
+        (
+            vec!["plot", &folder, "--along", "bass"],
+            "did you mean `base`?",
+        ),
+        (vec!["plot", &folder, "--zoom", "far"], "`contact`, `whole`"),
+        (vec!["plot", &folder, "--cut", "w"], "x, y or z"),
+        (vec!["plot", &folder, "--units", "mm"], "`mm,MPa`"),
+        (
+            vec!["plot", &folder, "--at", "1"],
+            "two or three coordinates",
         ),
         (
             vec!["plot", &folder, "--size", "big"],

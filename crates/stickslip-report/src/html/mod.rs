@@ -18,8 +18,6 @@ use stickslip::io::write_atomically;
 
 use crate::results::Results;
 
-pub use model::scale;
-
 /// How much of the results goes into a page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -60,13 +58,14 @@ pub fn page(results: &Results, limits: Limits) -> Result<(String, Vec<String>), 
     let mut notes = results.missing.clone();
     let model = model::pack(results, limits.fields, &mut notes)?;
     let history = tables::pack(&results.history, limits.rows, &mut notes);
-    let mut text = page::write(results, &model, &history, &notes);
+    let drawings = crate::plot::drawings(results)?;
+    let mut text = page::write(results, &model, &history, &drawings, &notes);
     if text.len() as u64 > LARGE {
         notes.push(format!(
             "this page has {:.0} MB; with a lower --limit it keeps fewer times",
             text.len() as f64 / 1e6
         ));
-        text = page::write(results, &model, &history, &notes);
+        text = page::write(results, &model, &history, &drawings, &notes);
     }
     Ok((text, notes))
 }

@@ -8,6 +8,7 @@ use crate::field::{self, Field};
 use crate::obstacle::{self, Outline};
 use crate::pack;
 use crate::results::{Results, fault};
+use crate::sheet::Sheet;
 use crate::skin::Skin;
 
 /// What the view needs: a description, and packed arrays by their keys.
@@ -74,7 +75,17 @@ pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Pa
             }));
         }
     }
-    Ok(describe(results, &skin, &kept, &list, &columns, &motion))
+    let mut packed = describe(results, &skin, &kept, &list, &columns, &motion);
+    // It opens where contact presses most, and moves no surface visibly to or from another.
+    let peak = results.of_peak()?;
+    let start = (0..kept.len()).min_by_key(|&i| kept[i].abs_diff(peak));
+    packed.meta["start"] = json!(start);
+    let sheets = kept.iter().map(|&frame| results.sheets(frame));
+    let sheets: Vec<Vec<Sheet>> = sheets.collect::<Result<_, Error>>()?;
+    let largest = packed.meta["largest"].as_f64().unwrap_or(0.0);
+    let factor = crate::plot::scale(skin.size(), largest, sheets.iter().flatten());
+    packed.meta["scale"] = json!(factor);
+    Ok(packed)
 }
 
 /// The array of a field, if this file has it as the first one has.
@@ -125,10 +136,10 @@ fn describe(
         if q.values.iter().all(|&v| v == pack::NOTHING) {
             continue;
         }
-        let (span, signed) = field::span(q.range);
+        let (span, signed) = field::span_of(Some(field), q.range);
         shown.push(json!({
             "key": format!("f{i}"), "name": field.name, "label": field.label(), "range": q.range,
-            "span": span, "signed": signed, "status": field.name == field::STATUS,
+            "span": span, "signed": signed, "carried": field.carried(), "contact": field.of_contact(), "status": field.name == field::STATUS,
             "partial": q.values.contains(&pack::NOTHING),
         }));
         blobs.push((format!("f{i}"), pack::shorts(&q.values)));
@@ -158,7 +169,6 @@ fn describe(
         "middle": middle,
         "size": skin.size(),
         "largest": largest,
-        "scale": scale(skin.size(), largest),
         "motion": (!motion.is_empty()).then_some(moved.range),
         "times": times,
         "obstacles": {"any": !outlines.is_empty(), "move": moving},
@@ -167,6 +177,7 @@ fn describe(
         "fields": shown,
         "ordered": colours(crate::colour::ORDERED),
         "signed": colours(crate::colour::SIGNED),
+        "carried": colours(crate::colour::CARRIED),
         "nothing": crate::colour::NOTHING,
         "statuses": statuses,
     });
@@ -210,31 +221,4 @@ fn obstacles(
         blobs.push(("obstacle-motion".to_string(), pack::singles(moved)));
     }
     blobs
-}
-
-/// The factor of displacements at which the largest is a twentieth of the model; 1 if it is more by itself.
-pub fn scale(size: f64, largest: f64) -> f64 {
-    if largest <= 0.0 || size <= 0.0 || 20.0 * largest >= size {
-        return 1.0;
-    }
-    // 1, 2 or 5 times a power of ten, so that it can be said.
-    let wanted = size / (20.0 * largest);
-    let power = 10f64.powf(wanted.log10().floor());
-    let lead = wanted / power;
-    let lead = [5.0, 2.0].into_iter().find(|l| lead >= *l).unwrap_or(1.0);
-    (lead * power).max(1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::scale;
-
-    #[test]
-    fn displacements_are_scaled_by_round_factors() {
-        assert_eq!(scale(1.0, 1e-3), 50.0);
-        assert_eq!(scale(1.0, 0.3), 1.0);
-        assert_eq!(scale(2.0, 1e-6), 100_000.0);
-        assert_eq!(scale(1.0, 0.0), 1.0);
-        assert_eq!(scale(1.0, 0.04), 1.0);
-    }
 }

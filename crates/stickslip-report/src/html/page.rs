@@ -23,7 +23,13 @@ const VIEW_BODY: &str = include_str!("../../assets/view.html");
 const HISTORY_BODY: &str = include_str!("../../assets/history.html");
 
 /// Writes the page.
-pub fn write(results: &Results, model: &Packed, history: &Packed, notes: &[String]) -> String {
+pub fn write(
+    results: &Results,
+    model: &Packed,
+    history: &Packed,
+    drawings: &[String],
+    notes: &[String],
+) -> String {
     let title = results.title();
     let shown = escape::text(&title);
     let mut page = format!(
@@ -54,6 +60,10 @@ pub fn write(results: &Results, model: &Packed, history: &Packed, notes: &[Strin
             false => VIEW_BODY.to_string(),
         },
     );
+    let along = drawings
+        .iter()
+        .map(|svg| format!("<figure class=\"along\">{svg}</figure>\n"));
+    section("along", "Along the interfaces", along.collect());
     section("solved", "What was solved", problem::section(results));
     section("quality", "Quality", quality::section(results));
     section("convergence", "Convergence", convergence::section(results));
@@ -78,7 +88,12 @@ pub fn write(results: &Results, model: &Packed, history: &Packed, notes: &[Strin
     for (key, text) in model.blobs.iter().chain(&history.blobs) {
         page += &format!("<script type=\"text/plain\" id=\"blob-{key}\">{text}</script>\n");
     }
-    for script in [PLOT, THREE, DATA, PLOTS, VIEW] {
+    if !model.meta.is_null() {
+        // Most of a small page: packed, and only where there is something to show.
+        let text = crate::pack::packed(THREE.as_bytes());
+        page += &format!("<script type=\"text/plain\" id=\"blob-three\">{text}</script>\n");
+    }
+    for script in [PLOT, DATA, PLOTS, VIEW] {
         page += &format!("<script>{script}</script>\n");
     }
     page += "</body>\n</html>\n";

@@ -118,6 +118,20 @@ fn flatten(table: &Table, at: &mut Vec<String>, skip: usize, schema: &Json, rows
     for (key, value) in table {
         at.push(key.clone());
         match value {
+            Value::Table(inner) if chosen(inner).is_some() => {
+                // A model without parameters is a choice, not a yes: `normal: unilateral`.
+                let model = chosen(inner).unwrap_or_default();
+                at.push(model.to_string());
+                let words = describe(schema, at).and_then(|e| e.get("description"));
+                let words = words.and_then(Json::as_str).unwrap_or_default();
+                at.pop();
+                rows.push(Row {
+                    key: at[skip..].join(" › ").replace('-', " "),
+                    value: model.replace('-', " "),
+                    unit: String::new(),
+                    words: words.replace('`', ""),
+                });
+            }
             Value::Table(inner) if !inner.is_empty() => flatten(inner, at, skip, schema, rows),
             _ => {
                 let entry = describe(schema, at);
@@ -136,6 +150,15 @@ fn flatten(table: &Table, at: &mut Vec<String>, skip: usize, schema: &Json, rows
             }
         }
         at.pop();
+    }
+}
+
+/// The name of the only entry of a table, if that has nothing in it.
+fn chosen(table: &Table) -> Option<&str> {
+    let mut entries = table.iter();
+    match (entries.next(), entries.next()) {
+        (Some((name, Value::Table(inner))), None) if inner.is_empty() => Some(name),
+        _ => None,
     }
 }
 
@@ -256,6 +279,27 @@ mod tests {
         assert_eq!(find("interface.x.friction.coulomb.mu").as_deref(), Some(""));
         assert!(find("interface.x.friction.coulomb.no").is_none());
         assert!(find("step.0.duration").is_some());
+    }
+
+    #[test]
+    fn a_model_without_parameters_is_named() {
+        let table: Table = "normal.unilateral = {}\nfriction.coulomb.mu = 0.3"
+            .parse()
+            .unwrap();
+        let (mut rows, mut at) = (Vec::new(), vec!["interface".into(), "x".into()]);
+        flatten(&table, &mut at, 2, &stickslip::problem::schema(), &mut rows);
+        let shown: Vec<String> = rows
+            .iter()
+            .map(|r| format!("{}: {}", r.key, r.value))
+            .collect();
+        assert!(
+            shown.contains(&"normal: unilateral".to_string()),
+            "{shown:?}"
+        );
+        assert!(
+            shown.contains(&"friction › coulomb › mu: 0.3".to_string()),
+            "{shown:?}"
+        );
     }
 
     #[test]

@@ -27,6 +27,10 @@ pub fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
     let text = if value == 0.0 {
         "0".into()
+    } else if (1.0..1e5).contains(&size) && !fits(value, digits) {
+        // Digits that do not count are zeros: 1860 is read more easily than 1.86e3.
+        let unit = 10f64.powi(size.log10().floor() as i32 + 1 - digits as i32);
+        format!("{}", (value / unit).round() * unit)
     } else if (1e-3..1e6).contains(&size) && fits(value, digits) {
         let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
         trimmed(&format!("{value:.after$}"))
@@ -84,5 +88,6 @@ mod tests {
         ] {
             assert_eq!(number(value, 4), text);
         }
+        assert_eq!([number(1859.1, 3), number(99_960.0, 3)], ["1860", "100000"]);
     }
 }

@@ -8,9 +8,9 @@ use crate::colour::{self, Scale};
 use crate::draw::{Anchor, Canvas, Pen};
 use crate::field::{self, Field};
 
-/// Draws the colour bar of a field with these values, or the list of the statuses.
+/// Draws the colour bar of a field, and its unit, with these values, or the list of the statuses.
 pub fn bar(
-    field: &Field,
+    (field, unit): (&Field, &str),
     colours: &Scale,
     values: &[f64],
     at: [f64; 2],
@@ -21,7 +21,8 @@ pub fn bar(
     let [x, mut y] = at;
     let label = field.label();
     let (name, words) = label.split_once(", ").unwrap_or((&label, ""));
-    canvas.text([x, y + em], name, 1.1 * em, Anchor::Start, INK, false);
+    let name = format!("{name}{unit}");
+    canvas.text([x, y + em], &name, 1.1 * em, Anchor::Start, INK, false);
     y += 1.4 * em;
     for line in wrap(words, 0.85 * em, size[0]) {
         canvas.text(
@@ -79,12 +80,12 @@ pub fn bar(
         let place = y + (1.0 - share) * height;
         let pen = Pen::new(INK, 0.07 * em);
         canvas.line(&[[x + 1.5 * em, place], [x + 1.9 * em, place]], pen);
-        let text = axis::number(tick, 4);
+        let text = axis::number(tick, 3);
         let place = [x + 2.2 * em, place + 0.34 * em];
         canvas.text(place, &text, 0.92 * em, Anchor::Start, INK, false);
     }
     if let Some([least, most]) = field::range(values.iter().copied()) {
-        let line = format!("{} … {}", axis::number(least, 4), axis::number(most, 4));
+        let line = format!("{} … {}", axis::number(least, 3), axis::number(most, 3));
         let place = [x, y + height + 1.5 * em];
         canvas.text(place, &line, 0.85 * em, Anchor::Start, SOFT, false);
     }

@@ -1,44 +1,34 @@
 //! Pictures of results and plots of histories, as PNG or SVG, made without a browser.
 
+mod along;
 mod axis;
 mod bodies;
 mod camera;
+mod chart;
+mod files;
 mod history;
 mod legend;
+mod marks;
 mod picture;
 mod raster;
 mod scene;
 mod words;
+mod zoom;
 
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::io::write_atomically;
 
-use crate::draw::{self, Canvas};
 use crate::results::{Results, fault};
 
+pub(crate) use along::drawings;
+use files::{canvas, chosen, numbered};
+
+pub use along::{Along, along};
 pub use camera::View;
-pub use picture::{Picture, When};
-
-/// Sizes of pictures that are made `[pixels]`.
-const SIZES: std::ops::RangeInclusive<u32> = 200..=8000;
-
-fn canvas(file: &Path, size: [u32; 2]) -> Result<Box<dyn Canvas>, Error> {
-    if !size.iter().all(|n| SIZES.contains(n)) {
-        let [w, h] = size;
-        return Err(fault(
-            file,
-            format!(
-                "a picture of {w}x{h} is not made: width and height are between {} and {}",
-                SIZES.start(),
-                SIZES.end()
-            ),
-        ));
-    }
-    draw::canvas(file, size)
-        .ok_or_else(|| fault(file, "the name of a picture ends with .png or .svg"))
-}
+pub use picture::{Picture, Plane, Units, When, Zoom};
+pub(crate) use zoom::scale;
 
 /// Draws the bodies with a field in colour; returns the files written, and what is to be said about them.
 ///
@@ -58,17 +48,7 @@ pub fn picture(
             "no fields were written: there is nothing to draw",
         ));
     }
-    let frames: Vec<usize> = match wanted.when {
-        When::Last => vec![count - 1],
-        When::All => (0..count).collect(),
-        When::Number(n) if (1..=count).contains(&n) => vec![n - 1],
-        When::Number(n) => {
-            return Err(fault(
-                directory,
-                format!("there is no time {n}: fields were written at {count} times"),
-            ));
-        }
-    };
+    let frames = chosen(&results, wanted.when)?;
     // Before anything is read: a wrong ending or size is said at once.
     canvas(&file, wanted.size)?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
@@ -84,13 +64,6 @@ pub fn picture(
         written.push(file);
     }
     Ok((written, scene.notes))
-}
-
-/// `plot.png` of time 7 is `plot_00007.png`.
-fn numbered(file: &Path, number: usize) -> PathBuf {
-    let part = |p: Option<&std::ffi::OsStr>| p.unwrap_or_default().to_string_lossy().into_owned();
-    let (stem, ending) = (part(file.file_stem()), part(file.extension()));
-    file.with_file_name(format!("{stem}_{number:05}.{ending}"))
 }
 
 /// Plots columns of the history against another; returns the file written.

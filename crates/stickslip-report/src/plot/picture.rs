@@ -1,16 +1,82 @@
 //! How a picture of the bodies is wanted.
 
+use std::str::FromStr;
+
 use super::camera::View;
+pub use crate::units::Units;
 
 /// Which of the times are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
+    /// That at which contact presses most, or the last where nothing presses.
+    Peak,
     /// The last.
     Last,
     /// By its place, from 1.
     Number(usize),
     /// Each in a file of its own.
     All,
+}
+
+/// Which part of the bodies is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Zoom {
+    /// The patch that presses, if a field of contact is shown and the patch is small; all otherwise.
+    Auto,
+    /// All.
+    Whole,
+    /// The patch that presses.
+    Contact,
+    /// So many times nearer than all.
+    Times(f64),
+}
+
+impl FromStr for Zoom {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Zoom::Auto),
+            "whole" => Ok(Zoom::Whole),
+            "contact" => Ok(Zoom::Contact),
+            _ => match text.parse::<f64>() {
+                Ok(x) if x.is_finite() && (0.01..=1e6).contains(&x) => Ok(Zoom::Times(x)),
+                _ => Err("`contact`, `whole`, `auto`, or how many times nearer".into()),
+            },
+        }
+    }
+}
+
+/// A plane across an axis, where it is said.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// The axis: 0, 1, 2.
+    pub axis: usize,
+    /// Where it crosses the axis `[length]`; chosen if not given.
+    pub at: Option<f64>,
+}
+
+impl FromStr for Plane {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || {
+            "x, y or z, with `=` and a place behind it if that is not to be chosen: x=0.5"
+                .to_string()
+        };
+        let (axis, at) = match text.split_once('=') {
+            Some((axis, at)) => {
+                let at = at.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+                (axis.trim(), Some(at.ok_or_else(wrong)?))
+            }
+            None => (text, None),
+        };
+        let axis = ["x", "y", "z"].iter().position(|a| *a == axis);
+        Ok(Plane {
+            axis: axis.ok_or_else(wrong)?,
+            at,
+        })
+    }
 }
 
 /// How a picture of the bodies is made.
@@ -28,17 +94,35 @@ pub struct Picture {
     pub bodies: Vec<String>,
     /// Width and height `[pixels]`.
     pub size: [u32; 2],
+    /// Which part is seen.
+    pub zoom: Zoom,
+    /// What is in the middle `[length]`; chosen if not given.
+    pub at: Option<[f64; 3]>,
+    /// Whether tractions are drawn as arrows; in contact views of plane problems if not given.
+    pub arrows: Option<bool>,
+    /// Only cells in front of this plane, whose middle is below it, are drawn.
+    pub cut: Option<Plane>,
+    /// A plane of symmetry, beyond which the other half is drawn too.
+    pub mirror: Option<Plane>,
+    /// Units for the legend; those that the problem gives if not given.
+    pub units: Option<Units>,
 }
 
 impl Default for Picture {
     fn default() -> Self {
         Picture {
             field: None,
-            when: When::Last,
+            when: When::Peak,
             scale: None,
             view: None,
             bodies: Vec::new(),
             size: [1200, 900],
+            zoom: Zoom::Auto,
+            at: None,
+            arrows: None,
+            cut: None,
+            mirror: None,
+            units: None,
         }
     }
 }

@@ -71,6 +71,14 @@ impl Raster {
         }
     }
 
+    /// Whether something is in front of a point by more than this depth.
+    pub fn hides(&self, [x, y, z]: [f64; 3], by: f64) -> bool {
+        let within = |v: f64, c: usize| (0.0..self.size[c] as f64).contains(&v);
+        within(x, 0)
+            && within(y, 1)
+            && f64::from(self.depth[y as usize * self.size[0] + x as usize]) > z + by
+    }
+
     /// A line of this width, `lift` nearer to the eye than its ends say; it is mixed with what is there by `strength`.
     pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, lift: f64, ink: Rgb, strength: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
@@ -166,6 +174,7 @@ mod tests {
         range: [0.0, 1.0],
         signed: false,
         status: false,
+        carried: false,
     };
 
     fn pixel(r: &Raster, x: usize, y: usize) -> [u8; 4] {

@@ -5,16 +5,19 @@ use stickslip::io::vtu::{self, Grid, PointFields};
 
 use super::bodies::{self, Shown};
 use super::camera::{Camera, Frame, cross, unit};
-use super::picture::Picture;
+use super::marks;
+use super::picture::{Picture, Zoom};
 use super::raster::{Corner, FINE, Raster};
 use super::words::{INK, SOFT, shorten};
-use super::{axis, legend};
+use super::{axis, legend, zoom};
 use crate::colour::Scale;
-use crate::draw::{Anchor, Canvas};
+use crate::draw::{Anchor, Canvas, Pen};
 use crate::field::{self, Field};
 use crate::obstacle::{self, Outline};
 use crate::results::{Results, fault};
+use crate::sheet::Sheet;
 use crate::skin::Skin;
+use crate::units::{Units, behind};
 
 /// What is the same for all times: geometry, camera, colours.
 pub struct Scene<'a> {
@@ -27,7 +30,14 @@ pub struct Scene<'a> {
     camera: Camera,
     obstacles: Vec<Outline>,
     /// The box of the picture's plane that holds the bodies at all times.
-    bounds: [[f64; 2]; 2],
+    bounds: zoom::Box2,
+    /// The part of it that is seen.
+    seen: zoom::Box2,
+    /// Axis and place of a plane of symmetry.
+    mirror: Option<(usize, f64)>,
+    /// Whether tractions are drawn as arrows.
+    arrows: bool,
+    units: Units,
     /// What was chosen for the reader.
     pub notes: Vec<String>,
 }
@@ -51,7 +61,8 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
                 field::range(values).is_some_and(|[low, high]| high > low)
             })
         };
-        let name = ["MISES", "U", "CPRESS"].into_iter().find(says);
+        // What contact does comes first, where it does anything.
+        let name = ["CPRESS", "MISES", "U"].into_iter().find(says);
         let named = |name: &str| list.iter().find(|f| f.name == name).cloned();
         let chosen = name.and_then(named).or_else(|| named("U"));
         return Ok(chosen.or_else(|| list.first().cloned()));
@@ -82,12 +93,21 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
 impl<'a> Scene<'a> {
     /// Reads what is to be drawn at these times.
     pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
-        let grid = results.grid(frames[0])?;
+        let mut grid = results.grid(frames[0])?;
+        let whole = Skin::of(&grid);
+        if let Some(plane) = wanted.cut {
+            let [low, high] = whole.bounds();
+            let middle = (low[plane.axis] + high[plane.axis]) / 2.0;
+            zoom::keep_below(&mut grid, plane.axis, plane.at.unwrap_or(middle));
+        }
         let skin = Skin::of(&grid);
         if skin.triangles.is_empty() {
             return Err(fault(
                 &results.frames[frames[0]].file,
-                "it has no cells that could be drawn",
+                match wanted.cut {
+                    Some(_) => "the cut leaves no cell: its place is below the bodies",
+                    None => "it has no cells that could be drawn",
+                },
             ));
         }
         let field = choose(results, &grid, wanted.field.as_deref())?;
@@ -114,14 +134,22 @@ impl<'a> Scene<'a> {
                 largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
             }
         }
-        let scale = wanted
-            .scale
-            .unwrap_or_else(|| crate::html::scale(skin.size(), largest));
-        let (range, signed) = field::span(range.unwrap_or([0.0; 2]));
+        let sheets: Vec<Vec<Sheet>> = (frames.iter())
+            .map(|&frame| results.sheets(frame))
+            .collect::<Result<_, Error>>()?;
+        let contact = field.as_ref().is_some_and(Field::of_contact);
+        let scale = match (wanted.scale, contact) {
+            (Some(scale), _) => scale,
+            // Where contact is looked at nothing is moved to where it is not.
+            (None, true) => 1.0,
+            (None, false) => zoom::scale(skin.size(), largest, sheets.iter().flatten()),
+        };
+        let (range, signed) = field::span_of(field.as_ref(), range.unwrap_or([0.0; 2]));
         let colours = Scale {
             range,
             signed,
             status: field.as_ref().is_some_and(|f| f.name == field::STATUS),
+            carried: field.as_ref().is_some_and(Field::carried),
         };
         let first = values(&grid.points, &skin, field.as_ref());
         let names = results.bodies(skin.ends.len());
@@ -129,7 +157,12 @@ impl<'a> Scene<'a> {
             .map_err(|message| fault(&results.directory, message))?;
         notes.extend(shown.notes.iter().cloned());
         let camera = Camera::new(shown.view, skin.dim);
-        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mirror = wanted.mirror.map(|plane| {
+            let [low, high] = whole.bounds().map(|x| x[plane.axis]);
+            let near = if low.abs() <= high.abs() { low } else { high };
+            (plane.axis, plane.at.unwrap_or(near))
+        });
+        let mut bounds = zoom::NOTHING;
         for &frame in frames {
             let points = each(frame)?;
             for (local, &p) in skin.points.iter().enumerate() {
@@ -137,13 +170,22 @@ impl<'a> Scene<'a> {
                     continue;
                 }
                 let u = displacement(&points, p);
-                let at = camera.see([0, 1, 2].map(|c| skin.positions[local][c] + scale * u[c]));
-                for c in 0..2 {
-                    bounds[0][c] = bounds[0][c].min(at[c]);
-                    bounds[1][c] = bounds[1][c].max(at[c]);
+                let x = [0, 1, 2].map(|c| skin.positions[local][c] + scale * u[c]);
+                for x in zoom::copies(x, mirror) {
+                    zoom::include(&mut bounds, camera.see(x));
                 }
             }
         }
+        let patch = zoom::patch(sheets.iter().flatten(), scale, mirror, &camera);
+        let nearer = match wanted.zoom {
+            Zoom::Auto if !contact => Zoom::Whole,
+            nearer => nearer,
+        };
+        let middle = wanted.at.map(|x| camera.see(x));
+        let seen =
+            zoom::seen(bounds, patch, nearer, middle).map_err(|m| fault(&results.directory, m))?;
+        let given = wanted.units.clone();
+        let arrows = wanted.arrows.unwrap_or(contact && skin.dim == 2);
         let obstacles = obstacle::outlines(&results.problem, &skin);
         Ok(Scene {
             obstacles,
@@ -155,6 +197,10 @@ impl<'a> Scene<'a> {
             scale,
             camera,
             bounds,
+            seen,
+            mirror,
+            arrows,
+            units: given.unwrap_or_else(|| Units::of(results)),
             notes,
         })
     }
@@ -170,7 +216,25 @@ impl<'a> Scene<'a> {
         let at = [margin, top];
         let area = [width - bar - 2.0 * margin, height - top - 2.6 * em];
         let area = area.map(|n| n.max(16.0));
-        self.bodies(frame, &points, at, area, em, canvas);
+        let sheets = self.results.sheets(frame)?;
+        let (place, raster) = self.bodies(frame, &points, (at, area), self.seen, em, canvas);
+        let behind_by = 0.02 * self.skin.size();
+        let drawn = marks::Drawn {
+            see: &|x| place.place(self.camera.see(x)),
+            // In a plane nothing is behind anything.
+            hides: &|seen| self.skin.dim == 3 && raster.hides(seen, behind_by),
+            scale: self.scale,
+            at,
+            area,
+            em,
+        };
+        if self.arrows {
+            marks::arrows(&sheets, &drawn, self.skin.dim, canvas);
+        }
+        if self.field.as_ref().is_some_and(|f| f.array == "CPRESS") {
+            let most = self.most(&points);
+            marks::peak(most, &sheets, &drawn, &self.units, canvas);
+        }
         let title = self.results.title();
         let title = shorten(&title, 1.35 * em, width - 2.0 * margin);
         canvas.text(
@@ -195,14 +259,42 @@ impl<'a> Scene<'a> {
             let x = width - bar - 0.4 * em;
             let values = values(&points, &self.skin, Some(field));
             legend::bar(
-                field,
+                (field, &behind(self.units.of_field(field))),
                 &self.colours,
                 &values,
                 [x, top + 0.5 * em],
-                [bar, area[1]],
+                [
+                    bar,
+                    if self.seen == self.bounds {
+                        area[1]
+                    } else {
+                        area[1] - 11.0 * em
+                    },
+                ],
                 em,
                 canvas,
             );
+        }
+        if self.seen != self.bounds {
+            // Where on the whole this is.
+            let size = [bar - 1.4 * em, 9.0 * em];
+            let corner = [width - bar - 0.4 * em, height - 2.6 * em - size[1]];
+            let (place, _) = self.bodies(
+                frame,
+                &points,
+                (corner, size),
+                self.bounds,
+                0.35 * em,
+                canvas,
+            );
+            let [low, high] = self.seen.map(|x| place.place([x[0], x[1], 0.0]));
+            let fine = FINE as f64;
+            let [x0, x1] = [low, high]
+                .map(|x| (corner[0] + x[0] / fine).clamp(corner[0], corner[0] + size[0]));
+            let [y0, y1] = [low, high]
+                .map(|x| (corner[1] + x[1] / fine).clamp(corner[1], corner[1] + size[1]));
+            let line = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]];
+            canvas.line(&line, Pen::new([209, 73, 91], 0.18 * em));
         }
         legend::triad(
             &self.camera,
@@ -214,66 +306,39 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
+    /// Where the largest value of the field is on the bodies that are drawn, and that value; nothing less than zero.
+    fn most(&self, points: &PointFields) -> ([f64; 3], f64) {
+        let values = values(points, &self.skin, self.field.as_ref());
+        let mut best = ([0.0; 3], 0.0);
+        for (i, &p) in self.skin.points.iter().enumerate() {
+            // Of values that are alike the first.
+            if self.shown.bodies[self.skin.owner[i] as usize] && values[i] > best.1 * (1.0 + 1e-9) {
+                let (x, u) = (self.skin.positions[i], displacement(points, p));
+                best = ([0, 1, 2].map(|c| x[c] + self.scale * u[c]), values[i]);
+            }
+        }
+        best
+    }
+
+    /// Paints the bodies into a rectangle so that a box of the picture's plane fills it; returns where points are on its raster, and that.
     fn bodies(
         &self,
         number: usize,
         points: &PointFields,
-        at: [f64; 2],
-        area: [f64; 2],
+        (at, area): ([f64; 2], [f64; 2]),
+        bounds: zoom::Box2,
         em: f64,
         canvas: &mut dyn Canvas,
-    ) {
+    ) -> (Frame, Raster) {
         let fine = FINE as f64;
         let size = area.map(|n| (n * fine) as usize);
         let rim = 0.6 * em * fine;
         let room = [0, 1].map(|c| (size[c] as f64 - 2.0 * rim).max(1.0));
-        let frame = Frame::fit(self.bounds[0], self.bounds[1], [rim, rim], room);
-        let values = values(points, &self.skin, self.field.as_ref());
-        let moved: Vec<[f64; 3]> = self
-            .skin
-            .points
-            .iter()
-            .zip(&self.skin.positions)
-            .map(|(&p, x)| {
-                let u = displacement(points, p);
-                [0, 1, 2].map(|c| x[c] + self.scale * u[c])
-            })
-            .collect();
-        let seen: Vec<[f64; 3]> = moved
-            .iter()
-            .map(|x| frame.place(self.camera.see(*x)))
-            .collect();
+        let frame = Frame::fit(bounds[0], bounds[1], [rim, rim], room);
         let mut raster = Raster::new(size);
-        let flat = self.skin.dim == 2;
-        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
-            for t in self.skin.triangles_of(body) {
-                let [a, b, c] = t.map(|i| moved[i as usize]);
-                let edge = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
-                let normal = unit(self.camera.see(cross(edge(b), edge(c))));
-                let light = match flat {
-                    true => 1.0,
-                    false => {
-                        let towards = normal[2].abs();
-                        0.70 + 0.26 * towards + 0.06 * normal[1] * normal[2].signum()
-                    }
-                };
-                let corners = t.map(|i| Corner {
-                    at: seen[i as usize],
-                    value: values[i as usize],
-                });
-                raster.triangle(corners, &self.colours, light.clamp(0.0, 1.0));
-            }
-        }
-        // Edges lie in the faces: a little nearer, so that faces they bound do not hide them.
-        let lift = 1e-3 * self.skin.size();
-        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
-            let edges = self.skin.edges_of(body);
-            // Fine meshes would be black.
-            let strength = (0.5 * spacing(&seen, edges) / (6.0 * fine)).clamp(0.06, 0.5);
-            for e in edges {
-                let ends = e.map(|i| seen[i as usize]);
-                raster.line(ends, 0.5 * fine, lift, INK, strength);
-            }
+        self.paint(points, &frame, &mut raster, em, false);
+        if self.mirror.is_some() {
+            self.paint(points, &frame, &mut raster, em, true);
         }
         let time = self.results.frames[number].time;
         for outline in &self.obstacles {
@@ -290,10 +355,72 @@ impl<'a> Scene<'a> {
                 raster.line(ends, 0.8 * fine, 0.0, SOFT, 0.8);
             }
         }
-        if flat && values.iter().any(|v| v.is_nan()) {
-            self.rim(&seen, &values, em, &mut raster);
-        }
         canvas.picture(at, size, FINE, &raster.pixels);
+        (frame, raster)
+    }
+
+    /// Paints the bodies, or what a mirror shows of them.
+    fn paint(
+        &self,
+        points: &PointFields,
+        frame: &Frame,
+        raster: &mut Raster,
+        em: f64,
+        mirrored: bool,
+    ) {
+        let fine = FINE as f64;
+        let mut values = values(points, &self.skin, self.field.as_ref());
+        let mirror = self.mirror.filter(|_| mirrored);
+        if mirror.is_some_and(|(axis, _)| self.field.as_ref().is_some_and(|f| f.turns(axis))) {
+            values.iter_mut().for_each(|v| *v = -*v);
+        }
+        let moved: Vec<[f64; 3]> = (self.skin.points.iter())
+            .zip(&self.skin.positions)
+            .map(|(&p, x)| {
+                let u = displacement(points, p);
+                let x = [0, 1, 2].map(|c| x[c] + self.scale * u[c]);
+                zoom::image(x, mirror)
+            })
+            .collect();
+        let seen: Vec<[f64; 3]> = (moved.iter())
+            .map(|x| frame.place(self.camera.see(*x)))
+            .collect();
+        let flat = self.skin.dim == 2;
+        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
+            for t in self.skin.triangles_of(body) {
+                let corners = t.map(|i| Corner {
+                    at: seen[i as usize],
+                    value: values[i as usize],
+                });
+                let light = if flat {
+                    1.0
+                } else {
+                    self.light(t.map(|i| moved[i as usize]))
+                };
+                raster.triangle(corners, &self.colours, light.clamp(0.0, 1.0));
+            }
+        }
+        // Edges lie in the faces: a little nearer, so that faces they bound do not hide them.
+        let lift = 1e-3 * self.skin.size();
+        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
+            let edges = self.skin.edges_of(body);
+            // Fine meshes would be black.
+            let strength = (0.5 * spacing(&seen, edges) / (6.0 * fine)).clamp(0.06, 0.5);
+            for e in edges {
+                let ends = e.map(|i| seen[i as usize]);
+                raster.line(ends, 0.5 * fine, lift, INK, strength);
+            }
+        }
+        if flat && values.iter().any(|v| v.is_nan()) {
+            self.rim(&seen, &values, em, raster);
+        }
+    }
+
+    /// How bright a triangle is.
+    fn light(&self, [a, b, c]: [[f64; 3]; 3]) -> f64 {
+        let edge = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
+        let normal = unit(self.camera.see(cross(edge(b), edge(c))));
+        0.70 + 0.26 * normal[2].abs() + 0.06 * normal[1] * normal[2].signum()
     }
 
     /// In a plane a surface is a line: the field of contact is drawn along it as a ribbon.

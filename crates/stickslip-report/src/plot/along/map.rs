@@ -1,0 +1,271 @@
+//! Maps of a surface in space: its pressure, and beside it stick and slip with the shear as arrows.
+
+use super::super::camera::Frame;
+use super::super::marks::{Drawn, arrow, ink};
+use super::super::picture::Zoom;
+use super::super::raster::{Corner, FINE, Raster};
+use super::super::words::{INK, SOFT, shorten};
+use super::super::zoom::{self, Box2};
+use super::super::{axis, legend};
+use super::page::Page;
+use super::unroll;
+use crate::colour::Scale;
+use crate::draw::{Anchor, Canvas, Pen};
+use crate::field::{Field, STATUS};
+use crate::sheet::Sheet;
+use crate::units::behind;
+
+/// Draws both maps.
+pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), String> {
+    let plan = unroll::plan(sheet);
+    let mut whole = zoom::NOTHING;
+    let mut patch = zoom::NOTHING;
+    for p in &plan {
+        zoom::include(&mut whole, [p[0], p[1], 0.0]);
+    }
+    for i in sheet.pressing() {
+        zoom::include(&mut patch, [plan[i][0], plan[i][1], 0.0]);
+    }
+    let seen = match page.zoom {
+        // The part beyond what presses tells nothing.
+        Zoom::Auto if patch[0][0] <= patch[1][0] => zoom::seen(whole, patch, Zoom::Contact, None),
+        Zoom::Auto => Ok(whole),
+        other => zoom::seen(whole, patch, other, None),
+    }?;
+    let seen = [0, 1].map(|end| {
+        // Nothing is beyond the surface.
+        [0, 1].map(|c| {
+            if end == 0 {
+                seen[0][c].max(whole[0][c])
+            } else {
+                seen[1][c].min(whole[1][c])
+            }
+        })
+    });
+    let [width, height] = page.size.map(f64::from);
+    let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
+    let margin = 1.6 * em;
+    let title = shorten(&page.title, 1.35 * em, width - 2.0 * margin);
+    canvas.text(
+        [margin, 2.1 * em],
+        &title,
+        1.35 * em,
+        Anchor::Start,
+        INK,
+        false,
+    );
+    let length = behind(&page.units.length);
+    let words = format!("{}; along the surface{length}", page.words);
+    canvas.text(
+        [margin, 3.7 * em],
+        &shorten(&words, em, width - 2.0 * margin),
+        em,
+        Anchor::Start,
+        SOFT,
+        false,
+    );
+    let bar = 9.5 * em;
+    // Side by side, or one above the other, whichever leaves them larger.
+    let (tall, wide) = (seen[1][1] - seen[0][1], seen[1][0] - seen[0][0]);
+    let beside = [(width - 3.0 * margin) / 2.0 - bar, height - 8.4 * em];
+    let above = [width - 2.0 * margin - bar, (height - 12.0 * em) / 2.0];
+    let fit = |room: [f64; 2]| (room[0] / wide.max(1e-300)).min(room[1] / tall.max(1e-300));
+    let (room, step) = match fit(beside) >= fit(above) {
+        // As near as the first leaves room.
+        true => (beside, [fit(beside) * wide + 3.0 * em + bar + margin, 0.0]),
+        false => (above, [0.0, above[1] + 4.0 * em]),
+    };
+    for (k, name) in ["CPRESS", STATUS].into_iter().enumerate() {
+        let at = [0, 1].map(|c| [margin + 3.0 * em, 5.6 * em][c] + k as f64 * step[c]);
+        let room = [room[0] - 3.0 * em, room[1]];
+        let one = Panel {
+            sheet,
+            plan: &plan,
+            seen,
+            at,
+            room,
+            bar,
+            em,
+        };
+        one.draw(name, page, canvas);
+    }
+    Ok(())
+}
+
+/// One map.
+struct Panel<'a> {
+    sheet: &'a Sheet,
+    plan: &'a [[f64; 2]],
+    seen: Box2,
+    at: [f64; 2],
+    room: [f64; 2],
+    bar: f64,
+    em: f64,
+}
+
+impl Panel<'_> {
+    fn draw(&self, name: &str, page: &Page, canvas: &mut dyn Canvas) {
+        let em = self.em;
+        let fine = FINE as f64;
+        let span = [0, 1].map(|c| (self.seen[1][c] - self.seen[0][c]).max(1e-300));
+        let zoom = (self.room[0] / span[0]).min(self.room[1] / span[1]);
+        let area = span.map(|s| (s * zoom).max(2.0 * em));
+        let frame = Frame::fit(self.seen[0], self.seen[1], [0.0; 2], area.map(|a| a * fine));
+        let field = Field {
+            name: name.into(),
+            array: name.into(),
+            component: Some(0),
+        };
+        let values = self.sheet.numbers(name);
+        let high = values
+            .iter()
+            .copied()
+            .filter(|v| v.is_finite())
+            .fold(0.0, f64::max);
+        let colours = Scale {
+            range: [0.0, high],
+            signed: false,
+            status: name == STATUS,
+            carried: true,
+        };
+        let mut raster = Raster::new(area.map(|a| (a * fine) as usize));
+        self.paint(values, &colours, &frame, &mut raster);
+        canvas.picture(
+            self.at,
+            area.map(|a| (a * fine) as usize),
+            FINE,
+            &raster.pixels,
+        );
+        self.axes(area, &frame, canvas);
+        let shown: Vec<f64> = values.to_vec();
+        let unit = behind(page.units.of_field(&field));
+        let place = [self.at[0] + area[0] + 1.2 * em, self.at[1]];
+        legend::bar(
+            (&field, &unit),
+            &colours,
+            &shown,
+            place,
+            [self.bar - 1.2 * em, area[1].max(12.0 * em)],
+            em,
+            canvas,
+        );
+        if name == STATUS {
+            self.arrows(area, &frame, canvas);
+        }
+    }
+
+    fn paint(&self, values: &[f64], colours: &Scale, frame: &Frame, raster: &mut Raster) {
+        let grid = &self.sheet.grid;
+        let at = |p: usize| frame.place([self.plan[p][0], self.plan[p][1], 0.0]);
+        let half = {
+            let [low, high] =
+                crate::field::range(self.plan.iter().map(|p| p[0])).unwrap_or([0.0; 2]);
+            0.5 * (high - low)
+        };
+        for i in 0..grid.types.len() {
+            let cell = grid.cell(i);
+            // A face that was cut by unrolling would lie over all others.
+            let spread = crate::field::range(cell.iter().map(|&p| self.plan[p][0]));
+            if cell.len() < 3 || (grid.types.len() > 8 && spread.is_some_and(|[a, b]| b - a > half))
+            {
+                continue;
+            }
+            for k in 1..cell.len() - 1 {
+                let corners = [cell[0], cell[k], cell[k + 1]].map(|p| Corner {
+                    at: at(p),
+                    value: values.get(p).copied().unwrap_or(f64::NAN),
+                });
+                raster.triangle(corners, colours, 1.0);
+            }
+            for k in 0..cell.len() {
+                let ends = [at(cell[k]), at(cell[(k + 1) % cell.len()])];
+                raster.line(ends, 0.5 * FINE as f64, 1.0, INK, 0.12);
+            }
+        }
+    }
+
+    /// A frame with numbers along its sides.
+    fn axes(&self, area: [f64; 2], frame: &Frame, canvas: &mut dyn Canvas) {
+        let (em, at) = (self.em, self.at);
+        let [x, y] = [at[0], at[1] + area[1]];
+        let rim = [
+            at,
+            [at[0] + area[0], at[1]],
+            [at[0] + area[0], y],
+            [x, y],
+            at,
+        ];
+        canvas.line(&rim, Pen::new(SOFT, 0.08 * em));
+        let place = |p: [f64; 2]| frame.place([p[0], p[1], 0.0]).map(|v| v / FINE as f64);
+        let count = |c: usize| ((area[c] / (6.0 * em)) as usize).clamp(1, 6);
+        for tick in axis::ticks(self.seen[0][0], self.seen[1][0], count(0)) {
+            let px = x + place([tick, 0.0])[0];
+            canvas.line(&[[px, y], [px, y + 0.4 * em]], Pen::new(SOFT, 0.08 * em));
+            canvas.text(
+                [px, y + 1.5 * em],
+                &axis::number(tick, 3),
+                0.85 * em,
+                Anchor::Middle,
+                SOFT,
+                false,
+            );
+        }
+        for tick in axis::ticks(self.seen[0][1], self.seen[1][1], count(1)) {
+            let py = at[1] + place([0.0, tick])[1];
+            canvas.line(&[[x - 0.4 * em, py], [x, py]], Pen::new(SOFT, 0.08 * em));
+            canvas.text(
+                [x - 0.6 * em, py + 0.3 * em],
+                &axis::number(tick, 3),
+                0.85 * em,
+                Anchor::End,
+                SOFT,
+                false,
+            );
+        }
+    }
+
+    /// Shear tractions, thinned out; a vector is laid into the map by where its end would be.
+    fn arrows(&self, area: [f64; 2], frame: &Frame, canvas: &mut dyn Canvas) {
+        let em = self.em;
+        let count = self.plan.len();
+        let most = self
+            .sheet
+            .numbers("CSHEAR1")
+            .iter()
+            .zip(self.sheet.numbers("CSHEAR2"));
+        let most = most
+            .map(|(a, b)| a.hypot(*b))
+            .filter(|v| v.is_finite())
+            .fold(0.0, f64::max);
+        if most <= 0.0 {
+            return;
+        }
+        let base = unroll::base(self.sheet);
+        let drawn = Drawn {
+            see: &|x| frame.place(x),
+            hides: &|_| false,
+            scale: 1.0,
+            at: self.at,
+            area,
+            em,
+        };
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        for i in 0..count {
+            let Some(p) = drawn.place([self.plan[i][0], self.plan[i][1], 0.0]) else {
+                continue;
+            };
+            let t = self.sheet.vector("CSHEAR", i);
+            let size = t.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < 1.9 * em;
+            if !(size > 0.03 * most) || taken.iter().any(near) {
+                continue;
+            }
+            taken.push(p);
+            let [right, up] = base(self.sheet.grid.points.points[i]);
+            let along = |e: [f64; 3]| (0..3).map(|c| e[c] * t[c]).sum::<f64>() / most * 2.4 * em;
+            let end = [p[0] + along(right), p[1] - along(up)];
+            let dark = ink(self.sheet, i).map(|c| (f64::from(c) * 0.45) as u8);
+            arrow(p, end, dark, em, canvas);
+        }
+    }
+}

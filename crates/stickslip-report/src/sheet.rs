@@ -1,0 +1,130 @@
+//! The surfaces of interfaces, with what is known at their points.
+
+use stickslip::Error;
+use stickslip::io::vtu::{self, Grid, PointArray};
+
+use crate::results::{Frame, Results};
+
+/// The surface of one interface at one time.
+#[derive(Debug, Clone, Default)]
+pub struct Sheet {
+    /// The interface.
+    pub name: String,
+    /// Points, cells (vertices, lines, triangles, quadrilaterals) and fields.
+    pub grid: Grid,
+}
+
+/// Part of the largest pressure that counts as pressing.
+pub const PRESSING: f64 = 1e-3;
+
+impl Sheet {
+    fn array(&self, name: &str, components: usize) -> Option<&PointArray> {
+        let array = self.grid.points.arrays.get(name);
+        array.filter(|a| a.components == components)
+    }
+
+    /// A field of one number a point; nothing where the file has none.
+    pub fn numbers(&self, name: &str) -> &[f64] {
+        self.array(name, 1).map_or(&[], |a| &a.values)
+    }
+
+    /// A vector at a point; zero where the file has none.
+    pub fn vector(&self, name: &str, point: usize) -> [f64; 3] {
+        match self.array(name, 3) {
+            Some(a) => [0, 1, 2].map(|c| a.values[3 * point + c]),
+            None => [0.0; 3],
+        }
+    }
+
+    /// Where a point is, displacements taken so many times.
+    pub fn place(&self, point: usize, scale: f64) -> [f64; 3] {
+        let (x, u) = (self.grid.points.points[point], self.vector("U", point));
+        [0, 1, 2].map(|c| x[c] + scale * u[c])
+    }
+
+    /// The point with the largest pressure, and that pressure; `None` where nothing presses. Of points that press alike the first.
+    pub fn peak(&self) -> Option<(usize, f64)> {
+        let mut best: Option<(usize, f64)> = None;
+        for (i, &p) in self.numbers("CPRESS").iter().enumerate() {
+            if p > best.map_or(0.0, |(_, most)| most * (1.0 + 1e-9)) {
+                best = Some((i, p));
+            }
+        }
+        best
+    }
+
+    /// Whether it is of a plane problem.
+    pub fn flat(&self) -> bool {
+        self.grid.types.iter().all(|t| *t <= 3) && self.grid.types.contains(&3)
+    }
+
+    /// The points that press.
+    pub fn pressing(&self) -> Vec<usize> {
+        let most = self.peak().map_or(f64::INFINITY, |(_, most)| most);
+        let pressures = self.numbers("CPRESS").iter().enumerate();
+        pressures
+            .filter(|(_, p)| **p > PRESSING * most)
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    /// The largest relative motion of the sides `[length]` that displacements taken larger would show: along the normal, which opens or closes gaps, and across.
+    pub fn motion(&self) -> [f64; 2] {
+        let mut most = [0.0f64; 2];
+        for i in 0..self.grid.points.points.len() {
+            let (moved, normal) = (self.vector("UREL", i), self.vector("CNORMAL", i));
+            let along: f64 = (0..3).map(|c| moved[c] * normal[c]).sum();
+            let whole: f64 = moved.iter().map(|v| v * v).sum();
+            if whole.is_finite() {
+                let across = (whole - along * along).max(0.0).sqrt();
+                most = [most[0].max(along.abs()), most[1].max(across)];
+            }
+        }
+        most
+    }
+}
+
+impl Results {
+    /// The surfaces of all interfaces at a frame; none in results of older versions.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if a file cannot be read or is damaged.
+    pub fn sheets(&self, frame: usize) -> Result<Vec<Sheet>, Error> {
+        let Frame { time, .. } = self.frames[frame];
+        let here = self.surfaces.iter().filter(|part| part.time == time);
+        here.map(|part| {
+            Ok(Sheet {
+                name: part.name.clone(),
+                grid: vtu::read_surface(&self.directory.join(&part.file))?,
+            })
+        })
+        .collect()
+    }
+
+    /// The largest pressure of each frame; empty where there are no surfaces.
+    fn peaks(&self) -> Result<Vec<f64>, Error> {
+        if self.surfaces.is_empty() {
+            return Ok(Vec::new());
+        }
+        let most = |sheets: Vec<Sheet>| {
+            let peaks = sheets.iter().filter_map(Sheet::peak);
+            peaks.map(|(_, p)| p).fold(0.0, f64::max)
+        };
+        (0..self.frames.len())
+            .map(|frame| self.sheets(frame).map(most))
+            .collect()
+    }
+
+    /// The frame at which contact presses most; of those that come near it the last, which is where a load that is held ends. The last of all where nothing
+    /// presses.
+    ///
+    /// # Errors
+    /// As [`Results::sheets`].
+    pub fn of_peak(&self) -> Result<usize, Error> {
+        let peaks = self.peaks()?;
+        let last = self.frames.len().saturating_sub(1);
+        let most = peaks.iter().fold(0.0, |m: f64, p| m.max(*p));
+        let near = peaks.iter().rposition(|p| most > 0.0 && *p >= 0.995 * most);
+        Ok(near.unwrap_or(last))
+    }
+}
