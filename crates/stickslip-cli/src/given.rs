@@ -88,6 +88,12 @@ const KINDS: &[Kind] = &[
     ),
 ];
 
+/// Whether a file is a deck, by its name.
+pub fn is_deck(file: &Path) -> bool {
+    file.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+}
+
 /// Refuses what is not there, and files of kinds that nothing reads; folders are for others to judge.
 ///
 /// # Errors
@@ -189,7 +195,7 @@ const DECK: &str = "an input deck";
 
 /// What a file is, as far as its name and its beginning tell.
 fn what(file: &Path) -> &'static str {
-    if crate::input::is_deck(file) {
+    if is_deck(file) {
         return DECK;
     }
     if let Some((what, _)) = foreign(file) {

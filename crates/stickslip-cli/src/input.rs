@@ -9,7 +9,7 @@ use stickslip::problem::{Document, Meshes, Problem};
 use stickslip_deck::{Deck, Severity, Translation};
 
 use crate::failure::{Failure, located};
-use crate::given;
+use crate::given::{self, is_deck};
 
 /// A problem with where it comes from.
 pub struct Input {
@@ -22,12 +22,6 @@ pub struct Input {
     meshes: Meshes,
     /// The folder that names of files are relative to.
     folder: PathBuf,
-}
-
-/// Whether a file is a deck, by its name.
-pub fn is_deck(file: &Path) -> bool {
-    file.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
 }
 
 /// Reads and translates a deck.

@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// A deck to a problem file, with its mesh beside it.
 fn problem(input: &Path, output: &Path) -> Outcome {
-    if !crate::input::is_deck(input) {
+    if !given::is_deck(input) {
         return Err(Failure::Arguments(
             format!(
                 "{}: only decks (.inp) become problem files",

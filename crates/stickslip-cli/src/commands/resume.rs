@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// The problem of the folder, or the deck that it was translated from.
 fn open(source: &Source, directory: &Path, set: &[String]) -> Result<Input, Failure> {
     let file = Path::new(&source.file);
-    if crate::input::is_deck(file) {
+    if given::is_deck(file) {
         let overrides: Vec<String> = source.overrides.iter().chain(set).cloned().collect();
         return Input::open(file, &overrides);
     }

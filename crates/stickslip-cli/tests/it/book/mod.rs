@@ -223,13 +223,14 @@ fn formulas_are_ones_that_the_book_can_typeset() {
     let known = read(&source().join("katex/katex.min.js"));
     let mut seen = 0;
     for page in pages() {
-        for (_, formula) in blocks(&read(&page))
-            .iter()
-            .filter(|(marks, _)| marks == "math")
-        {
+        let (text, name) = (read(&page), page.display());
+        let blocks = blocks(&text);
+        let blocks = blocks.iter().filter(|(marks, _)| marks == "math");
+        let within = text.split("$`").skip(1);
+        let within = within.filter_map(|rest| Some(rest.split_once("`$")?.0));
+        for formula in blocks.map(|(_, formula)| formula.as_str()).chain(within) {
             seen += 1;
             let count = |part: &str| formula.matches(part).count();
-            let name = page.display();
             assert_eq!(count("{"), count("}"), "{name}: braces of {formula}");
             assert_eq!(count("\\begin"), count("\\end"), "{name}: {formula}");
             for word in formula.split('\\').skip(1) {
@@ -353,6 +354,30 @@ fn links_lead_to_pages_and_headings_that_exist() {
             }
         }
     }
+}
+
+#[test]
+fn figures_of_examples_are_those_of_their_folders() {
+    let mut same = 0;
+    for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
+        let folder = entry.expect("an entry").path();
+        let Ok(figure) = std::fs::read(folder.join("figure.png")) else {
+            continue;
+        };
+        let name = folder
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        let copy = source().join(format!("figures/{name}.png"));
+        let stale = format!("copy examples/{name}/figure.png to {}", copy.display());
+        assert!(
+            std::fs::read(&copy).is_ok_and(|copy| copy == figure),
+            "{stale}"
+        );
+        same += 1;
+    }
+    assert!(same > 10);
 }
 
 #[test]

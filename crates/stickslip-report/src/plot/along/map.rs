@@ -257,7 +257,7 @@ impl Panel<'_> {
             let t = self.sheet.vector("CSHEAR", i);
             let size = t.iter().map(|v| v * v).sum::<f64>().sqrt();
             let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < 1.9 * em;
-            if !(size > 0.03 * most) || taken.iter().any(near) {
+            if size.is_nan() || size <= 0.03 * most || taken.iter().any(near) {
                 continue;
             }
             taken.push(p);
