@@ -66,6 +66,19 @@ fn last_printed(path: &Path) -> std::io::Result<Option<(usize, usize)>> {
     Ok(step.zip(increment))
 }
 
+/// What elements resist with, and at reference points what acts on them from outside.
+fn resisting(analysis: &Analysis) -> Vec<f64> {
+    let mut out = analysis.internal_forces();
+    let (model, frame) = (analysis.model, analysis.frame);
+    for reference in &model.references {
+        let hidden = model.links.all()[reference.link].hidden;
+        for dof in model.dofs.of(hidden, 0)..model.dofs.of(hidden + 2, 0) {
+            out[dof] = frame.forces[dof] + frame.load[dof];
+        }
+    }
+    out
+}
+
 /// What a point has of a field; of the second point of a reference point rotations and moments. Points of bodies have none.
 fn vector(
     analysis: &Analysis,
@@ -285,12 +298,12 @@ impl Printer {
             let turns = key.starts_with("UR") || key.starts_with("RM");
             let (title, values) = match key.as_str() {
                 "UR" => ("rotations (rx,ry,rz)", analysis.frame.state.u.clone()),
-                "RM" => ("moments (mx,my,mz)", analysis.internal_forces()),
+                "RM" => ("moments (mx,my,mz)", resisting(analysis)),
                 "U" => ("displacements (vx,vy,vz)", analysis.frame.state.u.clone()),
                 "V" => ("velocities (vx,vy,vz)", or_zero(&analysis.frame.state.v)),
                 "A" => ("accelerations (vx,vy,vz)", or_zero(&analysis.frame.state.a)),
                 // In motion too CalculiX prints what the elements resist with: no inertia, no damping, and no loads.
-                "RF" => ("forces (fx,fy,fz)", analysis.internal_forces()),
+                "RF" => ("forces (fx,fy,fz)", resisting(analysis)),
                 _ => continue,
             };
             let mut sum = [0.0; 3];

@@ -12,19 +12,6 @@ use super::sets::Sets;
 use super::toml;
 use crate::deck::MultiPoint;
 
-/// Nodes that multi-point constraints make reference points: those that beams start from, and those without a body.
-pub(super) fn references(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
-    let mut out = BTreeSet::new();
-    for c in &job.deck.constraints {
-        let loose = c.nodes.iter().filter(|n| !bodies.of_node.contains_key(n));
-        out.extend(loose);
-        if c.kind == "BEAM" {
-            out.extend(c.nodes.get(1));
-        }
-    }
-    out
-}
-
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     for c in &job.deck.constraints {
         let (least, what) = match c.kind.as_str() {

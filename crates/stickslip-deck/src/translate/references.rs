@@ -23,7 +23,7 @@ pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
             ),
         }
     }
-    nodes.extend(super::multi_point::references(job, bodies));
+    nodes.extend(constrained(job, bodies));
     let ground = links::ground(job, bodies);
     let loose = loose(job, bodies);
     nodes.extend(loose.difference(&ground));
@@ -36,6 +36,19 @@ pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
         }
         bodies.references.insert(n, name);
     }
+}
+
+/// Nodes that multi-point constraints make reference points: those that beams start from, and those without a body.
+fn constrained(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
+    let mut out = BTreeSet::new();
+    for c in &job.deck.constraints {
+        let loose = c.nodes.iter().filter(|n| !bodies.of_node.contains_key(n));
+        out.extend(loose);
+        if c.kind == "BEAM" {
+            out.extend(c.nodes.get(1));
+        }
+    }
+    out
 }
 
 /// Nodes without a body that something moves.

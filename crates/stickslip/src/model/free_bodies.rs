@@ -30,12 +30,7 @@ impl Scene<'_> {
     /// The bodies that supports, springs and couplings acting at `t` leave free to move.
     pub(crate) fn free_bodies(&self, t: f64) -> Vec<FreeBody> {
         let model = self.model;
-        let mut held = self.constraints(t).fixed;
-        for link in model.links.all() {
-            // Their points are no unknowns, but springs may hold them.
-            held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)]
-                .fill(false);
-        }
+        let mut held = self.supported(t);
         for spring in &model.springs {
             for &(dof, stiffness) in spring.entries() {
                 held[dof] |= stiffness > 0.0;

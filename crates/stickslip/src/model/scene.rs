@@ -33,14 +33,14 @@ impl<'a> Scene<'a> {
         self.frame.constraints(self.model, t).fixed
     }
 
-    /// Dofs that supports prescribe at the time of the state.
-    pub fn supported_dofs(&self) -> std::collections::BTreeSet<usize> {
-        let t = self.frame.state.t;
+    /// What supports prescribe at a time, by dof; nothing that follows or is left out.
+    pub(crate) fn supported(&self, t: f64) -> Vec<bool> {
+        let mut held = vec![false; self.model.dofs.count()];
         let acting = self.model.supports.iter();
-        let acting = acting.filter(|s| s.schedule.active(t));
-        acting
-            .flat_map(|s| s.entries.iter().map(|e| e.dof))
-            .collect()
+        for support in acting.filter(|s| s.schedule.active(t)) {
+            support.entries.iter().for_each(|e| held[e.dof] = true);
+        }
+        held
     }
 
     /// What acts on the points from outside, by dof `[N]`: loads, reactions of supports, and equations. In equilibrium it is what bodies,

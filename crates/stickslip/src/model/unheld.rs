@@ -217,12 +217,7 @@ impl Scene<'_> {
             modes,
             gram: vec![vec![0.0; count]; count],
         };
-        let mut held = self.constraints(t).fixed;
-        for link in model.links.all() {
-            // Their points follow the hidden ones.
-            held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)]
-                .fill(false);
-        }
+        let held = self.supported(t);
         let held = held.iter().enumerate().filter(|(_, held)| **held);
         held.for_each(|(dof, _)| resisted.dof(dof));
         for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {

@@ -126,12 +126,12 @@ fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
 fn push_reference(row: &mut Row, view: &View, reference: &Reference) {
     let dofs = view.model.dofs;
     let link = &view.model.links.all()[reference.link];
-    let held = view.supported_dofs();
+    let held = view.supported(view.frame.state.t);
     for (letters, forces) in [(["U", "UR"], false), (["RF", "RM"], true)] {
         for (dof, motion) in link.motions(dofs) {
             let value = match forces {
                 false => view.frame.state.u[dof],
-                true if held.contains(&dof) => view.frame.forces[dof],
+                true if held[dof] => view.frame.forces[dof],
                 true => 0.0,
             };
             // Unknowns are lengths and what acts on them forces.

@@ -29,10 +29,7 @@ pub(super) struct FloatingBody {
 /// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
 pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
     let model = view.model;
-    let mut held = view.constraints(t).fixed;
-    for link in model.links.all() {
-        held[model.dofs.of(link.points.start, 0)..model.dofs.of(link.points.end, 0)].fill(false);
-    }
+    let mut held = view.supported(t);
     for spring in &model.springs {
         for &(dof, stiffness) in spring.entries() {
             held[dof] |= stiffness > 0.0;
