@@ -1,6 +1,3 @@
-use std::collections::BTreeMap;
-use std::ops::Range;
-
 use super::Row;
 use super::pretension::{Drawn, Part, Pretension};
 use crate::system::{Links, Schedule};
@@ -109,7 +106,7 @@ pub struct Couplings {
     pub(super) hold: Vec<Hold>,
     /// What the sums of equations were when these began to act, by row `[m]`; of rows along the normal of a pretension their sum or their part of the
     /// force when the step began `[m, N]`.
-    start: Vec<f64>,
+    pub(super) start: Vec<f64>,
     /// What rows of pretensions are for, by row; of others the first.
     parts: Vec<Part>,
     pub(super) iterate: Iterate,
@@ -242,17 +239,6 @@ impl Couplings {
         })
     }
 
-    /// The largest force with which a pretension draws at time `t` `[N]`; zero where lengths are held.
-    pub fn tension(&self, t: f64) -> f64 {
-        let mut drawn: BTreeMap<&str, f64> = BTreeMap::new();
-        for (i, coupling, _) in self.rows() {
-            if let Act::Pulled(force) = self.act(i, coupling, t) {
-                *drawn.entry(&coupling.name).or_default() += force;
-            }
-        }
-        drawn.into_values().fold(0.0, |m, f| f64::max(m, f.abs()))
-    }
-
     /// What a row does at time `t`.
     pub(super) fn act(&self, i: usize, coupling: &Coupling, t: f64) -> Act {
         if !coupling.schedule.active(t) {
@@ -327,59 +313,6 @@ impl Couplings {
             }
         }
         self.all = all;
-    }
-
-    /// Begins a step of a pretension at displacements `u`. Where it changes between force and length the forces between all pairs of points stay: those of
-    /// the rows that let go are handed to the others.
-    fn draw(
-        &mut self,
-        p: &Pretension,
-        (before, middle): (Option<f64>, f64),
-        (rows, own): (Range<usize>, &[Row]),
-        u: &[f64],
-    ) {
-        let count = p.shares.len();
-        let across = rows.len() + 1 - 2 * count;
-        let along = rows.start + across..rows.start + across + count;
-        let equal = along.end..rows.end;
-        let (was, is) = (before.map(|t| p.pulled(t)), p.pulled(middle));
-        let memory = &mut self.memory;
-        match (was, is) {
-            (Some(false), true) => {
-                let whole: f64 = memory.forces[along.clone()].iter().sum();
-                for (k, share) in p.shares.iter().enumerate() {
-                    let i = along.start + k;
-                    let part = share * whole;
-                    if k > 0 {
-                        let e = equal.start + k - 1;
-                        memory.multipliers[e] = part - memory.forces[i];
-                        memory.forces[e] = memory.multipliers[e];
-                    }
-                    memory.multipliers[i] = 0.0;
-                    memory.forces[i] = part;
-                }
-            }
-            (Some(true), false) => {
-                for k in 1..count {
-                    let e = equal.start + k - 1;
-                    let force = std::mem::take(&mut memory.forces[e]);
-                    memory.multipliers[e] = 0.0;
-                    memory.forces[along.start] += force;
-                    memory.forces[along.start + k] -= force;
-                }
-                memory.multipliers[along.clone()].clone_from_slice(&memory.forces[along.clone()]);
-            }
-            _ => {}
-        }
-        let held = was == Some(false) && !is;
-        for i in along {
-            let sum = match held {
-                true => memory.targets[i],
-                false => own[i - rows.start].sum(u),
-            };
-            self.start[i] = if is { -memory.forces[i] } else { sum };
-            memory.targets[i] = if is { 0.0 } else { sum };
-        }
     }
 
     /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
@@ -557,67 +490,4 @@ pub(super) fn moved_by(row: &Row, links: &Links) -> Vec<(usize, f64)> {
         }
     }
     out
-}
-
-crate::keep!(Hold { stiffness, idle });
-crate::keep!(CouplingsMemory {
-    multipliers,
-    forces,
-    targets,
-    stored,
-    work,
-    damped
-});
-crate::keep!(Iterate {
-    last,
-    off,
-    now,
-    off_now
-});
-
-/// All that couplings know beyond their definition.
-#[derive(Debug, Clone)]
-pub struct CouplingsState {
-    hold: Vec<Hold>,
-    start: Vec<f64>,
-    iterate: Iterate,
-    memory: CouplingsMemory,
-    explicit: bool,
-}
-
-crate::keep!(CouplingsState {
-    hold,
-    start,
-    iterate,
-    memory,
-    explicit
-});
-
-impl Couplings {
-    /// All that they know beyond their definition.
-    pub fn state(&self) -> CouplingsState {
-        CouplingsState {
-            hold: self.hold.clone(),
-            start: self.start.clone(),
-            iterate: self.iterate.clone(),
-            memory: self.memory.clone(),
-            explicit: self.explicit,
-        }
-    }
-
-    /// Goes on with that.
-    pub fn go_on_from(&mut self, state: CouplingsState) {
-        let CouplingsState {
-            hold,
-            start,
-            iterate,
-            memory,
-            explicit,
-        } = state;
-        self.hold = hold;
-        self.start = start;
-        self.iterate = iterate;
-        self.memory = memory;
-        self.explicit = explicit;
-    }
 }

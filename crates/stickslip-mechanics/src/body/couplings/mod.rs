@@ -19,6 +19,7 @@ mod all;
 mod axial_spring;
 mod dashpot;
 mod distributing;
+mod drawn;
 mod equation;
 mod explicit;
 mod force;
@@ -29,8 +30,9 @@ mod motion;
 mod pretension;
 mod row;
 mod spring;
+mod state;
 
-pub use all::{Coupling, Couplings, CouplingsMemory, CouplingsState, Tie};
+pub use all::{Coupling, Couplings, CouplingsMemory, Tie};
 pub use axial_spring::AxialSpring;
 pub use dashpot::Dashpot;
 pub use distributing::{Distributing, SetWeight, Weights};
@@ -41,6 +43,7 @@ pub use model::{CouplingModel, Ground};
 pub use pretension::{Course, Draw, Pretension};
 pub use row::Row;
 pub use spring::Spring;
+pub use state::CouplingsState;
 
 crate::family! {
     /// The kinds of couplings.
