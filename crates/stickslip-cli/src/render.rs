@@ -93,7 +93,7 @@ mod tests {
              | ^^^^^^^\n  \
              |\n  \
              = help: did you mean `duration`? allowed here: change, couplings, duration, dynamic, increments, interfaces, \
-             loads, name, pretension, supports"
+             loads, name, pretension, supports, temperatures"
         );
     }
 

@@ -72,8 +72,12 @@ fn resisting(analysis: &Analysis) -> Vec<f64> {
     let (model, frame) = (analysis.model, analysis.frame);
     for reference in &model.references {
         let hidden = model.links.all()[reference.link].hidden;
-        for dof in model.dofs.of(hidden, 0)..model.dofs.of(hidden + 2, 0) {
-            out[dof] = frame.forces[dof] + frame.load[dof];
+        let own = model.dofs.of(hidden, 0)..model.dofs.of(hidden + 2, 0);
+        let outside = frame.forces[own.clone()]
+            .iter()
+            .zip(&frame.load[own.clone()]);
+        for (out, (force, load)) in out[own].iter_mut().zip(outside) {
+            *out = force + load;
         }
     }
     out

@@ -51,11 +51,24 @@ impl Plane {
     }
 }
 
+/// What is read, and what meshes are written as.
+const READ: [&str; 3] = ["msh", "vtu", "inp"];
+const FROM: &str = "read from .msh, .vtu and .inp files";
+const WRITTEN: &str = "written as .msh, .vtu or .inp";
+
 /// Converts the file.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (input, output) = (&arguments.input, &arguments.output);
     spare(output, std::slice::from_ref(input))?;
-    given::file(input, &["msh", "vtu", "inp"])?;
+    let (from, to) = (ending(input), ending(output));
+    if !["msh", "vtu", "inp", "toml"].contains(&to.as_str()) {
+        return Err(unknown(output, &to, WRITTEN));
+    }
+    // What is there is looked at, and named as what it is.
+    if !READ.contains(&from.as_str()) && !input.exists() {
+        return Err(unknown(input, &from, FROM));
+    }
+    given::file(input, &READ)?;
     if input.is_dir() {
         return Err(Failure::Arguments(
             format!(
@@ -72,13 +85,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         "msh" => |path: &Path, mesh: &Mesh, _: Plane| gmsh::write(path, mesh),
         "vtu" => |path: &Path, mesh: &Mesh, _: Plane| vtu::write_mesh(path, mesh),
         "inp" => |path: &Path, mesh: &Mesh, plane: Plane| abaqus::write(path, mesh, plane.space()),
-        other => return Err(unknown(output, other, "written as .msh, .vtu or .inp")),
+        other => return Err(unknown(output, other, WRITTEN)),
     };
     let mesh = match ending(input).as_str() {
         "msh" => gmsh::read(input),
         "vtu" => vtu::read_mesh(input),
         "inp" => Ok(stickslip_deck::read_mesh(input).map_err(Failure::Deck)?),
-        other => return Err(unknown(input, other, "read from .msh, .vtu and .inp files")),
+        other => return Err(unknown(input, other, FROM)),
     };
     let mesh = mesh.map_err(stickslip::Error::Mesh)?;
     let mut notes = write(output, &mesh, arguments.plane)?;

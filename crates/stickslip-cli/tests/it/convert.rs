@@ -45,11 +45,7 @@ fn endings_that_are_not_known_are_refused() {
         ("a.msh", "b.stl", "b.stl: the ending .stl is not known"),
         ("a.msh", "b", "b: the name has no ending"),
         ("a.nas", "b.vtu", "a.nas: the ending .nas is not known"),
-        (
-            "no-such.vtu",
-            "b.msh",
-            "no-such.vtu: the mesh cannot be read",
-        ),
+        ("no-such.vtu", "b.msh", "no-such.vtu: there is no such file"),
     ] {
         let output = stickslip(&["convert", from, to]);
         let err = text(&output.stderr);

@@ -727,7 +727,7 @@ fn resume_says_why_it_does_not_go_on() {
     let folder = place("not-resumed");
     let (code, text) = run(&folder, &["resume", "nowhere"]);
     assert_eq!(code, Some(1));
-    assert!(text.contains("nowhere: this is no folder of results"));
+    assert!(text.contains("nowhere: there is no such folder"));
     let (_, text) = run(&folder, &["resume", "."]);
     assert!(text.contains("there is no checkpoint in this folder"));
     let all = killed(&folder);

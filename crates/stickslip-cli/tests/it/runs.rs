@@ -235,7 +235,7 @@ fn curve_tabulates_the_laws_of_an_interface() {
     let unknown = stickslip(&["curve", &case, "joint"]);
     assert_eq!(code(&unknown), Some(1));
     assert!(
-        text(&unknown.stderr).contains("interfaces: base"),
+        text(&unknown.stderr).contains("there is no interface `joint`"),
         "{}",
         text(&unknown.stderr)
     );
@@ -425,7 +425,7 @@ fn explain_refuses_what_is_no_result() {
     let output = stickslip(&["explain", &place.path("nowhere")]);
     assert_eq!(code(&output), Some(1));
     assert!(
-        text(&output.stderr).contains("cannot be read"),
+        text(&output.stderr).contains("there is no such folder"),
         "{}",
         text(&output.stderr)
     );

@@ -36,7 +36,8 @@ impl Reader<'_> {
 
     /// `*KINEMATIC` or `*DISTRIBUTING` beneath a `*COUPLING`.
     pub(super) fn way(&mut self, card: &Card, way: Way) {
-        if let Some(method) = card.get("WEIGHTINGMETHOD")
+        if way == Way::Distributing
+            && let Some(method) = card.get("WEIGHTINGMETHOD")
             && method != "UNIFORM"
         {
             self.error(

@@ -53,7 +53,7 @@ fn materials_and_beams_do_not_hide_what_is_misspelt() {
     let text = format!(
         "{}{}*NODE\n100, 0., 0., 3.\n*ELEMENT, TYPE=B31, ELSET=EB\n50, 5, 100\n*BEAM SECTION, ELSET=EB, MATERIAL=EL, SECTION=RECT\n1., 1.\n0., 1., 0.\n\
          *MATERIAL, NAME=P\n*ELASTIC\n1., .3\n*PLASTIC\n1., 0.\n*MATERIAL, NAME=Q\n*HYPERELASTIC, NEO HOOKE\n1., 1.\n*PLASTIC\n1., 0.\n\
-         *STEP\n*STATIC, TYPO=3\n*CLOADS\n100, 4, 1.\n*CLOAD\n100, 4, 1.\n*END STEP\n",
+         *STEP\n*STATIC, TYPO=3\n*CLOADS\n100, 4, 1.\n*CLOAD\n100, 7, 1.\n*END STEP\n",
         cube("N", 1, 0.0),
         sections(&["EN"])
     );

@@ -1,6 +1,6 @@
 //! Keywords one by one, against what can be computed by hand. CalculiX 2.20 gives the same numbers where that is said.
 
-use crate::support::{column, cube, near, near3, pair, refused, run, sections, translate};
+use crate::support::{column, cube, near, near3, pair, run, sections, translate};
 
 /// A cube under a stress of 10 along x, with this material; symmetric supports.
 fn pulled(material: &str) -> String {

@@ -232,12 +232,12 @@ fn lines_stay_straight_and_distances_as_they_are() {
         "38, 3, .01\n44, 1, .002\n",
     );
     let u = rows(&run, "displacements", 9);
-    for c in 1..3 {
-        assert!((u[1][c] - 0.5 * (u[0][c] + u[2][c])).abs() < 1e-9);
-        assert!(u[1][c].abs() > 1e-7);
+    for (middle, ends) in u[1].iter().zip(u[0].iter().zip(&u[2])).skip(1) {
+        assert!((middle - 0.5 * (ends.0 + ends.1)).abs() < 1e-9);
+        assert!(middle.abs() > 1e-7);
     }
-    for c in 0..3 {
-        assert!((u[6][c] - u[8][c]).abs() < 1e-12);
+    for (one, other) in u[6].iter().zip(&u[8]) {
+        assert!((one - other).abs() < 1e-12);
     }
     let along = (u[8][0] - u[0][0]) + (u[8][1] - u[0][1]);
     // Seven digits are printed.

@@ -192,7 +192,7 @@ fn what_is_written_to_the_frd_file_goes_on_until_cards_of_its_kind_say_otherwise
     use stickslip::results::{Due, Quantity, Request};
     let step = |cards: &str| format!("*STEP\n*STATIC\n*CLOAD\nNTOP, 3, 1.\n{cards}*END STEP\n");
     let steps = [
-        "*NODE FILE\nU, RF, NT\n*EL FILE, FREQUENCY=3\nS\nE\n",
+        "*NODE FILE\nU, RF, NT, RFL\n*EL FILE, FREQUENCY=3\nS\nE\n",
         "",
         "*EL FILE\nENER\n*EL FILE, FREQUENCY=0\nS\n*CONTACT FILE\nCSTR, CDIS\n",
     ];
@@ -204,8 +204,8 @@ fn what_is_written_to_the_frd_file_goes_on_until_cards_of_its_kind_say_otherwise
         quantities: quantities.to_vec(),
         due: Due::Every(n),
     };
-    use Quantity::{Contact, Displacement, Energy, Force, Strain, Stress};
-    let nodes = request(&[Displacement, Force], 1);
+    use Quantity::{Contact, Displacement, Energy, Force, Strain, Stress, Temperature};
+    let nodes = request(&[Displacement, Force, Temperature], 1);
     let first = vec![nodes.clone(), request(&[Stress, Strain], 3)];
     let last = vec![
         nodes,
@@ -218,7 +218,7 @@ fn what_is_written_to_the_frd_file_goes_on_until_cards_of_its_kind_say_otherwise
     let noted: Vec<&str> = noted.map(|n| n.message.as_str()).collect();
     assert_eq!(
         noted,
-        ["*NODE FILE: NT is left out: it is not written to the .frd file"]
+        ["*NODE FILE: RFL is left out: it is not written to the .frd file"]
     );
 }
 

@@ -40,12 +40,11 @@ impl Simulation {
 
     /// Whether a failure is one of arithmetic that may be none with the sparse matrix.
     pub(super) fn may_solve_sparsely(&self, failure: &StepFailure) -> bool {
-        self.solver.condenses()
-            && match failure.cause {
-                Cause::Interior => true,
-                Cause::Singular | Cause::LinearSolver => !self.solver.floating.in_vain(),
-                _ => false,
-            }
+        let arithmetic = matches!(
+            failure.cause,
+            Cause::Interior | Cause::Singular | Cause::LinearSolver
+        );
+        arithmetic && self.solver.condenses()
     }
 
     /// Goes on from the last accepted increment with the sparse matrix.

@@ -79,11 +79,6 @@ impl Floating {
         self.anchors = None;
     }
 
-    /// Whether bodies have been followed, and nothing held them.
-    pub fn in_vain(&self) -> bool {
-        self.vain
-    }
-
     /// Whether bodies are anchored.
     pub fn is_anchored(&self) -> bool {
         self.anchors.is_some()

@@ -316,7 +316,8 @@ increments.fixed = 5
 
 #[test]
 fn where_an_interior_does_not_balance_the_sparse_matrix_goes_on() {
-    let pop = ON_SPRINGS.replace("small-sliding", "pop-1995");
+    // So steep a law that rounding of the condensed operator is far above what an interior may be off, on every machine.
+    let pop = (ON_SPRINGS.replace("small-sliding", "pop-1995")).replace("3.39e-5", "3.39e-6");
     // Where gaps do not curve forces along them are solved for, and the same problem stays in balance.
     for (text, fails) in [(pop.as_str(), true), (SHAKEN, true), (ON_SPRINGS, false)] {
         let run = |method: &str| {

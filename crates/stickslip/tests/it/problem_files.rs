@@ -342,7 +342,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
         "[probe.A]",
         "[load.p]\nset = \"A\"\n\n[probe.A]",
         &[
-            "40:7 one of these keys is missing: traction, pressure, body-force, gravity, centrifugal, nodal-force, spring",
+            "40:7 one of these keys is missing: traction, pressure, body-force, gravity, centrifugal, nodal-force, moment, spring",
         ],
     ),
     (
@@ -469,7 +469,7 @@ fn help_names_the_nearest_and_what_there_is() {
     assert!(stiffness.starts_with(expected), "{stiffness}");
     assert_eq!(
         help("primary = \"floor\"", "primary = \"B\""),
-        "sets and bodies: A, block; sets of a mesh are written body.set"
+        "sets, bodies and obstacles: A, block, floor; sets of a mesh are written body.set"
     );
     assert_eq!(
         help(

@@ -267,10 +267,7 @@ fn a_body_that_only_a_free_point_holds_is_free() {
             "{}\ncoupling.grip.{kind} = {{ set = \"a.top\", reference = \"hub\" }}\nload.pull = {{ set = \"hub\", nodal-force = {{ value = [0, 0, 1] }} }}",
             bar(0.0).replace("x = 0, y = 0, z = 0", "x = 0, y = 0")
         );
-        let error = run(&problem(&text))
-            .err()
-            .expect("free to move")
-            .to_string();
+        let error = run(&problem(&text)).expect_err("free to move").to_string();
         assert!(
             error.contains("free to move as a rigid body (translation z)"),
             "{error}"

@@ -298,7 +298,7 @@ mod tests {
         assert!(bytes == bytes_again);
         let (again, schur_again) =
             PartialFactor::new(decoded.fronts(), &a, &Workspace::default()).unwrap();
-        assert!(schur_again == schur);
+        assert!(*schur_again == *schur);
         for columns in [1, 4] {
             let sweep = |factor: &PartialFactor| {
                 let mut x = noise(&mut 1, factor.fronts().interior().len() * columns);

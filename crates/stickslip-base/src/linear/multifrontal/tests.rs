@@ -12,7 +12,8 @@ pub(super) fn factor(
     kept: &[bool],
 ) -> Result<(PartialFactor, Vec<f64>), LinearError> {
     let fronts = Arc::new(Fronts::analyze(a, points, fixed, kept)?);
-    PartialFactor::new(&fronts, a, &Workspace::default())
+    let (factor, schur) = PartialFactor::new(&fronts, a, &Workspace::default())?;
+    Ok((factor, schur.to_vec()))
 }
 
 /// Marks with a given probability, the same on every run.

@@ -276,12 +276,15 @@ fn left_out(mut gram: Vec<Vec<f64>>) -> Vec<usize> {
     left
 }
 
+/// What may bear on reference points beside couplings: links, supports, springs and masses.
+type Bearing<'a> = (&'a Links, &'a [Support], &'a [Spring], &'a [(usize, f64)]);
+
 /// Takes out of couplings the rows that do nothing but say what a reference point does: those that act in all steps, and whose dof nothing else knows of.
 pub(super) fn followers(
     couplings: &mut [Coupling],
     leads: &[bool],
     references: &[Reference],
-    said: (&Links, &[Support], &[Spring], &[(usize, f64)]),
+    said: Bearing,
     steps: &[Step],
 ) -> Vec<Follower> {
     let (links, supports, springs, masses) = said;

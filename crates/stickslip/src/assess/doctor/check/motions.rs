@@ -28,7 +28,8 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         if !interface.schedule.active(t) {
             continue;
         }
-        let status = match interface.laws.friction_law().frictional() {
+        let laws = &interface.laws;
+        let status = match laws.tied || laws.friction_law().frictional() {
             true => Status::Stick,
             false => Status::Slip,
         };
