@@ -2,7 +2,8 @@
 
 use crate::support::{near, refused, run, translate};
 
-/// Two plates, quarters of square rings, and a bolt whose foot is tied to one; as Abaqus/CAE would write it, and flat, as CalculiX reads it.
+/// Two plates, quarters of square rings, and a bolt whose foot is tied to one; the other hangs on a reference point by a coupling. As Abaqus/CAE would write it,
+/// and flat, as CalculiX reads it.
 const JOB: &str = include_str!("../jobs/bolted.inp");
 const FLAT: &str = include_str!("../jobs/bolted-flat.inp");
 
@@ -13,7 +14,7 @@ const CALCULIX: [[f64; 3]; 2] = [
 ];
 
 #[test]
-fn a_job_with_parts_a_tie_two_pairs_and_a_bolt_agrees_with_calculix() {
+fn a_job_with_parts_a_tie_a_coupling_two_pairs_and_a_bolt_agrees_with_calculix() {
     let flat = run("bolted-flat", FLAT);
     let at = |t: f64, title: &str, column: usize| -> Vec<f64> {
         let course = flat.course(title, column).into_iter();

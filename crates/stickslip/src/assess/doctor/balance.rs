@@ -139,7 +139,7 @@ fn judge(
     })
 }
 
-/// How contact can push a body; `None` if it cannot.
+/// How contact can push a body; `None` if it cannot, or does more than push.
 fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
     let mut push = Push {
         friction: Some(0.0),
@@ -157,6 +157,10 @@ fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
         };
         if !ours && !theirs {
             continue;
+        }
+        // What is glued to another body is one with it, and pulled as well as pushed.
+        if interface.laws.tied {
+            return None;
         }
         let sign = if ours { 1.0 } else { -1.0 };
         let mut opposite = Opposite::new(interface, t);
