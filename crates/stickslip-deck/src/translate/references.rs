@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::bodies::Bodies;
 use super::job::Job;
 use super::sets::Sets;
-use super::{links, toml};
+use super::{links, supports, toml};
 use crate::card::Place;
-use crate::deck::{Deck, NodeCoupling, SurfaceParts, Tied, Way};
+use crate::deck::{Action, Deck, NodeCoupling, SurfaceParts, Tied, Way};
 
 /// Names the nodes that are reference points.
 pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
@@ -166,6 +166,7 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         return;
     };
     if way == Way::Distributing {
+        refuse_left_out(job, coupling);
         let name = job.fresh("coupling", &label);
         job.table("coupling", &name, *place);
         job.out.line(&format!(
@@ -202,6 +203,33 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         false => format!(", components = {}", toml::texts(&axes)),
     };
     tie(job, &label, (&set, &point), *place, &more);
+}
+
+/// It is an error if something acts on the reference node of a distributing coupling in a direction that its list leaves out: the point follows the mean
+/// motion in all of them.
+fn refuse_left_out(job: &mut Job, coupling: &NodeCoupling) {
+    let steps = job.deck.steps.iter().flat_map(|s| &s.actions);
+    let forces = steps.filter_map(|a| match a {
+        Action::Force {
+            target, component, ..
+        } if job.nodes(target).contains(&coupling.reference) => Some(*component),
+        _ => None,
+    });
+    let states = supports::by_step(job);
+    let held = (states.iter().flat_map(|s| s.keys()))
+        .filter(|(n, _)| *n == coupling.reference)
+        .map(|(_, component)| *component);
+    let left_out = |c: &usize| coupling.components.get(*c) == Some(&false);
+    let acts = forces.chain(held).find(left_out);
+    if let Some(component) = acts {
+        let message = format!(
+            "coupling {}: *DISTRIBUTING leaves out direction {}, in which something acts on its reference node",
+            coupling.name,
+            component + 1
+        );
+        let help = "list the direction, or leave the list out: the node follows the mean motion in all directions";
+        job.error(coupling.place, message, help);
+    }
 }
 
 /// The set that is tied, and the weights of its points as the problem writes them.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::support::{Run, near, refused, run};
+use crate::support::{Run, near, refused, run, translate};
 
 /// A bar along z of 2 by 2 by 4 cells, 1 by 1 by 4, held at its foot. Nodes 37 to 45 are its top, 41 the middle of that; node 1001 lies 2 above.
 fn bar() -> String {
@@ -294,4 +294,13 @@ fn couplings_without_meaning_are_refused() {
     let turned = "*STEP\n*STATIC\n*CLOAD\n41, 4, 1.\n*END STEP\n";
     let found = refused(&format!("{}{turned}", bar()));
     assert!(found.contains("cannot turn"), "{found}");
+}
+
+#[test]
+fn directions_that_a_distributing_coupling_leaves_out_are_refused_where_something_acts_in_them() {
+    let deck = |list: &str| format!("{}{COUPLING}*DISTRIBUTING\n{list}\n{LOADS}{PRINT}", bar());
+    // Force and moment act on the reference node.
+    let message = refused(&deck("1, 3"));
+    assert!(message.contains("leaves out direction"), "{message}");
+    translate(&deck("1, 6"));
 }
