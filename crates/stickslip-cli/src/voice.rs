@@ -241,6 +241,9 @@ impl Doing {
                 self.iteration = Some((p.round, p.iteration, p.residual, p.strategy));
             }
             Work::Condensing => self.beside.push_str("freeing bodies of their interiors"),
+            Work::Waiting => self.beside.push_str(
+                "waiting for another process that frees the same bodies of their interiors",
+            ),
             Work::Recovering(count) => {
                 self.beside = format!("finding the interiors of {count} increments");
             }

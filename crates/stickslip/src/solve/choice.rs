@@ -122,7 +122,11 @@ impl Scene<'_> {
                 format!("{way:?} {seconds:.2} ({:.2} GB)", bytes / 1e9).to_lowercase()
             })
             .collect();
-        let free_memory = memory.map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
+        // Where it decides nothing it differs for nothing.
+        let scarce = ways.iter().any(|(_, _, bytes)| !fits(*bytes));
+        let free_memory = (memory.filter(|_| scarce)).map_or(String::new(), |m| {
+            format!(", {:.2} GB are free", m / 1e9)
+        });
         let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
         let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
         // If nothing fits, the factorisation says how much it would take.

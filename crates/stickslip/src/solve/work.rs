@@ -22,6 +22,8 @@ pub enum Work<'a> {
     Iteration(&'a Progress),
     /// Bodies are freed of their interiors.
     Condensing,
+    /// Another process is doing that with the same body, and its result is waited for.
+    Waiting,
     /// The interiors of so many increments are found.
     Recovering(usize),
     /// Bodies that nothing holds are moved until they touch.

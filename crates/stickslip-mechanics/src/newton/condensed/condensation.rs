@@ -4,8 +4,10 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use super::file;
 use super::identity::{Identity, Part};
-use super::library::{Library, Source};
+use super::lease::Lease;
+use super::library::{Library, Reserved, Source};
 use super::substructure::{Seconds, Substructure};
 use crate::linear::{BlockCsr, Fronts, LinearError, Workspace};
 use crate::math::Vec3;
@@ -15,6 +17,8 @@ use crate::math::vector::dot;
 #[derive(Debug)]
 pub struct Plan {
     parts: Vec<Planned>,
+    /// Points that may come into contact.
+    kept: Vec<bool>,
     /// What it took.
     pub effort: Effort,
 }
@@ -22,6 +26,7 @@ pub struct Plan {
 /// One part of the model.
 #[derive(Debug)]
 struct Planned {
+    points: (usize, usize),
     identity: Identity,
     fronts: Arc<Fronts>,
     /// The substructure, if it was made before.
@@ -41,6 +46,8 @@ pub struct Effort {
     pub read: usize,
     /// Seconds of looking for what was made before, reading included.
     pub seconds_find: f64,
+    /// Seconds of waiting for other processes, reading what they made included.
+    pub seconds_wait: f64,
     /// Seconds of ordering and symbolic factorisation.
     pub seconds_order: f64,
     /// Seconds of factoring; parts are factored side by side.
@@ -55,10 +62,12 @@ pub type Places<'a> = &'a (dyn Fn(usize) -> Option<Vec3> + Sync);
 /// What a plan costs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Cost {
-    /// Additions and multiplications of the partial factorisations.
+    /// Additions and multiplications of the partial factorisations, whoever makes them.
     pub factor: f64,
     /// Those of the inverses.
     pub condense: f64,
+    /// Those of both that are left to do, as others were made before.
+    pub left: f64,
     /// Entries of the sparse factors.
     pub nonzeros: f64,
     /// Entries of the inverses.
@@ -118,7 +127,7 @@ impl Plan {
             })
             .collect();
         let mut parts = Vec::with_capacity(found.len());
-        for ((_, identity, known, note, before), fronts) in found.into_iter().zip(analysed?) {
+        for ((part, identity, known, note, before), fronts) in found.into_iter().zip(analysed?) {
             effort.analysed += usize::from(before.is_none());
             match &known {
                 Some((_, Source::Memory)) => effort.shared += 1,
@@ -127,23 +136,29 @@ impl Plan {
             }
             effort.notes.extend(note);
             parts.push(Planned {
+                points: part.points,
                 identity,
                 fronts,
                 known,
             });
         }
         effort.seconds_order = started.elapsed().as_secs_f64();
-        Ok(Plan { parts, effort })
+        Ok(Plan {
+            parts,
+            kept: kept.to_vec(),
+            effort,
+        })
     }
 
-    /// What it would cost to carry it out.
+    /// What it would cost to carry it out, were nothing known: how to solve must not depend on who was here before.
     pub fn cost(&self) -> Cost {
         let mut cost = Cost::default();
         for Planned { fronts, known, .. } in &self.parts {
             let n = fronts.root().len() as f64;
+            cost.factor += fronts.flops();
+            cost.condense += n * n * n;
             if known.is_none() {
-                cost.factor += fronts.flops();
-                cost.condense += n * n * n;
+                cost.left += fronts.flops() + n * n * n;
             }
             cost.nonzeros += fronts.nonzeros() as f64;
             cost.dense += n * n;
@@ -156,8 +171,126 @@ impl Plan {
     }
 }
 
-/// A substructure, whether it is new, and what the user should know about its file.
-type Got = (Arc<Substructure>, bool, Option<String>);
+/// A substructure, where it comes from, and what the user should know about its file.
+type Got = (Arc<Substructure>, Source, Option<String>);
+
+/// Who makes a part that nobody has.
+enum Maker {
+    /// This process, with a lease if there is a directory.
+    Here(Option<Lease>),
+    /// Another.
+    Elsewhere,
+}
+
+impl Plan {
+    /// Factors what was not made before. First what this process has leases for, side by side, and each is given back when its part is there: whoever waits
+    /// holds none, so that no two processes wait for each other.
+    fn carry_out(
+        self,
+        (matrix, held): (&BlockCsr, &[bool]),
+        (places, typical): (Places, f64),
+        library: &Library,
+        waits: &dyn Fn() -> bool,
+    ) -> Result<(Vec<Arc<Substructure>>, Effort), LinearError> {
+        let Plan {
+            parts,
+            kept,
+            mut effort,
+        } = self;
+        let reserve = |part: &Planned| match part.known.is_some() || part.is_tiny() {
+            true => Maker::Here(None),
+            false => match library.reserve(part.identity) {
+                Reserved::Ours(lease) => Maker::Here(lease),
+                Reserved::Theirs => Maker::Elsewhere,
+            },
+        };
+        let makers: Vec<Maker> = parts.iter().map(reserve).collect();
+        let new = parts.iter().filter(|part| part.known.is_none());
+        let workspace = Workspace::of(new.map(|part| &*part.fronts));
+        let make = |part: &Planned, lease: Option<Lease>| -> Result<Got, LinearError> {
+            let of_matrix = Part {
+                matrix,
+                points: part.points,
+                fixed: held,
+                kept: &kept,
+            };
+            // It may have come since it was looked for.
+            let looked = lease.is_some();
+            if let Some(found) = looked.then(|| library.find(part.identity, &of_matrix))
+                && let (Some((found, source)), note) = found
+            {
+                return Ok((found, source, note));
+            }
+            let body = (part.identity, &part.fronts, matrix);
+            let made = Arc::new(Substructure::new(body, (places, typical), &workspace)?);
+            let note = library.keep(&made);
+            drop(lease);
+            Ok((made, Source::Made, note))
+        };
+        let here = parts.par_iter().zip(makers).map(|(part, maker)| {
+            let known = part.known.as_ref();
+            match (known, maker) {
+                (Some((known, source)), _) => Some(Ok((Arc::clone(known), *source, None))),
+                (None, Maker::Here(lease)) => Some(make(part, lease)),
+                (None, Maker::Elsewhere) => None,
+            }
+        });
+        let here: Vec<Option<Result<Got, LinearError>>> = here.collect();
+        let mut all = Vec::new();
+        for (part, got) in parts.iter().zip(here) {
+            let planned = part.known.is_some();
+            let (made, source, note) = match got {
+                Some(got) => got?,
+                None => {
+                    let of_matrix = Part {
+                        matrix,
+                        points: part.points,
+                        fixed: held,
+                        kept: &kept,
+                    };
+                    let started = Instant::now();
+                    let ((found, note), lease) = library.wait(part.identity, &of_matrix, waits);
+                    effort.seconds_wait += started.elapsed().as_secs_f64();
+                    effort.notes.extend(note);
+                    match found {
+                        Some((found, source)) => (found, source, None),
+                        None => make(part, lease)?,
+                    }
+                }
+            };
+            effort.count(planned, source, &made);
+            effort.notes.extend(note);
+            all.push(made);
+        }
+        Ok((all, effort))
+    }
+}
+
+impl Planned {
+    /// Whether it is not worth a file.
+    fn is_tiny(&self) -> bool {
+        self.fronts.root().len() <= file::TINY && self.fronts.interior().is_empty()
+    }
+}
+
+impl Effort {
+    /// Counts a part by where it has come from in the end; those that were `planned` were known before.
+    fn count(&mut self, planned: bool, source: Source, part: &Substructure) {
+        if planned {
+            return;
+        }
+        match source {
+            Source::Made => {
+                self.seconds.factor += part.seconds.factor;
+                self.seconds.condense += part.seconds.condense;
+                return;
+            }
+            Source::Memory => self.shared += 1,
+            Source::Disk => self.read += 1,
+        }
+        self.made -= 1;
+    }
+}
 
 /// All bodies without their interiors.
 #[derive(Debug)]
@@ -182,43 +315,19 @@ pub type Swept = (Vec<f64>, Vec<Vec<f64>>);
 const NONE: u32 = u32::MAX;
 
 impl Condensation {
-    /// Carries out a plan: factors what was not made before, and gives it to the library.
+    /// Carries out a plan: factors what was not made before, and gives it to the library. While another process makes a part `waits` is asked again and
+    /// again; if it says no the part is made here as well.
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
     pub fn new(
         plan: Plan,
-        matrix: &BlockCsr,
-        held: &[bool],
-        (places, typical): (Places, f64),
+        (matrix, held): (&BlockCsr, &[bool]),
+        springs: (Places, f64),
         library: &Library,
+        waits: &dyn Fn() -> bool,
     ) -> Result<(Condensation, Effort), LinearError> {
-        let Plan { parts, mut effort } = plan;
-        let new = parts.iter().filter(|part| part.known.is_none());
-        let workspace = Workspace::of(new.map(|part| &*part.fronts));
-        let made: Result<Vec<Got>, LinearError> = parts
-            .into_par_iter()
-            .map(|part| match part.known {
-                Some((known, _)) => Ok((known, false, None)),
-                None => {
-                    let body = (part.identity, &part.fronts, matrix);
-                    let made = Substructure::new(body, (places, typical), &workspace)?;
-                    let made = Arc::new(made);
-                    let note = library.keep(&made);
-                    Ok((made, true, note))
-                }
-            })
-            .collect();
-        drop(workspace);
-        let mut parts = Vec::new();
-        for (part, new, note) in made? {
-            if new {
-                effort.seconds.factor += part.seconds.factor;
-                effort.seconds.condense += part.seconds.condense;
-            }
-            effort.notes.extend(note);
-            parts.push(part);
-        }
+        let (parts, effort) = plan.carry_out((matrix, held), springs, library, waits)?;
         let (mut starts, mut dofs) = (vec![0], Vec::new());
         for part in &parts {
             dofs.extend(part.root().iter().map(|&d| d as usize));

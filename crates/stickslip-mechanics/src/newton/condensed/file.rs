@@ -3,9 +3,9 @@
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::identity::{Identity, Part};
+use super::lease;
 use super::substructure::{Floating, Seconds, Substructure};
 use crate::linear::{Compliance, Digest, PartialFactor};
 
@@ -54,9 +54,7 @@ fn invalid(what: &str) -> io::Error {
 
 /// Writes a substructure aside and renames it: other processes see all of it or nothing.
 pub(super) fn write(path: &Path, substructure: &Substructure) -> io::Result<()> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    let aside = path.with_extension(format!("{}-{count}.tmp", std::process::id()));
+    let aside = lease::aside(path);
     let written = write_all(&aside, substructure).and_then(|()| fs::rename(&aside, path));
     if written.is_err() {
         // The first error is the one to report.

@@ -3,6 +3,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::file;
 use super::identity::{Identity, Part};
+use super::lease::{self, Asked, Lease, Waiting};
 use super::substructure::Substructure;
 use crate::error::Error;
 use crate::linear::{BlockCsr, Fronts};
@@ -36,12 +37,26 @@ pub enum Source {
     Disk,
 }
 
+/// Whether this process may make a substructure.
+pub(super) enum Reserved {
+    /// It may, and others wait for it as long as there is a lease.
+    Ours(Option<Lease>),
+    /// Another process is making it.
+    Theirs,
+}
+
 /// What a library has of a substructure, and what the user should know about its file.
 pub(super) type Found = (Option<(Arc<Substructure>, Source)>, Option<String>);
+
+/// What the name of a lease ends with.
+const LEASE: &str = "lease";
 
 /// Part of the memory limit that analyses may take, and matrices.
 const ANALYSES: u64 = 8;
 const STIFFNESSES: u64 = 4;
+
+/// What a note about a file of the directory begins with. It says how a run went, and nothing of what came of it.
+pub const CACHE_NOTE: &str = "cache file ";
 
 /// Bytes of a gibibyte.
 const GIB: u64 = 1 << 30;
@@ -56,8 +71,8 @@ impl Library {
         }
     }
 
-    /// A library that also keeps every substructure in a directory, which is made if it does not exist. Several processes may use it. Nothing
-    /// is ever deleted there but what is damaged.
+    /// A library that also keeps every substructure in a directory, which is made if it does not exist. Several processes may use it, on several
+    /// machines: while one makes a substructure, others wait for it. Nothing is ever deleted there but what is damaged, or was left by who was killed.
     ///
     /// # Errors
     /// [`Error::Io`] if there is no such directory and it cannot be made.
@@ -105,9 +120,56 @@ impl Library {
                 (Some((read, Source::Disk)), None)
             }
             Err(why) => {
-                let note = format!("cache file {}: {why}; made again", path.display());
+                let note = format!("{CACHE_NOTE}{}: {why}; made again", path.display());
                 (None, Some(note))
             }
+        }
+    }
+
+    /// Asks for the right to make a substructure whose file is worth it; without a directory everybody has it.
+    pub(super) fn reserve(&self, identity: Identity) -> Reserved {
+        let Some(path) = self.path(identity) else {
+            return Reserved::Ours(None);
+        };
+        match Lease::ask(&path.with_extension(LEASE)) {
+            Asked::Ours(lease) => {
+                lease::drop_leftovers(&path);
+                Reserved::Ours(Some(lease))
+            }
+            Asked::Theirs => Reserved::Theirs,
+            Asked::Nobodys => Reserved::Ours(None),
+        }
+    }
+
+    /// Waits until another process has made a substructure, or has failed to, or `waits` says that it is enough: then it is to be made here, with the lease if
+    /// there is one.
+    pub(super) fn wait(
+        &self,
+        identity: Identity,
+        part: &Part,
+        waits: &dyn Fn() -> bool,
+    ) -> (Found, Option<Lease>) {
+        let mut waiting = Waiting::default();
+        let mut note = None;
+        loop {
+            let lease = match self.reserve(identity) {
+                Reserved::Ours(lease) => Some(lease),
+                Reserved::Theirs => None,
+            };
+            // With the lease it is certain that nobody has just made it.
+            let free = lease.is_some();
+            let (found, why) = match note.is_none() || free {
+                true => self.find(identity, part),
+                false => (None, None),
+            };
+            note = note.or(why);
+            if found.is_some() || free || !waits() {
+                return ((found, note), lease.flatten());
+            }
+            if let Some(path) = self.path(identity) {
+                waiting.look(&path.with_extension(LEASE));
+            }
+            waiting.pause();
         }
     }
 
@@ -120,7 +182,10 @@ impl Library {
         }
         let written = file::write(&path, substructure);
         let why = written.err()?;
-        Some(format!("cache file {}: not written: {why}", path.display()))
+        Some(format!(
+            "{CACHE_NOTE}{}: not written: {why}",
+            path.display()
+        ))
     }
 
     fn shelve(&self, substructure: &Arc<Substructure>) {

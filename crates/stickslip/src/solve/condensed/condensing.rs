@@ -108,7 +108,12 @@ impl Solver {
         let started = Instant::now();
         self.seen.tell(&Work::Condensing);
         let matrix = self.matrix(which);
-        match Condensation::new(plan, matrix, held, springs, &library) {
+        // Asked to stop, nobody waits for others.
+        let waits = || {
+            self.seen.tell(&Work::Waiting);
+            !self.newton.interrupted()
+        };
+        match Condensation::new(plan, (matrix, held), springs, &library, &waits) {
             Ok((condensation, effort)) => {
                 let passed = started.elapsed().as_secs_f64();
                 self.count(&cost, effort, passed);
@@ -171,17 +176,17 @@ impl Solver {
         statistics.factor_nonzeros = cost.nonzeros as usize;
         statistics.factor_bytes = cost.bytes;
         if effort.made > 0 {
-            statistics.flops += cost.factor + cost.condense;
+            statistics.flops += cost.left;
         }
         statistics.analyses += effort.analysed;
         statistics.factorisations += effort.made;
         statistics.substructures_made += effort.made;
         statistics.substructures_shared += effort.shared;
         statistics.substructures_read += effort.read;
-        statistics.seconds_find += effort.seconds_find;
+        statistics.seconds_find += effort.seconds_find + effort.seconds_wait;
         statistics.seconds_order += effort.seconds_order;
         // Bodies are factored side by side: their times are shares of the time that has passed.
-        let passed = (passed - effort.seconds_find).max(0.0);
+        let passed = (passed - effort.seconds_wait).max(0.0);
         let spent = effort.seconds.factor + effort.seconds.condense;
         let share = if spent > 0.0 { passed / spent } else { 0.0 };
         let factor = share * effort.seconds.factor;
