@@ -3,8 +3,8 @@
 //! A case is run once to its end. Then it is begun anew again and again, killed (SIGKILL) after a random part of the time it takes, taken up by
 //! `stickslip resume` (`sweep --resume`), killed once more, up to [`MOST`] times, and run to its end. All files that are then in its folder have
 //! to be those of the first run, byte by byte, and none may be there besides: histories, fields, tables, `.dat` and `.sta` files, the problem. Left out is
-//! what names the process: `run.lock`; checkpoints, in which counts of factors are; of `summary.json` times, memory and counts of factors; of the table
-//! of a sweep seconds and factorisations.
+//! what names the process: `run.lock`; checkpoints, in which counts of factors are; of `summary.json` times, memory and counts of factors; and
+//! the table of what the runs of a sweep took.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -350,7 +350,8 @@ fn contents(folder: &Path) -> Result<BTreeMap<String, Vec<u8>>, String> {
         let kept = match own.as_str() {
             own if own.starts_with("checkpoint_") || own.ends_with(".lock") => continue,
             "summary.json" => summary(&bytes).unwrap_or(bytes),
-            "table.csv" => table(&String::from_utf8_lossy(&bytes)).into_bytes(),
+            // What the runs of a sweep took.
+            "table.effort.csv" => continue,
             _ => bytes,
         };
         let inner = path.strip_prefix(folder).unwrap_or(&path);
@@ -386,20 +387,6 @@ fn summary(bytes: &[u8]) -> Option<Vec<u8>> {
     serde_json::to_vec(&value).ok()
 }
 
-/// The table of a sweep without the columns that name the process.
-fn table(text: &str) -> String {
-    let heads = text.lines().next().unwrap_or_default();
-    let heads: Vec<&str> = heads.split(',').collect();
-    let mut out = String::new();
-    for line in text.lines() {
-        let cells = line.split(',').zip(&heads);
-        let kept = cells.filter(|(_, head)| !["seconds", "factorisations"].contains(head));
-        out += &kept.map(|(cell, _)| cell).collect::<Vec<_>>().join(",");
-        out.push('\n');
-    }
-    out
-}
-
 /// A line for every file that is not the same.
 fn differences(
     wanted: &BTreeMap<String, Vec<u8>>,
@@ -431,8 +418,6 @@ mod tests {
 
     #[test]
     fn what_names_the_process_is_left_out_and_the_rest_is_compared() {
-        let text = "run,a,outcome,increments,factorisations,seconds,U\n1,2,done,3,4,0.5,6\n";
-        assert_eq!(table(text), "run,a,outcome,increments,U\n1,2,done,3,6\n");
         let one = br#"{"phases": 1, "increments": 2, "solver": {"flops": 3, "iterations": 4}}"#;
         let other = br#"{"phases": 9, "increments": 2, "solver": {"flops": 9, "iterations": 4}}"#;
         assert!(summary(one).is_some());

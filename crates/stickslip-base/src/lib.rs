@@ -4,6 +4,7 @@
 
 pub mod error;
 pub mod keep;
+pub mod lease;
 pub mod machine;
 pub mod math;
 pub mod references;

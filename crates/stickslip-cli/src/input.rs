@@ -1,5 +1,6 @@
 //! What a command is given: a problem file, or a deck of Abaqus or CalculiX.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -67,6 +68,16 @@ impl Case {
                 .map_or_else(Meshes::default, |d| d.meshes()),
             deck: self.deck.clone(),
         })
+    }
+
+    /// All files of a sweep whose problems read these.
+    pub fn files(&self, read: BTreeSet<PathBuf>) -> Vec<PathBuf> {
+        let files = match &self.deck {
+            Some(deck) => deck.files().to_vec(),
+            None => read.into_iter().collect(),
+        };
+        // What is not there is said of each of the runs that want it.
+        files.into_iter().filter(|file| file.is_file()).collect()
     }
 
     /// Findings about the problem as findings about the deck, if it is one.

@@ -34,7 +34,11 @@ fn text(failure: &Failure, renderer: &Renderer) -> String {
         Failure::Deck(error) => error.to_string(),
         Failure::Arguments(message, help) => format!("error: {message}\n  help: {help}"),
         Failure::Runs { failed, all, table } => format!(
-            "error: {failed} of {all} runs failed\n  help: the column `outcome` of {} says why",
+            "error: {failed} of {all} runs failed\n  help: the {} `outcome` of {} says why",
+            match table.extension().is_some_and(|e| e == "jsonl") {
+                true => "entry",
+                false => "column",
+            },
             table.display()
         ),
         Failure::Output(error) => format!("error: standard output: {error}"),

@@ -28,8 +28,10 @@ pub fn measure(bench: &Bench, sizes: &[usize]) -> Result<(), String> {
     }
     command.args(["--column", "SLIP", "-o"]).arg(&file);
     let run = cpu::measure(command.stdout(Stdio::null()))?;
+    let file = file.with_extension("effort.csv");
     let text = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-    let seconds = column(&text, "seconds").ok_or("the table of the sweep has no seconds")?;
+    let seconds =
+        column(&text, "seconds").ok_or("the table of what the runs took has no seconds")?;
     let first = seconds.first().copied().unwrap_or(0.0);
     let total: f64 = seconds.iter().sum();
     let table = Table::new(

@@ -4,6 +4,7 @@ mod support;
 
 mod audit;
 mod book;
+mod cluster;
 mod commands;
 mod convert;
 mod decks;
@@ -15,4 +16,5 @@ mod given;
 mod progress;
 mod reports;
 mod runs;
+mod shards;
 mod sweep;

@@ -45,6 +45,11 @@ impl Place {
         table(&self.folder.join("case.sweep.csv"))
     }
 
+    /// What the runs of the last sweep took.
+    fn effort(&self) -> Table {
+        table(&self.folder.join("case.sweep.effort.csv"))
+    }
+
     fn exists(&self, name: &str) -> bool {
         self.folder.join(name).exists()
     }
@@ -129,8 +134,6 @@ fn the_last_axis_changes_fastest_and_the_numbers_are_those_of_single_runs() {
         "increments",
         "iterations",
         "cutbacks",
-        "factorisations",
-        "seconds",
         "STEP",
         "INC",
     ];
@@ -141,14 +144,16 @@ fn the_last_axis_changes_fastest_and_the_numbers_are_those_of_single_runs() {
     assert_eq!(table.column("support.top.y"), heights);
     assert_eq!(table.column("outcome"), ["done"; 6]);
     assert_eq!(table.column("increments"), ["2"; 6]);
-    assert!(table.numbers("seconds").iter().all(|&s| s > 0.0));
+    let effort = place.effort();
+    assert_eq!(effort.column("run"), table.column("run"));
+    assert!(effort.numbers("seconds").iter().all(|&s| s > 0.0));
     // a row against `run` with the same values, to the bit
     let mut run = place.command("run", &["-q", "-o", &place.path("one")]);
     run.args(["--set", "support.top.x=1e-6", "--set", &format!("{MU}=0.3")]);
     let run = run.args(["--set", "support.top.y=-2.5e-5"]).output();
     assert_eq!(run.expect("the binary runs").status.code(), Some(0));
     let history = csv::read(&place.folder.join("one/history.csv")).expect("a history");
-    assert_eq!(table.names[9..], history.names);
+    assert_eq!(table.names[7..], history.names);
     for name in &history.names {
         let alone = *history.column(name).and_then(<[f64]>::last).expect("a row");
         let here = table.numbers(name)[4];
@@ -184,8 +189,8 @@ fn bodies_that_stay_the_same_are_factored_once() {
         (&["--set", &set, "--cache", &cache], ["1", "0", "0"]),
         (&["--set", &set, "--cache", &cache], ["0", "0", "0"]),
     ] {
-        let table = place.table(arguments, 0);
-        assert_eq!(table.column("factorisations"), expected);
+        place.table(arguments, 0);
+        assert_eq!(place.effort().column("factorisations"), expected);
     }
     // `run` uses the same directory.
     let arguments = ["-q", "--cache", &cache, "-o", &place.path("one")];
@@ -196,8 +201,10 @@ fn bodies_that_stay_the_same_are_factored_once() {
     assert!(summary.contains("\"substructures-read\": 1"), "{summary}");
     // Another matrix is another body.
     let young = "material.steel.isotropic.young=200e9,210e9,220e9,200e9";
-    let table = place.table(&["--set", young], 0);
-    assert_eq!(table.column("factorisations"), ["1", "1", "1", "0"]);
+    place.table(&["--set", young], 0);
+    let effort = place.effort();
+    assert_eq!(effort.column("factorisations"), ["1", "1", "1", "0"]);
+    assert_eq!(effort.column("shared"), ["0", "0", "0", "1"]);
     // What is wrong with a file is said.
     for entry in std::fs::read_dir(place.folder.join("cache")).expect("a folder") {
         std::fs::write(entry.expect("an entry").path(), "nothing").expect("a file to write");
@@ -241,7 +248,7 @@ fn a_run_that_fails_has_its_reason_in_the_table_and_the_others_go_on() {
     }
     assert!(outcomes[0].contains("case.toml"), "{}", outcomes[0]);
     assert_eq!(table.column("increments"), ["", "", "0", "2"]);
-    assert_eq!(table.column("factorisations")[..2], ["", ""]);
+    assert_eq!(place.effort().column("factorisations")[..2], ["", ""]);
     let height = table.column("corner.U2");
     assert_eq!(height, ["", "", "", "-1e-5"]);
     // inline tables are one value each, and survive as text
@@ -347,7 +354,7 @@ fn columns_can_be_chosen_and_unknown_ones_are_refused() {
     let set = format!("{MU}=0.1,0.2,0.3");
     let chosen = ["--column", "corner.U2", "--column", "base.CFN2", "-q"];
     let table = place.table(&[&["--set", &set][..], &chosen].concat(), 0);
-    assert_eq!(table.names[7..], ["seconds", "corner.U2", "base.CFN2"]);
+    assert_eq!(table.names[6..], ["corner.U2", "base.CFN2"]);
     assert!(table.numbers("base.CFN2").iter().all(|&f| f > 0.0));
     let output = place.sweep(&["--set", &set, "--column", "base.CNF2"]);
     assert_eq!(output.status.code(), Some(1));
@@ -387,12 +394,7 @@ fn results_of_the_runs_are_kept_on_request_and_do_not_depend_on_threads() {
                 assert!(place.exists(&format!("{threads}/{run}/{name}")));
             }
         }
-        let mut table = table(Path::new(&file));
-        let seconds = table.names.iter().position(|n| n == "seconds");
-        for row in &mut table.rows {
-            row.remove(seconds.expect("a column"));
-        }
-        tables.push(table.rows);
+        tables.push(table(Path::new(&file)).rows);
     }
     assert_eq!(tables[0], tables[1]);
     assert!(!place.exists("case.sweep.csv") && !place.exists("1/0003"));
@@ -443,6 +445,8 @@ fn help_tells_how_values_are_written() {
         "--zip",
         "--column <NAME>",
         "--results <DIR>",
+        "--shard <I/N>",
+        "--merge <DIR>...",
         "from..to:count",
         "checked before the first run",
     ] {

@@ -34,6 +34,8 @@ pub struct ResultFiles {
     frd: frd::Writer,
     /// Why a checkpoint could not be written, and whether it was asked for.
     unsaved: Option<(String, bool)>,
+    /// See [`Claim::alike`].
+    alike: bool,
 }
 
 impl ResultFiles {
@@ -54,6 +56,7 @@ impl ResultFiles {
             also: claim.also.clone(),
             frd: frd::Writer::new(&claim.frd, None),
             unsaved: None,
+            alike: claim.alike,
         })
     }
 
@@ -86,6 +89,7 @@ impl ResultFiles {
                 columns => Some(csv::History::resume(&history, columns)?),
             },
             count: positions.fields.len(),
+            alike: claim.alike,
             mesh: None,
             writing: None,
             source: claim.source.clone(),
@@ -205,8 +209,11 @@ impl ResultFiles {
     }
 
     fn end(&mut self, summary: &Summary) -> Result<(), Error> {
-        let text = serde_json::to_string_pretty(summary)
-            .map_err(|e| Error::io(&self.folder.directory, std::io::Error::other(e)))?;
+        let text = match self.alike {
+            false => serde_json::to_string_pretty(summary),
+            true => (summary.without_process()).and_then(|s| serde_json::to_string_pretty(&s)),
+        };
+        let text = text.map_err(|e| Error::io(&self.folder.directory, std::io::Error::other(e)))?;
         let path = self.folder.directory.join("summary.json");
         write_atomically(&path, text.as_bytes())?;
         let places = self.folder.directory.join("culprits.vtu");

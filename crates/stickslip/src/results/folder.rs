@@ -23,6 +23,11 @@ pub struct Claim {
     pub frd: FrdPlan,
     /// What the run was called with; without it no checkpoints are written.
     pub source: Option<Source>,
+    /// What is written is the same whichever process makes it, and whatever it shares with other runs: times, counts of factors and the like are not in
+    /// `summary.json`.
+    pub alike: bool,
+    /// A process that is known to have ended, as `process 4711 on host`: where a file system knows no locks, its folder would not be had.
+    pub dead: Option<String>,
 }
 
 /// A folder that belongs to this run.
@@ -46,7 +51,7 @@ impl Folder {
         for input in &claim.inputs {
             spare(directory, input, claim)?;
         }
-        let lock = hold(directory)?;
+        let lock = hold(directory, claim.dead.as_deref())?;
         let mut notes = Vec::new();
         if let Some(holder) = &lock.stale {
             notes.push(format!(
@@ -115,7 +120,7 @@ impl Folder {
     /// Those of [`Folder::take`].
     pub fn resume(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
-            self.lock = Some(hold(&self.directory)?);
+            self.lock = Some(hold(&self.directory, None)?);
             self.say_running()?;
         }
         Ok(())
@@ -206,13 +211,13 @@ impl FolderClaim {
         saved::check_folder(directory)?;
         Ok(FolderClaim {
             directory: directory.to_path_buf(),
-            lock: Some(hold(directory)?),
+            lock: Some(hold(directory, None)?),
         })
     }
 }
 
-fn hold(directory: &Path) -> Result<Lock, Error> {
-    Lock::take(directory).map_err(|refused| match refused {
+fn hold(directory: &Path, dead: Option<&str>) -> Result<Lock, Error> {
+    Lock::take(directory, dead).map_err(|refused| match refused {
         Refused::Io(e) => Error::io(&directory.join(lock::NAME), e),
         Refused::Taken(holder) => fault(
             directory,
@@ -365,7 +370,7 @@ impl FileClaim {
         let mut beside = file.as_os_str().to_owned();
         beside.push(".lock");
         let beside = PathBuf::from(beside);
-        match Lock::take_file(beside.clone()) {
+        match Lock::take_file(beside.clone(), None) {
             Ok(lock) => Ok(FileClaim { _lock: lock }),
             Err(Refused::Io(e)) => Err(Error::io(&beside, e)),
             Err(Refused::Taken(holder)) => Err(fault(

@@ -80,13 +80,13 @@ impl From<io::Error> for Refused {
 }
 
 impl Lock {
-    /// Takes the folder.
-    pub fn take(directory: &Path) -> Result<Lock, Refused> {
-        Lock::take_file(directory.join(NAME))
+    /// Takes the folder; from who is `dead` in any case.
+    pub fn take(directory: &Path, dead: Option<&str>) -> Result<Lock, Refused> {
+        Lock::take_file(directory.join(NAME), dead)
     }
 
     /// Takes what this file stands for.
-    pub fn take_file(path: PathBuf) -> Result<Lock, Refused> {
+    pub fn take_file(path: PathBuf, dead: Option<&str>) -> Result<Lock, Refused> {
         loop {
             let mut file = open(&path)?;
             let mut text = String::new();
@@ -104,7 +104,9 @@ impl Lock {
                 }
                 // Some file systems know no locks.
                 Err(TryLockError::Error(_)) => match before {
-                    Some(holder) if !holder.is_over() => return Err(Refused::Taken(holder)),
+                    Some(holder) if !holder.is_over() && dead != Some(&holder.to_string()) => {
+                        return Err(Refused::Taken(holder));
+                    }
                     _ => {}
                 },
             }
@@ -210,10 +212,10 @@ mod tests {
     #[test]
     fn a_folder_has_one_holder_who_gives_it_back() {
         let folder = folder("one");
-        let lock = Lock::take(&folder).unwrap();
+        let lock = Lock::take(&folder, None).unwrap();
         assert!(lock.stale.is_none());
         assert_eq!(Lock::holder(&folder), Some(Holder::this()));
-        match Lock::take(&folder) {
+        match Lock::take(&folder, None) {
             Err(Refused::Taken(holder)) => assert_eq!(holder, Holder::this()),
             other => panic!("{other:?}"),
         }
@@ -228,7 +230,7 @@ mod tests {
         let folder = folder("stale");
         std::fs::write(folder.join(NAME), "4194305 far-away\n").unwrap();
         assert_eq!(Lock::holder(&folder), None);
-        let lock = Lock::take(&folder).unwrap();
+        let lock = Lock::take(&folder, None).unwrap();
         let stale = lock.stale.as_ref().unwrap();
         assert_eq!(stale.to_string(), "process 4194305 on far-away");
         lock.leave_as_it_was();
@@ -237,9 +239,9 @@ mod tests {
             "4194305 far-away\n"
         );
         assert_eq!(Lock::holder(&folder), None);
-        drop(Lock::take(&folder).unwrap());
+        drop(Lock::take(&folder, None).unwrap());
         std::fs::write(folder.join(NAME), b"\xff\xfe").unwrap();
-        assert!(Lock::take(&folder).unwrap().stale.is_none());
+        assert!(Lock::take(&folder, None).unwrap().stale.is_none());
         std::fs::remove_dir_all(folder).unwrap();
     }
 }

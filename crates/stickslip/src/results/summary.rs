@@ -9,6 +9,7 @@ use crate::machine::peak_memory;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::ledger::{EnergyLedger, EnergyQuality};
+use crate::newton::condensed::CACHE_NOTE;
 use crate::newton::{Fallback, Statistics};
 
 /// What `summary.json` holds.
@@ -85,6 +86,23 @@ pub struct Summary {
     /// Last row of the history.
     pub last: BTreeMap<String, f64>,
 }
+
+/// Keys of what depends on the process, and beginnings of those of the solver that depend on what it shares with others as well.
+const OF_PROCESS: &[&str] = &[
+    "phases",
+    "linear-solve",
+    "relative-to-linear",
+    "peak-memory",
+    "threads",
+];
+const OF_SHARING: &[&str] = &[
+    "seconds",
+    "analyses",
+    "factorisations",
+    "substructures",
+    "flops",
+    "linear",
+];
 
 /// How far a run has come.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -171,6 +189,25 @@ impl Summary {
             threads: rayon::current_num_threads(),
             ..Summary::default()
         }
+    }
+
+    /// What of it does not depend on the process that made it: without times and memory, counts of factors, which may be those of others, and what is to be
+    /// said of their files.
+    pub(crate) fn without_process(&self) -> serde_json::Result<serde_json::Value> {
+        let mut all = serde_json::to_value(self)?;
+        let Some(entries) = all.as_object_mut() else {
+            return Ok(all);
+        };
+        for key in OF_PROCESS {
+            entries.remove(*key);
+        }
+        if let Some(solver) = entries.get_mut("solver").and_then(|s| s.as_object_mut()) {
+            solver.retain(|key, _| !OF_SHARING.iter().any(|word| key.starts_with(word)));
+        }
+        if let Some(notes) = entries.get_mut("notes").and_then(|n| n.as_array_mut()) {
+            notes.retain(|note| !note.as_str().is_some_and(|n| n.starts_with(CACHE_NOTE)));
+        }
+        Ok(all)
     }
 
     pub(crate) fn finish(&mut self, solver: &Statistics, total: f64, error: Option<&Error>) {

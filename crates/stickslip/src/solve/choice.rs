@@ -124,9 +124,8 @@ impl Scene<'_> {
             .collect();
         // Where it decides nothing it differs for nothing.
         let scarce = ways.iter().any(|(_, _, bytes)| !fits(*bytes));
-        let free_memory = (memory.filter(|_| scarce)).map_or(String::new(), |m| {
-            format!(", {:.2} GB are free", m / 1e9)
-        });
+        let free_memory = (memory.filter(|_| scarce))
+            .map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
         let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
         let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
         // If nothing fits, the factorisation says how much it would take.

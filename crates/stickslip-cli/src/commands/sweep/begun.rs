@@ -8,7 +8,6 @@ use stickslip::io::{drop_leftovers, write_atomically};
 use stickslip::results::digest_of;
 
 use super::plan::Plan;
-use crate::input::Case;
 
 /// Where a sweep stands that is to go on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,17 +28,12 @@ pub struct Begun {
 }
 
 impl Begun {
-    /// That of a sweep: the digests of its files and the values of its first run.
-    pub fn of(file: &Path, case: &Case, plan: &Plan, table: &Path) -> Result<Begun, Error> {
+    /// That of a sweep: the digests of its files.
+    pub fn of(files: &[PathBuf], plan: &Plan, table: &Path) -> Result<Begun, Error> {
         let mut path = table.as_os_str().to_owned();
         path.push(".begun");
         let mut text = String::new();
-        let mut files = vec![file.to_path_buf()];
-        // What is wrong with a problem is said of each of its runs.
-        if let Ok(input) = case.input(&plan.overrides(0)) {
-            files = input.files();
-        }
-        for file in files.iter().filter(|f| f.is_file()) {
+        for file in files {
             let [a, b] = digest_of(file)?;
             text += &format!("{a:016x}{b:016x} {}\n", file.display());
         }

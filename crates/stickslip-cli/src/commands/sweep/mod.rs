@@ -1,32 +1,36 @@
-//! `sweep`: a problem file or a deck, many values, one table.
+//! `sweep`: a problem file or a deck, many values, one table; in one process, or in parts that are merged.
 
 mod begun;
 mod columns;
+mod effort;
+mod merge;
+mod one;
 mod plan;
+mod shard;
 mod table;
 mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::assess::doctor::Severity;
-use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
-use stickslip::results::{Claim, FileClaim, Observer, ResultFiles, Summary};
-use stickslip::run::{Interrupt, Simulation, Watch};
+use stickslip::results::FileClaim;
 
 use super::{library, spare, use_threads};
 
 use crate::failure::{Failure, Outcome};
-use crate::input::{Case, Input};
+use crate::input::Case;
 use crate::progress::found;
 use crate::voice::{Heartbeat, Voice};
 use begun::{Begun, Stand};
 use columns::Columns;
+use effort::EffortTable;
+use one::{Ended, Shared, analyse};
 use plan::Plan;
+use shard::{Done, Share, Sweep, Work, processor};
 use table::{Row, Table};
 
 /// Run an analysis for many values and write one table: a row a run.
@@ -34,18 +38,28 @@ use table::{Row, Table};
 #[command(after_help = "\
 Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
 includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
-factorisations, seconds, and the last row of the history. All values are checked before the first run. A run that
+and the last row of the history; what runs took is in a table beside it, TABLE.effort.csv. All values are checked before the first run. A run that
 fails does not stop the others: its outcome says why, and the exit code is 1. One that does not pass the quality gate says
 so too, and the exit code is 2 if none failed.
 
+On several machines each process makes one part, --shard 1/4 to --shard 4/4, with the same other arguments; killed, it goes on with the same command.
+--merge makes the table of the parts, which is that of one process byte for byte.
+
 Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
-  stickslip sweep case.toml --zip --set step.0.duration=1,2 --set step.0.increments.fixed=10,20 --column ALLSE")]
+  stickslip sweep case.toml --zip --set step.0.duration=1,2 --set step.0.increments.fixed=10,20 --column ALLSE
+  stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:50 --cache factors --shard 2/4
+  stickslip sweep --merge case.sweep.shards")]
 pub struct Arguments {
     /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`), whose values go by the names that `convert` gives them.
-    file: PathBuf,
+    #[arg(required_unless_present = "merge")]
+    file: Option<PathBuf>,
     /// An axis: a key and its values. Several make all combinations, the last one changing fastest.
-    #[arg(long = "set", value_name = "PATH=V1,V2,...", required = true)]
+    #[arg(
+        long = "set",
+        value_name = "PATH=V1,V2,...",
+        required_unless_present = "merge"
+    )]
     set: Vec<String>,
     /// One value for all runs, as `run --set`.
     #[arg(long = "fix", value_name = "PATH=VALUE")]
@@ -56,10 +70,10 @@ pub struct Arguments {
     /// A quantity of the history that the table shall have; all if not given. Can be repeated.
     #[arg(long = "column", value_name = "NAME")]
     column: Vec<String>,
-    /// The table; `<file>.sweep.csv` beside the file if not given. It is complete after every run.
+    /// The table, TABLE.csv; `<file>.sweep.csv` beside the file if not given. It is complete after every run. Shards are in `TABLE.shards`.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Keep the result files of every run, in DIR/0001 and so on.
+    /// Keep the result files of every run, in DIR/0001 and so on, whichever shard makes it. With --merge: see whether all are there.
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
     /// Keep the factors of bodies in DIR too, and take from there what was factored before; see `run --cache`.
@@ -68,40 +82,85 @@ pub struct Arguments {
     /// Threads; all processors if not given. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Go on with a sweep that was stopped or killed: runs that are in the table are not run again.
+    /// Go on with a sweep that was stopped or killed: runs that are in the table are not run again. Shards always do.
     #[arg(long)]
     resume: bool,
+    /// Make only part I of N, for one of N processes on one machine or many.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<String>,
+    /// Make the table of shards from their folders, or from the folder that they are in.
+    #[arg(
+        long,
+        value_name = "DIR",
+        num_args = 1..,
+        conflicts_with_all = ["file", "set", "fix", "zip", "column", "cache", "threads", "resume", "shard"]
+    )]
+    merge: Vec<PathBuf>,
     /// No progress on standard error.
     #[arg(short, long)]
     quiet: bool,
 }
 
-/// Runs all.
+/// Runs all, or a part, or merges parts.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let started = Instant::now();
+    let voice = Voice::new();
+    if !arguments.merge.is_empty() {
+        let tell = |text: &str| {
+            if !arguments.quiet {
+                voice.line(text);
+            }
+        };
+        let (output, results) = (arguments.output.as_deref(), arguments.results.as_deref());
+        return merge::merge(&arguments.merge, output, results, &tell);
+    }
+    let Some(file) = &arguments.file else {
+        return Err(Failure::Arguments(
+            "no problem file is given".into(),
+            "stickslip sweep FILE --set PATH=V1,V2".into(),
+        ));
+    };
+    let share = arguments.shard.as_deref().map(Share::parse).transpose()?;
     use_threads(arguments.threads, arguments.quiet);
     let plan = Plan::new(&arguments.set, &arguments.fix, arguments.zip)?;
-    let case = Case::read(&arguments.file)?;
-    plan.check(&case.document)
-        .map_err(|e| case.failure(e.into()))?;
-
+    let case = Case::read(file)?;
+    let read = plan.check(&case.document);
+    let files = case.files(read.map_err(|e| case.failure(e.into()))?);
     let output = arguments.output.clone();
-    let output = output.unwrap_or_else(|| arguments.file.with_extension("sweep.csv"));
-    spare(&output, std::slice::from_ref(&arguments.file))?;
+    let output = output.unwrap_or_else(|| file.with_extension("sweep.csv"));
+    spare(&output, std::slice::from_ref(file))?;
+    let _heartbeat = (!arguments.quiet).then(|| Heartbeat::start(&voice));
+    let runs = Runs {
+        arguments,
+        plan: &plan,
+        case: &case,
+        shared: Shared {
+            watch: voice.watch(),
+            library: library(Library::usual_limit(), arguments.cache.as_deref())?,
+            interrupt: crate::interrupt::watch(),
+            dead: None,
+        },
+        voice: &voice,
+        wanted: &arguments.column,
+        told: Vec::new(),
+    };
+    match share {
+        None => whole(runs, &files, output),
+        Some(share) => part(runs, &files, &output, share),
+    }
+}
+
+/// All runs, in one table.
+fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
+    let started = Instant::now();
+    let (plan, arguments) = (all.plan, all.arguments);
     let axes = plan.axes.iter().map(|axis| axis.path.clone()).collect();
     let mut table = Table::new(output, axes, &arguments.column);
+    let mut effort = EffortTable::beside(&table.path);
     // That the file cannot be written should not be found after the first run.
     table.try_file()?;
     let _claim = FileClaim::take(&table.path)?;
-    let voice = Voice::new();
-    let _heartbeat = (!arguments.quiet).then(|| Heartbeat::start(&voice));
-    let tell = |text: &str| {
-        if !arguments.quiet {
-            voice.line(text);
-        }
-    };
-    tell(&heading(&plan));
-    let begun = Begun::of(&arguments.file, &case, &plan, &table.path)?;
+    all.tell(&heading(plan));
+    let begun = Begun::of(files, plan, &table.path)?;
     let mut done = 0;
     let stand = match arguments.resume {
         true => begun.stand()?,
@@ -112,183 +171,192 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let values = plan.values(run).into_iter();
             values.map(str::to_string).collect()
         })?;
-        tell(&format!("{} in the table already", runs(done)));
+        effort.take_over(done);
+        all.tell(&format!("{} in the table already", runs(done)));
     }
     if stand == Stand::Over && done < plan.count() {
         return Err(begun.unknown().into());
     }
     begun.write()?;
+    all.goes_on(done > 0);
 
-    let shared = Shared {
-        watch: voice.watch(),
-        library: library(Library::usual_limit(), arguments.cache.as_deref())?,
-        interrupt: crate::interrupt::watch(),
-    };
-    let mut wanted = arguments.column.as_slice();
     let mut first = 0.0;
     let (mut failed, mut poor) = table.not_done();
-    let mut told: Vec<String> = Vec::new();
     for run in done..plan.count() {
         let begun = Instant::now();
-        voice.begins(&format!("run {} of {}", run + 1, plan.count()));
-        let directory = arguments.results.as_ref();
-        let directory = directory.map(|d| d.join(format!("{:04}", run + 1)));
-        let mut columns = Columns::new(wanted);
-        let input = case.input(&plan.overrides(run));
-        let ended = analyse(input, directory.as_deref(), &mut columns, &shared);
-        if let Some(refusal) = columns.refusal() {
-            return Err(refusal);
-        }
-        if !columns.names.is_empty() {
-            // A later run may lack a column; its place stays empty.
-            wanted = &[];
-        }
-        table.add_quantities(&columns.names);
-
-        let seconds = begun.elapsed().as_secs_f64();
-        if run == done {
-            first = seconds;
-        }
-        if let Some(stopped @ Failure::Library(Error::Interrupted(_))) = ended.error {
-            tell(&format!(
+        let over = all.make(run);
+        if matches!(over, Err(Failure::Library(Error::Interrupted(_)))) {
+            all.tell(&format!(
                 "the table in {} has the runs before",
                 table.path.display()
             ));
-            return Err(stopped);
         }
-        failed += usize::from(ended.error.is_some());
-        let values = plan.values(run);
-        let outcome = outcome(&ended);
-        poor += usize::from(ended.summary.as_ref().is_some_and(|s| s.quality.failed()));
-        tell(&format!(
-            "{:>width$}/{}  {}  {outcome}  {seconds:.3} s",
-            run + 1,
-            plan.count(),
-            values.join("  "),
-            width = plan.count().to_string().len()
-        ));
-        for finding in ended.summary.iter().flat_map(|s| &s.findings) {
-            // What is wrong with the model is mostly wrong with it in every run.
-            let line = found(finding);
-            let before_the_run = finding.step.is_none() && finding.severity >= Severity::Warning;
-            if before_the_run && !told.contains(&line) {
-                tell(&format!("  {line}"));
-                told.push(line);
-            }
+        let over = over?;
+        if run == done {
+            first = begun.elapsed().as_secs_f64();
         }
-        for note in ended.summary.iter().flat_map(|s| &s.notes) {
-            tell(&format!("  {note}"));
-        }
-        let row = Row {
-            values: values.into_iter().map(str::to_string).collect(),
-            outcome,
-            seconds,
-            ..Row::default()
-        };
-        table.push(row.with_summary(ended.summary))?;
+        failed += usize::from(over.failed);
+        poor += usize::from(over.poor);
+        table.add_quantities(&over.names);
+        effort.add(over.effort);
+        effort.write()?;
+        table.push(over.row)?;
     }
     begun.end();
-    tell(&format!(
+    all.tell(&format!(
         "{} in {:.3} s, the first in {first:.3} s; table in {}",
         runs(plan.count()),
         started.elapsed().as_secs_f64(),
         table.path.display()
     ));
+    ended((failed, plan.count()), poor, table.path)
+}
+
+/// One part of the runs, in a folder of its own.
+fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcome {
+    let started = Instant::now();
+    let (plan, arguments) = (all.plan, all.arguments);
+    let parts = output.with_extension("shards");
+    let folder = parts.join(format!("{}-of-{}", share.index, share.of));
+    let own = share.runs(plan.count());
+    all.tell(&format!(
+        "shard {share}: {} of {}",
+        own.len(),
+        heading(plan)
+    ));
+    let sweep = Sweep::of(plan, files, &arguments.column, arguments.results.is_some())?;
+    let waits = |holder: &str| {
+        all.tell(&format!(
+            "looking whether {holder}, which has this shard, still lives"
+        ));
+    };
+    let mut work = Work::begin(&folder, (sweep, share), &waits)?;
+    all.shared.dead.clone_from(&work.dead);
+    let done = &work.shard.done;
+    if !done.is_empty() {
+        all.tell(&format!(
+            "{} in {} already",
+            runs(done.len()),
+            folder.display()
+        ));
+    }
+    all.goes_on(done.values().any(|done| !done.names.is_empty()));
+    for &run in &own {
+        if !work.shard.done.contains_key(&run) {
+            let over = all.make(run)?;
+            work.push(run, over)?;
+        }
+    }
+    let done = work.shard.done.values();
+    let failed = done.clone().filter(|done| done.failed).count();
+    let poor = done.filter(|done| done.poor).count();
+    all.tell(&format!(
+        "{} in {:.3} s; when all shards are there: stickslip sweep --merge {} -o {}",
+        runs(own.len()),
+        started.elapsed().as_secs_f64(),
+        parts.display(),
+        output.display()
+    ));
+    ended((failed, own.len()), poor, work.shard.rows_file())
+}
+
+/// What a sweep ends with, of which so many runs failed, and so many did not pass the quality gate.
+fn ended((failed, all): (usize, usize), poor: usize, table: PathBuf) -> Outcome {
     match failed {
         0 if poor > 0 => Ok(ExitCode::from(crate::failure::CHECK)),
         0 => Ok(ExitCode::SUCCESS),
-        failed => Err(Failure::Runs {
-            failed,
-            all: plan.count(),
-            table: table.path,
-        }),
+        failed => Err(Failure::Runs { failed, all, table }),
     }
 }
 
-/// What runs share.
-struct Shared {
-    /// Factors of bodies that stay the same.
-    library: Arc<Library>,
-    /// Whether the user wants to stop.
-    interrupt: Interrupt,
-    /// Who is told what is being worked on.
-    watch: Watch,
+/// The runs of a sweep, made one after the other.
+struct Runs<'a> {
+    arguments: &'a Arguments,
+    plan: &'a Plan,
+    case: &'a Case,
+    shared: Shared,
+    voice: &'a Voice,
+    /// Columns that the next run must have.
+    wanted: &'a [String],
+    /// What was said of the model.
+    told: Vec<String>,
 }
 
-/// How a run ended: its error if it failed, and what is known of it if there was a simulation.
-struct Ended {
-    error: Option<Failure>,
-    summary: Option<Summary>,
-}
-
-/// From the problem file to the end of its run.
-fn analyse(
-    input: Result<Input, Failure>,
-    directory: Option<&Path>,
-    columns: &mut Columns,
-    shared: &Shared,
-) -> Ended {
-    let failed = |error| Ended {
-        error: Some(error),
-        summary: None,
-    };
-    let started = Instant::now();
-    let built = input.and_then(|input| Ok((input.build()?, input.files())));
-    let (setup, inputs) = match built {
-        Ok(built) => built,
-        Err(e) => return failed(e),
-    };
-    let read = started.elapsed().as_secs_f64();
-    let mut observers: Vec<&mut dyn Observer> = vec![columns];
-    let claim = Claim {
-        inputs,
-        ..Claim::default()
-    };
-    let files = directory.map(|directory| ResultFiles::new(directory, &claim));
-    let mut files = match files.transpose() {
-        Ok(files) => files,
-        Err(e) => return failed(e.into()),
-    };
-    if let Some(files) = &mut files {
-        observers.push(files);
+impl Runs<'_> {
+    fn tell(&self, text: &str) {
+        if !self.arguments.quiet {
+            self.voice.line(text);
+        }
     }
-    simulate(setup, read, &mut observers, shared)
-}
 
-/// Runs a model. The one place where a sweep makes a simulation.
-fn simulate(
-    setup: Setup,
-    read: f64,
-    observers: &mut [&mut dyn Observer],
-    shared: &Shared,
-) -> Ended {
-    match Simulation::with_library(setup, Arc::clone(&shared.library)) {
-        Ok(mut simulation) => {
-            simulation.summary.phases.read = read;
-            simulation.set_interrupt(Arc::clone(&shared.interrupt));
-            simulation.set_watch(Arc::clone(&shared.watch));
-            let error = simulation.run(observers).err();
-            Ended {
-                error: error.map(Failure::from),
-                summary: Some(simulation.summary),
+    /// Others were made before: a later run may lack a column; its place stays empty.
+    fn goes_on(&mut self, others: bool) {
+        if others {
+            self.wanted = &[];
+        }
+    }
+
+    /// Makes a run, counted from 0.
+    ///
+    /// # Errors
+    /// [`Failure`] where the sweep ends with it: a column that there is not, or the wish of the user. A run that fails is one that is over.
+    fn make(&mut self, run: usize) -> Result<Done, Failure> {
+        let (plan, count) = (self.plan, self.plan.count());
+        let begun = Instant::now();
+        self.voice.begins(&format!("run {} of {count}", run + 1));
+        let directory = self.arguments.results.as_ref();
+        let directory = directory.map(|d| folder_of_run(d, run));
+        let mut columns = Columns::new(self.wanted);
+        let input = self.case.input(&plan.overrides(run));
+        let ended = analyse(input, directory.as_deref(), &mut columns, &self.shared);
+        if let Some(refusal) = columns.refusal() {
+            return Err(refusal);
+        }
+        self.goes_on(!columns.names.is_empty());
+        let (outcome, poor) = (ended.outcome(), ended.is_poor());
+        let Ended { error, summary } = ended;
+        if let Some(stopped @ Failure::Library(Error::Interrupted(_))) = error {
+            return Err(stopped);
+        }
+        let seconds = begun.elapsed().as_secs_f64();
+        let values = plan.values(run);
+        self.tell(&format!(
+            "{:>width$}/{count}  {}  {outcome}  {seconds:.3} s",
+            run + 1,
+            values.join("  "),
+            width = count.to_string().len()
+        ));
+        for finding in summary.iter().flat_map(|s| &s.findings) {
+            // What is wrong with the model is mostly wrong with it in every run.
+            let line = found(finding);
+            let before_the_run = finding.step.is_none() && finding.severity >= Severity::Warning;
+            if before_the_run && !self.told.contains(&line) {
+                self.tell(&format!("  {line}"));
+                self.told.push(line);
             }
         }
-        Err(error) => Ended {
-            error: Some(error.into()),
-            summary: None,
-        },
+        for note in summary.iter().flat_map(|s| &s.notes) {
+            self.tell(&format!("  {note}"));
+        }
+        let row = Row {
+            values: values.into_iter().map(str::to_string).collect(),
+            outcome,
+            ..Row::default()
+        };
+        Ok(Done {
+            effort: effort::line(run + 1, seconds, summary.as_ref()),
+            row: row.with_summary(summary),
+            names: columns.names,
+            failed: error.is_some(),
+            poor,
+            processor: processor(),
+        })
     }
 }
 
-/// `done`, what the quality gate found, or why not, in one line.
-fn outcome(ended: &Ended) -> String {
-    let quality = ended.summary.as_ref().map(|s| &s.quality);
-    let poor = quality.filter(|q| q.failed());
-    match (&ended.error, poor.and_then(|q| q.violations().next())) {
-        (Some(error), _) => error.line(),
-        (None, Some(figure)) => format!("quality: {}", figure.brief()),
-        (None, None) => "done".into(),
-    }
+/// The folder of the results of a run, counted from 0.
+fn folder_of_run(results: &Path, run: usize) -> PathBuf {
+    results.join(format!("{:04}", run + 1))
 }
 
 fn runs(count: usize) -> String {

@@ -1,5 +1,8 @@
 //! Which runs a sweep consists of, and the check of all of them before the first.
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
 use rayon::prelude::*;
 use stickslip::Diagnostic;
 use stickslip::error::ProblemError;
@@ -93,19 +96,20 @@ impl Plan {
         self.fixed.iter().cloned().chain(chosen).collect()
     }
 
-    /// Reads and checks the problem of every run, without meshes.
+    /// Reads and checks the problem of every run, without meshes. Returns the files that any of them reads.
     ///
     /// # Errors
     /// The findings, each once, with the first run in which it occurs if it does not in all.
-    pub fn check(&self, case: &Document) -> Result<(), ProblemError> {
-        let failed: Vec<(usize, Vec<Diagnostic>)> = (0..self.count)
-            .into_par_iter()
-            .filter_map(|run| {
-                let document = case.clone().with_overrides(self.overrides(run));
-                let error = document.problem().err()?;
-                Some((run, error.findings))
-            })
-            .collect();
+    pub fn check(&self, case: &Document) -> Result<BTreeSet<PathBuf>, ProblemError> {
+        let read = |run: usize| {
+            let document = case.clone().with_overrides(self.overrides(run));
+            let problem = document.problem();
+            problem.map(|problem| document.inputs(&problem))
+        };
+        let checked = (0..self.count).into_par_iter().map(|run| (run, read(run)));
+        let checked = checked.fold(Checked::default, Checked::with);
+        let Checked { mut failed, files } = checked.reduce(Checked::default, Checked::and);
+        failed.sort_by_key(|(run, _)| *run);
         let mut found: Vec<(Diagnostic, usize, usize)> = Vec::new();
         let mut more = false;
         for (run, findings) in failed {
@@ -118,7 +122,7 @@ impl Plan {
             }
         }
         if found.is_empty() {
-            return Ok(());
+            return Ok(files);
         }
         let mut findings: Vec<Diagnostic> = found
             .into_iter()
@@ -152,6 +156,29 @@ impl Plan {
             None => place,
         };
         finding.help(help)
+    }
+}
+
+/// What came of reading some of the runs.
+#[derive(Default)]
+struct Checked {
+    failed: Vec<(usize, Vec<Diagnostic>)>,
+    files: BTreeSet<PathBuf>,
+}
+
+impl Checked {
+    fn with(mut self, (run, read): (usize, Result<Vec<PathBuf>, ProblemError>)) -> Self {
+        match read {
+            Ok(files) => self.files.extend(files),
+            Err(e) => self.failed.push((run, e.findings)),
+        }
+        self
+    }
+
+    fn and(mut self, mut other: Self) -> Self {
+        self.failed.append(&mut other.failed);
+        self.files.append(&mut other.files);
+        self
     }
 }
 

@@ -11,16 +11,14 @@ use stickslip::io::write_atomically;
 use stickslip::results::Summary;
 
 /// What is known of a run.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Row {
     /// The values of the axes.
     pub values: Vec<String>,
     /// `done`, or why not.
     pub outcome: String,
-    /// Seconds, from reading to the end.
-    pub seconds: f64,
-    /// Increments, iterations, cut-backs and factorisations; none if the model could not be built.
-    pub counts: Option<[usize; 4]>,
+    /// Increments, iterations and cut-backs; none if the model could not be built.
+    pub counts: Option<[usize; 3]>,
     /// The last row of the history.
     pub last: BTreeMap<String, f64>,
 }
@@ -29,8 +27,7 @@ impl Row {
     /// Takes over what a summary says.
     pub fn with_summary(mut self, summary: Option<Summary>) -> Self {
         if let Some(s) = summary {
-            let factorisations = s.solver.factorisations;
-            self.counts = Some([s.increments, s.iterations, s.cutbacks, factorisations]);
+            self.counts = Some([s.increments, s.iterations, s.cutbacks]);
             self.last = s.last;
         }
         self
@@ -50,8 +47,8 @@ pub struct Table {
     text: String,
 }
 
-/// Columns between the outcome and the seconds.
-const COUNTS: [&str; 4] = ["increments", "iterations", "cutbacks", "factorisations"];
+/// Columns between the outcome and the quantities of the history.
+const COUNTS: [&str; 3] = ["increments", "iterations", "cutbacks"];
 
 impl Table {
     /// A table without rows. Without `quantities` it gets all that the histories of its runs have.
@@ -119,7 +116,6 @@ impl Table {
         wanted.extend(self.axes.iter().cloned());
         wanted.push("outcome".into());
         wanted.extend(COUNTS.map(str::to_string));
-        wanted.push("seconds".into());
         if names.get(..wanted.len()) != Some(&wanted) {
             return Err(other("its columns are others"));
         }
@@ -151,15 +147,14 @@ impl Table {
     fn read(&self, cells: &[String], quantities: &[String]) -> Row {
         let at = 1 + self.axes.len();
         let count = |i: usize| cells[at + 1 + i].parse::<usize>().ok();
-        let counts = [count(0), count(1), count(2), count(3)];
-        let numbers = cells[at + 6..].iter().map(|cell| cell.parse::<f64>().ok());
+        let counts = [count(0), count(1), count(2)];
+        let numbers = cells[at + 4..].iter().map(|cell| cell.parse::<f64>().ok());
         let named = quantities.iter().zip(numbers);
         Row {
             values: cells[1..at].to_vec(),
             outcome: cells[at].clone(),
-            seconds: cells[at + 5].parse().unwrap_or_default(),
             counts: match counts {
-                [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
+                [Some(a), Some(b), Some(c)] => Some([a, b, c]),
                 _ => None,
             },
             last: named
@@ -175,10 +170,19 @@ impl Table {
     /// [`Error::Io`].
     pub fn push(&mut self, row: Row) -> Result<(), Error> {
         self.add(row);
+        self.write()
+    }
+
+    /// Writes the table, aside and renamed.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn write(&self) -> Result<(), Error> {
         write_atomically(&self.path, (self.header() + &self.text).as_bytes())
     }
 
-    fn add(&mut self, row: Row) {
+    /// Adds a row.
+    pub fn add(&mut self, row: Row) {
         self.text += &self.line(self.rows.len(), &row);
         self.rows.push(row);
     }
@@ -188,7 +192,6 @@ impl Table {
         names.extend(self.axes.iter().map(String::as_str));
         names.push("outcome");
         names.extend(COUNTS);
-        names.push("seconds");
         names.extend(self.quantities.iter().map(String::as_str));
         line(names.into_iter().map(str::to_string))
     }
@@ -201,7 +204,6 @@ impl Table {
             Some(counts) => cells.extend(counts.map(|n| n.to_string())),
             None => cells.extend(COUNTS.map(|_| String::new())),
         }
-        cells.push(format!("{:.6}", row.seconds));
         let values = self.quantities.iter().map(|name| row.last.get(name));
         cells.extend(values.map(|value| value.map_or(String::new(), |&x| number(x))));
         line(cells.into_iter())
@@ -246,8 +248,7 @@ mod tests {
         Row {
             values: vec![value.into()],
             outcome: outcome.into(),
-            seconds: 0.25,
-            counts: (!last.is_empty()).then_some([2, 7, 0, 1]),
+            counts: (!last.is_empty()).then_some([2, 7, 0]),
             last: last.iter().map(|(n, x)| (n.to_string(), *x)).collect(),
         }
     }
@@ -257,7 +258,7 @@ mod tests {
         let mut table = Table::new("t.csv".into(), strings(&["a.'b,c'"]), &[]);
         assert_eq!(
             text(&table),
-            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,factorisations,seconds\n"
+            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks\n"
         );
         table.add(row("[1,2]", "no \"set\" b, c", &[]));
         table.add_quantities(&strings(&["U", "B"]));
@@ -268,10 +269,10 @@ mod tests {
         table.add(row("4", "done", &[("V", f64::NAN)]));
         assert_eq!(
             text(&table),
-            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,factorisations,seconds,U,B,V\n\
-             1,\"[1,2]\",\"no \"\"set\"\" b, c\",,,,,0.250000,,,\n\
-             2,3,done,2,7,0,1,0.250000,2,-1e-1,\n\
-             3,4,done,2,7,0,1,0.250000,,,NaN\n"
+            "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,U,B,V\n\
+             1,\"[1,2]\",\"no \"\"set\"\" b, c\",,,,,,\n\
+             2,3,done,2,7,0,2,-1e-1,\n\
+             3,4,done,2,7,0,,,NaN\n"
         );
     }
 
@@ -281,8 +282,8 @@ mod tests {
         table.add_quantities(&strings(&["B"]));
         table.add(row("1", "done", &[("B", 1.0), ("U", 5e-324)]));
         let all = text(&table);
-        assert!(all.contains(",seconds,V,U\n"), "{all}");
-        assert!(all.ends_with(",0.250000,,5e-324\n"), "{all}");
+        assert!(all.contains(",cutbacks,V,U\n"), "{all}");
+        assert!(all.ends_with(",0,,5e-324\n"), "{all}");
     }
 
     #[test]

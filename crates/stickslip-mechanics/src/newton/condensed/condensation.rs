@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::file;
 use super::identity::{Identity, Part};
-use super::lease::Lease;
 use super::library::{Library, Reserved, Source};
 use super::substructure::{Seconds, Substructure};
+use crate::lease::Lease;
 use crate::linear::{BlockCsr, Fronts, LinearError, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::dot;

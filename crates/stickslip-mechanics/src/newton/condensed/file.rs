@@ -5,8 +5,8 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use super::identity::{Identity, Part};
-use super::lease;
 use super::substructure::{Floating, Seconds, Substructure};
+use crate::lease;
 use crate::linear::{Compliance, Digest, PartialFactor};
 
 /// Names the format.

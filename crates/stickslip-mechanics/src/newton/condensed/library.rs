@@ -3,9 +3,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::file;
 use super::identity::{Identity, Part};
-use super::lease::{self, Asked, Lease, Waiting};
 use super::substructure::Substructure;
 use crate::error::Error;
+use crate::lease::{self, Asked, Lease, Waiting};
 use crate::linear::{BlockCsr, Fronts};
 use crate::machine::total_memory;
 

@@ -23,7 +23,6 @@ mod condensation;
 mod file;
 mod gap_space;
 mod identity;
-mod lease;
 mod library;
 mod load_patterns;
 mod lu;

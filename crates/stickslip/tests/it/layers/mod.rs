@@ -20,7 +20,15 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
     (
         "stickslip_base",
         &[
-            &["error", "keep", "machine", "math", "references", "registry"],
+            &[
+                "error",
+                "keep",
+                "lease",
+                "machine",
+                "math",
+                "references",
+                "registry",
+            ],
             &["linear"],
         ],
     ),

@@ -1,9 +1,9 @@
-//! Who makes what: a file beside that of a substructure, as long as a process is making it, so that others wait for it instead of doing the same.
+//! Who does what, of processes on several machines: a file that is there as long as a process is at it, so that others wait, or do something else.
 //!
 //! What it relies on holds on network file systems as well: a file is created by one of those who try at once, and a rename is seen as a whole. Locks of the
 //! system are not used. Whoever holds a lease writes another number into it every [`BEAT`]; whoever waits and has seen none for [`PATIENCE`], by a
-//! clock of its own, takes the holder for dead. On the same machine it asks the system instead. Nothing that is read depends on leases: where two make
-//! the same after all, both are right, and the file is that of the one who was last.
+//! clock of its own, takes the holder for dead. On the same machine it asks the system instead. Leases spare work, and keep messages apart; what is written
+//! is whole without them: where two do the same after all, both are right, and the file is that of the one who was last.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Seek, Write};
@@ -22,9 +22,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// What a name ends with under which something is written, or put out of the way.
 const ASIDE: &str = "tmp";
 
-/// The right to make something. It is given back when this is dropped.
+/// The right to do something. It is given back when this is dropped.
 #[derive(Debug)]
-pub(super) struct Lease {
+pub struct Lease {
     path: PathBuf,
     /// Of this lease and no other.
     token: String,
@@ -35,7 +35,7 @@ pub(super) struct Lease {
 
 /// What came of asking for a lease.
 #[derive(Debug)]
-pub(super) enum Asked {
+pub enum Asked {
     /// It was free.
     Ours(Lease),
     /// Another has it.
@@ -45,6 +45,15 @@ pub(super) enum Asked {
 }
 
 impl Lease {
+    /// Who has it, for people: `process 4711 on host`; `None` if nobody has.
+    pub fn holder(path: &Path) -> Option<String> {
+        let text = fs::read(path).ok()?;
+        Some(match Holder::parse(&text) {
+            Some(holder) => format!("process {} on {}", holder.process, holder.host),
+            None => "another process".into(),
+        })
+    }
+
     /// Asks for it.
     pub fn ask(path: &Path) -> Asked {
         let mut file = match OpenOptions::new().write(true).create_new(true).open(path) {
@@ -99,22 +108,29 @@ fn say(file: &mut File, who: &str, count: u64) -> io::Result<()> {
 
 /// Whoever waits for a lease of another.
 #[derive(Debug, Default)]
-pub(super) struct Waiting {
+pub struct Waiting {
     /// What was read last, and since when it has been the same.
     last: Option<(Vec<u8>, Instant)>,
     looks: u32,
 }
 
 impl Waiting {
-    /// Looks once more. A lease whose holder has ended is put out of the way, so that it can be asked for.
-    pub fn look(&mut self, path: &Path) {
+    /// Looks once more: whether the holder is known to live, as it has said so since the look before. A lease whose holder has ended is put out of the way,
+    /// so that it can be asked for.
+    pub fn look(&mut self, path: &Path) -> bool {
         let mut text = Vec::new();
         let read = File::open(path).and_then(|mut file| file.read_to_end(&mut text));
         // What is gone can be asked for.
-        if read.is_ok() && self.is_over(&text, Instant::now()) {
+        if read.is_err() {
+            return false;
+        }
+        let before = self.last.as_ref().map(|(last, _)| *last == text);
+        if self.is_over(&text, Instant::now()) {
             put_away(path, &text);
             self.last = None;
+            return false;
         }
+        before == Some(false) || Holder::parse(&text).is_some_and(|holder| holder.lives())
     }
 
     /// Whether a lease that says this now is that of a process that has ended.
@@ -161,6 +177,8 @@ struct Holder {
     begun: u64,
     /// The machine since its start, and the space in which processes have their numbers; `-` where that is not known.
     place: String,
+    /// The name of the machine.
+    host: String,
 }
 
 impl Holder {
@@ -177,6 +195,7 @@ impl Holder {
             process,
             begun: begun(process).unwrap_or_default(),
             place: place.unwrap_or_else(|| "-".into()),
+            host: host(),
         }
     }
 
@@ -187,19 +206,47 @@ impl Holder {
             process: words.next()?.parse().ok()?,
             begun: words.next()?.parse().ok()?,
             place: words.next()?.to_string(),
+            host: words.next()?.to_string(),
         })
     }
 
-    /// Whether it has ended, as far as the system of this machine can tell.
+    /// Whether the system of this machine can tell of it.
+    fn is_known(&self) -> bool {
+        self.place != "-" && self.begun > 0 && self.place == Holder::this().place
+    }
+
+    /// Whether it has ended, as far as the system can tell.
     fn has_ended(&self) -> bool {
-        let known = self.place != "-" && self.begun > 0;
-        known && self.place == Holder::this().place && begun(self.process) != Some(self.begun)
+        self.is_known() && begun(self.process) != Some(self.begun)
+    }
+
+    /// Whether it goes on, as far as the system can tell.
+    fn lives(&self) -> bool {
+        self.is_known() && !self.has_ended()
     }
 }
 
 impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {} {}", self.process, self.begun, self.place)
+        let Holder {
+            process,
+            begun,
+            place,
+            host,
+        } = self;
+        write!(f, "{process} {begun} {place} {host}")
+    }
+}
+
+/// The name of this machine, in one word.
+fn host() -> String {
+    let name = fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let name = name.or_else(|| std::env::var("HOSTNAME").ok());
+    let name = name.or_else(|| std::env::var("COMPUTERNAME").ok());
+    let word: String = name.unwrap_or_default().split_whitespace().collect();
+    match word.is_empty() {
+        true => "another-machine".into(),
+        false => word,
     }
 }
 
@@ -215,7 +262,7 @@ fn begun(process: u32) -> Option<u64> {
 }
 
 /// A name that no other process takes, on whatever machine.
-pub(super) fn token() -> String {
+pub fn token() -> String {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let now = SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default();
@@ -231,7 +278,7 @@ pub(super) fn token() -> String {
 }
 
 /// Removes what killed processes left of a file that is made anew: only for whoever has the lease.
-pub(super) fn drop_leftovers(path: &Path) {
+pub fn drop_leftovers(path: &Path) {
     let (Some(folder), Some(stem)) = (path.parent(), path.file_stem()) else {
         return;
     };
@@ -246,7 +293,7 @@ pub(super) fn drop_leftovers(path: &Path) {
 }
 
 /// The name under which a file is written before it has its own.
-pub(super) fn aside(path: &Path) -> PathBuf {
+pub fn aside(path: &Path) -> PathBuf {
     path.with_extension(format!("{}.{ASIDE}", token()))
 }
 
@@ -270,8 +317,11 @@ mod tests {
         };
         assert!(matches!(Lease::ask(&path), Asked::Theirs));
         let mut waiting = Waiting::default();
-        waiting.look(&path);
-        assert!(path.exists(), "its holder lives");
+        assert!(waiting.look(&path), "its holder lives");
+        assert!(path.exists());
+        let holder = Lease::holder(&path).unwrap();
+        let me = format!("process {} on ", std::process::id());
+        assert!(holder.starts_with(&me), "{holder}");
         drop(lease);
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
         assert!(matches!(
@@ -303,13 +353,13 @@ mod tests {
         assert!(!me.has_ended());
         me.begun += 1;
         assert!(me.has_ended(), "another process has this number now");
-        let away = b"1 5 elsewhere/7 token 000000000000\n";
+        let away = b"1 5 elsewhere/7 far-away token 000000000000\n";
         let mut waiting = Waiting::default();
         let now = Instant::now();
         assert!(!waiting.is_over(away, now));
         assert!(!waiting.is_over(away, now + PATIENCE / 2));
         // It beats.
-        let beat = b"1 5 elsewhere/7 token 000000000001\n";
+        let beat = b"1 5 elsewhere/7 far-away token 000000000001\n";
         let later = now + PATIENCE + BEAT;
         assert!(!waiting.is_over(beat, later));
         assert!(!waiting.is_over(beat, later + PATIENCE));
@@ -326,7 +376,7 @@ mod tests {
         dead.begun += 1;
         let text = format!("{dead} token 000000000000\n");
         fs::write(&path, &text).unwrap();
-        Waiting::default().look(&path);
+        assert!(!Waiting::default().look(&path));
         assert!(!path.exists());
         // Somebody was quicker: what is there is no longer what was found dead.
         fs::write(&path, "new").unwrap();
@@ -355,7 +405,10 @@ mod tests {
         drop_leftovers(&path);
         let mut left: Vec<_> = fs::read_dir(&folder).unwrap().flatten().collect();
         left.sort_by_key(std::fs::DirEntry::file_name);
-        assert!(left.iter().all(|e| kept.iter().any(|k| e.file_name() == *k)));
+        assert!(
+            left.iter()
+                .all(|e| kept.iter().any(|k| e.file_name() == *k))
+        );
         assert_eq!(left.len(), kept.len());
         fs::remove_dir_all(folder).unwrap();
     }
