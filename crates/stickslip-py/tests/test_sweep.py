@@ -42,3 +42,14 @@ def test_side_by_side_and_own_columns(problem):
 def test_values_are_checked_before_the_first_run(problem):
     with pytest.raises(stickslip.ProblemError):
         stickslip.sweep(problem, {MU: [0.1, "much"]})
+
+
+def test_parts_have_all_runs_once(problem):
+    axes = {MU: [0.1, 0.2, 0.3], PRESS: [-1e-3]}
+    parts = [stickslip.sweep(problem, axes, shard=(part, 2)) for part in (1, 2)]
+    assert [[row["run"] for row in rows] for rows in parts] == [[1, 3], [2]]
+    together = sorted((row for rows in parts for row in rows), key=lambda row: row["run"])
+    whole = stickslip.sweep(problem, axes)
+    assert [{k: v for k, v in row.items() if k != "run"} for row in together] == list(whole)
+    with pytest.raises(ValueError, match="counted from 1 to 2"):
+        stickslip.sweep(problem, axes, shard=(3, 2))

@@ -22,6 +22,7 @@ def sweep(
     callback: Optional[Callable[[dict[str, Any], Simulation], Any]] = None,
     laws: Optional[Laws] = None,
     progress: bool = False,
+    shard: Optional[tuple[int, int]] = None,
 ) -> Rows:
     """Runs a problem for many values; bodies that stay the same are factored once.
 
@@ -39,6 +40,9 @@ def sweep(
         See `Problem.build`.
     progress
         Shows a bar, see `Simulation.run`.
+    shard
+        ``(2, 4)`` makes the second of four parts, for one of several processes: runs 2, 6, 10, … of the sweep, as `stickslip sweep --shard 2/4` does.
+        Rows then have their ``run``, counted from 1, by which those of all parts are brought together.
 
     Returns
     -------
@@ -52,11 +56,18 @@ def sweep(
     runs = list(zip(*values) if side_by_side else itertools.product(*values))
     # All values are checked before the first run.
     problems = [problem.with_values(dict(zip(axes, run))) for run in runs]
+    numbers = range(1, len(runs) + 1)
+    if shard is not None:
+        part, of = shard
+        if not 1 <= part <= of:
+            raise ValueError(f"shard ({part}, {of}): parts are counted from 1 to {of}")
+        numbers, runs, problems = (list(all)[part - 1 :: of] for all in (numbers, runs, problems))
     factors = _core.Factors()
     rows = Rows()
     bar = _progress(progress, "sweep")
-    for run, variant in zip(runs, problems):
-        row: dict[str, Any] = dict(zip(axes, run))
+    for number, run, variant in zip(numbers, runs, problems):
+        row: dict[str, Any] = {} if shard is None else {"run": number}
+        row.update(zip(axes, run))
         simulation = None
         try:
             simulation = variant.build(laws, factors)
