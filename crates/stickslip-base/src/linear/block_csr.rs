@@ -303,6 +303,55 @@ impl BlockCsr {
         }
     }
 
+    /// The same of several vectors: each product has the bits that [`mul`](BlockCsr::mul) gives, and the matrix is read once for [`TOGETHER`] of them.
+    pub fn mul_all(&self, all: &[&[f64]]) -> Vec<Vec<f64>> {
+        let groups = all.chunks(TOGETHER);
+        groups
+            .flat_map(|group| match (group, self.block) {
+                (&[x], _) => {
+                    let mut y = vec![0.0; x.len()];
+                    self.mul(x, &mut y);
+                    vec![y]
+                }
+                (_, 2) => self.mul_group::<2>(group),
+                _ => self.mul_group::<3>(group),
+            })
+            .collect()
+    }
+
+    fn mul_group<const B: usize>(&self, group: &[&[f64]]) -> Vec<Vec<f64>> {
+        let rows = self.rows();
+        assert!(group.iter().all(|x| x.len() == rows), "length of x");
+        let mut x = vec![[0.0; TOGETHER]; rows];
+        for (k, vector) in group.iter().enumerate() {
+            x.iter_mut().zip(*vector).for_each(|(x, v)| x[k] = *v);
+        }
+        let mut y = vec![[0.0; TOGETHER]; rows];
+        y.par_chunks_mut(ROWS_PER_TASK * B)
+            .enumerate()
+            .for_each(|(task, part)| {
+                for (i, target) in part.chunks_exact_mut(B).enumerate() {
+                    let row = task * ROWS_PER_TASK + i;
+                    let mut sum = [[0.0; TOGETHER]; B];
+                    let columns = self.pattern.row(row);
+                    let blocks = self.row_blocks(row).chunks_exact(B * B);
+                    for (&column, block) in columns.iter().zip(blocks) {
+                        let x = &x[column as usize * B..][..B];
+                        for (r, sum) in sum.iter_mut().enumerate() {
+                            for (c, x) in x.iter().enumerate() {
+                                for (s, x) in sum.iter_mut().zip(x) {
+                                    *s += block[r * B + c] * x;
+                                }
+                            }
+                        }
+                    }
+                    target.copy_from_slice(&sum);
+                }
+            });
+        let of = |k: usize| y.iter().map(|y| y[k]).collect();
+        (0..group.len()).map(of).collect()
+    }
+
     fn mul_blocks<const B: usize>(&self, x: &[f64], y: &mut [f64]) {
         y.par_chunks_mut(ROWS_PER_TASK * B)
             .enumerate()
@@ -326,10 +375,13 @@ impl BlockCsr {
     }
 }
 
+/// Vectors that are multiplied together.
+const TOGETHER: usize = 8;
+
 #[cfg(test)]
 mod tests {
     use super::super::testing::{dense_of, grid, noise};
-    use super::BlockCsr;
+    use super::{BlockCsr, TOGETHER};
 
     #[test]
     fn groups_add_up_and_the_product_matches_dense() {
@@ -369,6 +421,21 @@ mod tests {
             for i in 0..n {
                 let expected: f64 = (0..n).map(|j| dense[i * n + j] * x[j]).sum();
                 assert!((y[i] - expected).abs() < 1e-14);
+            }
+            // Several at a time have the bits of one.
+            let many: Vec<Vec<f64>> = (0..TOGETHER + 3).map(|_| noise(&mut seed, n)).collect();
+            for count in [1, 2, TOGETHER, TOGETHER + 1, TOGETHER + 3] {
+                let some: Vec<&[f64]> = many[..count].iter().map(Vec::as_slice).collect();
+                let products = a.mul_all(&some);
+                assert_eq!(products.len(), count);
+                for (x, product) in some.iter().zip(products) {
+                    a.mul(x, &mut y);
+                    assert!(
+                        y.iter()
+                            .map(|y| y.to_bits())
+                            .eq(product.iter().map(|p| p.to_bits()))
+                    );
+                }
             }
 
             let mut b = a.zeros_like();

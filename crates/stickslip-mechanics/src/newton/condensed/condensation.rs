@@ -409,19 +409,17 @@ impl Condensation {
     /// Sweeps forces over all dofs forward. Returns what is left of them at the candidates, and in the interiors what
     /// [`recover`](Condensation::recover) needs of them.
     pub fn sweep(&self, forces: &[f64]) -> Swept {
-        let swept: Vec<(Vec<f64>, Vec<f64>)> = self
-            .parts
-            .par_iter()
-            .map(|part| {
-                let fronts = part.partial.fronts();
-                let take = |dofs: &[u32]| -> Vec<f64> {
-                    dofs.iter().map(|&d| forces[d as usize]).collect()
-                };
-                let (mut interior, mut root) = (take(fronts.interior()), take(fronts.root()));
-                part.partial.forward(&mut interior, &mut root, 1);
-                (root, interior)
-            })
-            .collect();
+        self.sweep_with(|part| part.sweep(forces))
+    }
+
+    /// The same of forces that other runs with the same bodies are likely to have, too.
+    pub fn sweep_pattern(&self, forces: &[f64]) -> Swept {
+        self.sweep_with(|part| part.sweep_pattern(forces))
+    }
+
+    fn sweep_with(&self, sweep: impl Fn(&Substructure) -> (Vec<f64>, Vec<f64>) + Sync) -> Swept {
+        let swept: Vec<(Vec<f64>, Vec<f64>)> =
+            self.parts.par_iter().map(|part| sweep(part)).collect();
         let (roots, interiors): (Vec<_>, Vec<_>) = swept.into_iter().unzip();
         (roots.concat(), interiors)
     }

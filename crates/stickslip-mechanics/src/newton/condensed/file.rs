@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use super::identity::{Identity, Part};
-use super::substructure::{Floating, Seconds, Substructure};
+use super::substructure::{Floating, Seconds, Substructure, SweptPatterns};
 use crate::lease;
 use crate::linear::{Compliance, Digest, PartialFactor};
 
@@ -186,6 +186,7 @@ fn decode(input: &mut Reader, identity: Identity, part: &Part) -> io::Result<Sub
         compliance,
         floating,
         seconds: Seconds::default(),
+        swept: SweptPatterns::default(),
     })
 }
 

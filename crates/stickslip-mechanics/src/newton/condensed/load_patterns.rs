@@ -78,13 +78,13 @@ impl LoadPatterns {
         LoadPatterns {
             loads: loads
                 .map(|unit| {
-                    let swept = condensation.sweep(&unit);
+                    let swept = condensation.sweep_pattern(&unit);
                     pattern((unit, swept))
                 })
                 .collect(),
             motions: motions
                 .map(|unit| {
-                    let swept = condensation.sweep(&resisted(matrix, &unit));
+                    let swept = condensation.sweep_pattern(&resisted(matrix, &unit));
                     pattern((unit, swept))
                 })
                 .collect(),
@@ -101,10 +101,10 @@ impl LoadPatterns {
     ) -> Amplitudes {
         let mut others = Vec::new();
         let loads = resolve(&mut self.loads, &mut others, external, &mut |pattern| {
-            condensation.sweep(pattern)
+            condensation.sweep_pattern(pattern)
         });
         let motions = resolve(&mut self.motions, &mut others, prescribed, &mut |pattern| {
-            condensation.sweep(&resisted(matrix, pattern))
+            condensation.sweep_pattern(&resisted(matrix, pattern))
         });
         Amplitudes {
             loads,

@@ -1,10 +1,10 @@
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use faer::Mat;
 
 use super::identity::Identity;
-use crate::linear::{BlockCsr, Compliance, Fronts, LinearError, PartialFactor, Workspace};
+use crate::linear::{BlockCsr, Compliance, Digest, Fronts, LinearError, PartialFactor, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::{dot, norm};
 
@@ -34,7 +34,19 @@ pub struct Substructure {
     pub floating: Option<Floating>,
     /// Times of the factorisation.
     pub seconds: Seconds,
+    /// Load patterns that were swept forward.
+    pub(super) swept: SweptPatterns,
 }
+
+/// What is left of forces at the kept dofs, and what the interior keeps of them.
+type SweptPart = (Vec<f64>, Vec<f64>);
+
+/// Load patterns that were swept through the factor, by their digest, the last ones: runs with the same body mostly have the same loads.
+#[derive(Debug, Default)]
+pub(super) struct SweptPatterns(Mutex<Vec<([u64; 2], Arc<SweptPart>)>>);
+
+/// Most patterns that are kept with a factor. Each takes as much as a vector by dof.
+const MOST_SWEPT: usize = 16;
 
 /// Rigid motions of a body, or of each of its pieces, that next to nothing holds.
 #[derive(Debug)]
@@ -121,7 +133,47 @@ impl Substructure {
                 factor,
                 condense: started.elapsed().as_secs_f64(),
             },
+            swept: SweptPatterns::default(),
         })
+    }
+
+    /// Sweeps forces over all dofs forward: what is left of them at the kept dofs, and what the interior keeps.
+    pub(super) fn sweep(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut root, mut interior) = self.own(forces);
+        self.partial.forward(&mut interior, &mut root, 1);
+        (root, interior)
+    }
+
+    /// The same of forces that other runs are likely to have, too.
+    pub(super) fn sweep_pattern(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut root, mut interior) = self.own(forces);
+        let mut digest = Digest::default();
+        digest.floats(&root);
+        digest.floats(&interior);
+        let digest = digest.finish();
+        let known = || self.swept.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known()
+            .iter()
+            .find(|(of, _)| *of == digest)
+            .map(|(_, swept)| Arc::clone(swept));
+        if let Some(found) = found {
+            return SweptPart::clone(&found);
+        }
+        self.partial.forward(&mut interior, &mut root, 1);
+        let swept = (root, interior);
+        let mut known = known();
+        if known.len() == MOST_SWEPT {
+            known.remove(0);
+        }
+        known.push((digest, Arc::new(swept.clone())));
+        swept
+    }
+
+    /// Forces at the kept dofs, and in the interior.
+    fn own(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let take = |dofs: &[u32]| dofs.iter().map(|&d| forces[d as usize]).collect();
+        let fronts = self.partial.fronts();
+        (take(fronts.root()), take(fronts.interior()))
     }
 
     /// About the memory held `[bytes]`, with the compliance in single precision that Newton's method makes.

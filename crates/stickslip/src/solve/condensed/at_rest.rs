@@ -142,8 +142,11 @@ impl Solver {
         }
         self.seen.tell(&Work::Recovering(owners.len()));
         condensed.condensation.recover(swept, &at, &mut all);
-        for (accepted, u) in owners.into_iter().zip(all) {
+        let states: Vec<&[f64]> = all.iter().map(Vec::as_slice).collect();
+        let internal = self.stiffness.mul_all(&states);
+        for ((accepted, u), internal) in owners.into_iter().zip(all).zip(internal) {
             accepted.state.u = u;
+            accepted.internal = Some(internal);
         }
         self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
     }
@@ -164,7 +167,8 @@ impl Solver {
             accepted.contact[dof] = force;
         }
         let u = &accepted.state.u;
-        let internal = inertia::times(&self.stiffness, u);
+        let known = accepted.internal.take();
+        let internal = known.unwrap_or_else(|| inertia::times(&self.stiffness, u));
         let fixed = frame.constraints(model, t).fixed;
         let both = accepted.contact.iter().zip(&accepted.external);
         let forces = internal.iter().zip(both);
