@@ -6,6 +6,7 @@ mod chatter;
 mod decks;
 mod digests;
 mod dist;
+mod engine;
 mod examples;
 mod fuzz;
 mod kill;
@@ -27,6 +28,9 @@ tasks:
                             writes their numbers, with --full those that take minutes too
   browser [--if-possible]   open reports of two examples in headless Chromium and use them; installs Chromium (apt-get) and
                             playwright-core (npm) where it may. With --if-possible it says NOT RUN where they cannot be had
+  engine mumps [--if-possible]
+                            compile engines/mumps into target/engines, where `solver.engine.mumps` finds it; needs mpicc and MUMPS, which it
+                            installs (apt-get) where it may. With --if-possible it says NOT RUN where they cannot be had
   schema                    write stickslip.schema.json, the JSON schema of problem files
   rooms                     draw the picture of the rooms in ARCHITECTURE.md from the imports of the code
   dist                      build a static binary and pack it with completions, manual pages, schema and licences into dist/
@@ -69,6 +73,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, [])) if task == "schema" => published::schema(),
         Some((task, [])) if task == "rooms" => published::rooms(),
+        Some((task, what)) if task == "engine" => engine::build(what),
         Some((task, [])) if task == "dist" => dist::pack().map(|_| ()),
         Some((task, what)) if task == "release" => release::run(what),
         Some((task, what)) if task == "book" => book::build(what),

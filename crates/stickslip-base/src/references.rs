@@ -39,6 +39,7 @@ references! {
     hughes_1980: "T. J. R. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, International Journal for Numerical Methods in Engineering 15 (1980) 1413-1418.",
     karypis_kumar_1998: "G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM Journal on Scientific Computing 20 (1998) 359-392.",
     duff_reid_1983: "I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Transactions on Mathematical Software 9 (1983) 302-325.",
+    amestoy_2001: "P. R. Amestoy, I. S. Duff, J.-Y. L'Excellent, J. Koster, A fully asynchronous multifrontal solver using distributed dynamic scheduling, SIAM Journal on Matrix Analysis and Applications 23 (2001) 15-41.",
     liu_1992: "J. W. H. Liu, The multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34 (1992) 82-109.",
     saad_schultz_1986: "Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems, SIAM Journal on Scientific and Statistical Computing 7 (1986) 856-869.",
     saad_1993: "Y. Saad, A flexible inner-outer preconditioned GMRES algorithm, SIAM Journal on Scientific Computing 14 (1993) 461-469.",

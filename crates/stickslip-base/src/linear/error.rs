@@ -23,6 +23,8 @@ pub enum LinearError {
         /// What elimination leaves of the diagonal, relative to it \[1\].
         ratio: f64,
     },
+    /// The matrix of a body without its kept dofs is singular or indefinite, up to rounding; where, is not known.
+    Indefinite,
     /// An extra block couples these two dofs, which the symbolic analysis did not foresee: analyse again.
     NotAnalysed {
         /// The two dofs.
@@ -32,6 +34,13 @@ pub enum LinearError {
     OutOfMemory {
         /// Its size \[bytes\], zero if not known.
         bytes: u64,
+    },
+    /// The engine cannot be used, or cannot go on.
+    Engine {
+        /// In a sentence.
+        message: String,
+        /// What to try.
+        help: String,
     },
 }
 
@@ -55,7 +64,9 @@ impl LinearError {
             | LinearError::NotPositive { dof }
             | LinearError::Singular { dof, .. } => Some(dof),
             LinearError::NotAnalysed { dofs } => Some(dofs[0]),
-            LinearError::OutOfMemory { .. } => None,
+            LinearError::Indefinite
+            | LinearError::OutOfMemory { .. }
+            | LinearError::Engine { .. } => None,
         }
     }
 }
@@ -74,10 +85,15 @@ impl fmt::Display for LinearError {
                 f,
                 "the stiffness is singular: elimination leaves {ratio:.1e} of the diagonal at dof {dof}"
             ),
+            LinearError::Indefinite => write!(
+                f,
+                "the stiffness is singular or not positive definite inside a body"
+            ),
             LinearError::NotAnalysed { dofs: [i, j] } => write!(
                 f,
                 "dofs {i} and {j} are coupled outside the analysed pattern"
             ),
+            LinearError::Engine { message, .. } => write!(f, "{message}"),
             LinearError::OutOfMemory { bytes: 0 } => {
                 write!(f, "the factorisation does not fit into memory")
             }

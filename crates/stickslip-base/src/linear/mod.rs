@@ -7,6 +7,7 @@
 mod block_csr;
 mod compliance;
 mod digest;
+mod engine;
 mod error;
 mod factor;
 mod gmres;
@@ -23,11 +24,15 @@ mod testing;
 pub use block_csr::BlockCsr;
 pub use compliance::Compliance;
 pub use digest::Digest;
+pub use engine::{
+    Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions, Ordered,
+    Split,
+};
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, gmres};
 pub use isotropic::Isotropic;
-pub use multifrontal::{Fronts, PartialFactor, Workspace};
+pub use multifrontal::{Fronts, Numbers, PartialFactor, Workspace};
 pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};

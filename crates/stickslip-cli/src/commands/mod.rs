@@ -20,8 +20,11 @@ pub mod sweep;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use clap::builder::PossibleValuesParser;
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
+use stickslip::newton::condensed::engine::EngineModel;
+use stickslip::registry::Family;
 
 use crate::failure::Failure;
 
@@ -40,6 +43,31 @@ pub fn use_threads(threads: Option<usize>, quiet: bool) {
     // A second run in one process (tests, Python) has the pool of the first. A system that gives no more threads still has this one.
     if pool().num_threads(count).build_global().is_err() {
         let _ = pool().num_threads(1).use_current_thread().build_global();
+    }
+}
+
+/// Who factors bodies.
+#[derive(Debug, Default, clap::Args)]
+pub struct EngineArguments {
+    /// Who factors the bodies, instead of what the problem file says. Other keys of an engine by `--set`.
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(EngineModel::KINDS))]
+    engine: Option<String>,
+    /// Processes over which `mumps` spreads the factor of a body.
+    #[arg(long, value_name = "N")]
+    ranks: Option<usize>,
+}
+
+impl EngineArguments {
+    /// The same as changes of values, which come before those that are given as such.
+    pub fn overrides(&self, also: &[String]) -> Vec<String> {
+        let ranks = self.ranks.map(|n| format!("ranks = {n}"));
+        let ranks = ranks.unwrap_or_default();
+        let own = match (&self.engine, self.ranks) {
+            (Some(engine), _) => Some(format!("solver.engine={{ {engine} = {{ {ranks} }} }}")),
+            (None, Some(n)) => Some(format!("solver.engine.mumps.ranks={n}")),
+            (None, None) => None,
+        };
+        own.into_iter().chain(also.iter().cloned()).collect()
     }
 }
 

@@ -12,7 +12,7 @@ use stickslip::results::{
 use stickslip::run::Simulation;
 use stickslip_deck::{Printer, Status};
 
-use super::{library, use_threads};
+use super::{EngineArguments, library, use_threads};
 
 use crate::failure::{Failure, Outcome};
 use crate::input::Input;
@@ -36,6 +36,8 @@ pub struct Arguments {
     /// interfaces and steps nothing has to be factored again. What is in it can be deleted at any time.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
+    #[command(flatten)]
+    engine: EngineArguments,
     /// Write an increment that nothing solves to DIR as a friction problem, which `stickslip friction` reads.
     #[arg(long, value_name = "DIR")]
     dump_failures: Option<PathBuf>,
@@ -51,6 +53,7 @@ impl Arguments {
             output: Some(output.to_path_buf()),
             set: Vec::new(),
             cache: None,
+            engine: EngineArguments::default(),
             dump_failures: None,
             manner,
         }
@@ -125,7 +128,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let voice = Voice::new();
     voice.does("reading and assembling");
     let heartbeat = manner.heartbeat(&voice);
-    let input = Input::open(&arguments.file, &arguments.set)?;
+    let overrides = arguments.engine.overrides(&arguments.set);
+    let input = Input::open(&arguments.file, &overrides)?;
     let setup = input.build()?;
     let directory = arguments
         .output
@@ -142,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         crate::progress::say(&sentence(&warning));
     }
     let stem = stem(&arguments.file);
-    let source = source(&input, arguments)?;
+    let source = source(&input, arguments, overrides)?;
     let claim = claim(&input, &stem, source);
     let files = ResultFiles::new(&directory, &claim)?;
     for note in files.notes() {
@@ -165,7 +169,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// What the run was called with, for its checkpoints.
-fn source(input: &Input, arguments: &Arguments) -> Result<Source, Failure> {
+fn source(input: &Input, arguments: &Arguments, overrides: Vec<String>) -> Result<Source, Failure> {
     let name = |path: &Path| {
         let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
         whole.to_string_lossy().into_owned()
@@ -177,7 +181,7 @@ fn source(input: &Input, arguments: &Arguments) -> Result<Source, Failure> {
     Ok(Source {
         problem: input.problem.to_toml().map_err(Error::Problem)?,
         file: name(&arguments.file),
-        overrides: arguments.set.clone(),
+        overrides,
         inputs,
         cache: arguments.cache.as_deref().map(name),
         lent: Lent::default(),
@@ -200,6 +204,7 @@ pub fn claim(input: &Input, stem: &str, source: Source) -> Claim {
         },
         frd: (input.deck.as_ref()).map_or_else(FrdPlan::default, |deck| deck.frd(stem)),
         source: Some(source),
+        ..Claim::default()
     }
 }
 

@@ -4,15 +4,22 @@ use crate::linear::LinearError;
 use crate::system::{Cause, StepFailure};
 
 /// What a linear solver complains of.
-pub(super) fn describe(error: LinearError) -> StepFailure {
+pub fn describe(error: LinearError) -> StepFailure {
     let cause = match error {
-        LinearError::Singular { .. } | LinearError::NotPositive { .. } => Cause::Singular,
+        LinearError::Singular { .. }
+        | LinearError::NotPositive { .. }
+        | LinearError::Indefinite => Cause::Singular,
+        LinearError::Engine { .. } => Cause::Engine,
         LinearError::NotFinite { .. } => Cause::NotFinite,
         LinearError::OutOfMemory { .. } => Cause::Memory,
         _ => Cause::LinearSolver,
     };
     StepFailure {
         dof: error.dof(),
+        help: match &error {
+            LinearError::Engine { help, .. } => Some(help.clone()),
+            _ => None,
+        },
         ..StepFailure::new(cause, error.to_string())
     }
 }

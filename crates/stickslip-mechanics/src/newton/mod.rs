@@ -52,6 +52,7 @@ mod system;
 
 pub use bulk::Bulk;
 pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};
+pub use failure::describe;
 pub use grids::BodyPoints;
 pub use linearised::Linearised;
 pub use operator::Operator;

@@ -13,10 +13,11 @@ use crate::friction::FrictionProblem;
 use crate::system::{Cause, State, StepFailure};
 
 /// Failures after which the other way is not tried.
-const HOPELESS: [Cause; 4] = [
+const HOPELESS: [Cause; 5] = [
     Cause::NotFinite,
     Cause::Reach,
     Cause::Memory,
+    Cause::Engine,
     Cause::Interrupted,
 ];
 

@@ -25,6 +25,8 @@ pub enum Cause {
     Memory,
     /// The analysis was asked to stop.
     Interrupted,
+    /// The engine that keeps the factors cannot go on.
+    Engine,
 }
 
 /// A place to look at.
@@ -150,7 +152,8 @@ crate::keep!(Cause[
     Reach,
     Event,
     Memory,
-    Interrupted
+    Interrupted,
+    Engine
 ]);
 crate::keep!(Culprit {
     place,

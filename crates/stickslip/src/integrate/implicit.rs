@@ -227,6 +227,9 @@ impl Implicit {
     ) -> Result<(Converged, Vec<f64>), StepFailure> {
         let fixed = constraints.fixed.clone();
         let condensed = solver.condense_in_motion(model, frame, contact, &fixed);
+        if let Some(broken) = solver.condenser.broken() {
+            return Err(broken.clone());
+        }
         let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
         (contact.couplings).fit(diagonal, &fixed, &model.links);
         let origin = Origin {

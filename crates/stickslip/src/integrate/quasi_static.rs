@@ -24,6 +24,9 @@ impl Integrator for QuasiStatic {
         solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
+        if let Some(broken) = solver.condenser.broken() {
+            return Err(broken.clone());
+        }
         let external = frame.external(model, trial.to);
         let constraints = frame.constraints(model, trial.to);
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);

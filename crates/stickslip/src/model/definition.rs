@@ -11,6 +11,7 @@ use crate::contact::interface::Change;
 use crate::io::frd::Encoding;
 use crate::math::{Mat3, Vec3};
 use crate::mesh::Mesh;
+use crate::newton::condensed::engine::EngineModel;
 use crate::newton::{BodyPoints, Settings};
 use crate::system::{Dofs, Fields, Links, Motion, Schedule, State};
 use crate::time::Increments;
@@ -55,6 +56,8 @@ pub struct Model {
     pub settings: Settings,
     /// How its systems are solved.
     pub method: Solution,
+    /// Who factors condensed bodies.
+    pub engine: EngineModel,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,
     /// Largest residual of the energy balance, relative to the energies in play, that counts as good.

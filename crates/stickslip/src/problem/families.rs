@@ -14,6 +14,7 @@ use crate::contact::law::slip::SlipModel;
 use crate::contact::obstacle::ObstacleShape;
 use crate::material::Material;
 use crate::mesh::generators::Generator;
+use crate::newton::condensed::engine::EngineModel;
 use crate::registry::Family;
 use crate::time::scheme::SchemeModel;
 
@@ -76,5 +77,6 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<TemperatureKind>("Temperature", "[temperature.NAME.KIND]"),
         listing::<CouplingKind>("Coupling", "[coupling.NAME.KIND]"),
         listing::<SchemeModel>("SchemeModel", "[step.dynamic] scheme.KIND"),
+        listing::<EngineModel>("EngineModel", "[solver] engine.KIND"),
     ]
 }

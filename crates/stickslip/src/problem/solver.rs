@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::Solution;
+use crate::newton::condensed::engine::EngineModel;
 
 /// `[solver]`: when an increment counts as solved, and how equations are solved. All dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,8 +30,16 @@ pub struct Solver {
     pub follow_loose_bodies: bool,
     /// How the systems of Newton's method are solved.
     pub method: Solution,
+    /// Who factors condensed bodies, and keeps the factors.
+    #[serde(skip_serializing_if = "is_usual")]
+    pub engine: EngineModel,
     /// Systems of linear equations.
     pub linear: Linear,
+}
+
+/// What a problem file need not say.
+fn is_usual(engine: &EngineModel) -> bool {
+    *engine == EngineModel::default()
 }
 
 impl Default for Solver {
@@ -44,6 +53,7 @@ impl Default for Solver {
             energy_limit: 0.01,
             follow_loose_bodies: true,
             method: Solution::default(),
+            engine: EngineModel::default(),
             linear: Linear::default(),
         }
     }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::assess::doctor::Finding;
 use crate::assess::quality::{Gate, InterfaceSummary};
 use crate::error::Error;
+use crate::linear::EngineReport;
 use crate::machine::peak_memory;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -32,6 +33,8 @@ pub struct Summary {
     pub method: String,
     /// Why so.
     pub method_reason: String,
+    /// Who factored condensed bodies.
+    pub engine: EngineSummary,
     /// What else a user should know.
     pub notes: Vec<String>,
     /// Size of the problem.
@@ -103,6 +106,37 @@ const OF_SHARING: &[&str] = &[
     "flops",
     "linear",
 ];
+
+/// Who factored condensed bodies.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EngineSummary {
+    /// Its key in the problem file; empty if nothing was condensed.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// Processes that factored.
+    pub ranks: usize,
+    /// Whether the same problem gives the same bits again, which digests of results rely on.
+    pub reproducible: bool,
+    /// Largest memory of one of the processes `[bytes]`, and the sum over all of them; 0 where it is this one.
+    pub memory_of_rank: u64,
+    /// See `memory-of-rank`.
+    pub memory_of_all: u64,
+}
+
+impl From<EngineReport> for EngineSummary {
+    fn from(report: EngineReport) -> Self {
+        EngineSummary {
+            name: report.name.into(),
+            version: report.version,
+            ranks: report.ranks,
+            reproducible: report.reproducible,
+            memory_of_rank: report.memory_of_rank,
+            memory_of_all: report.memory_of_all,
+        }
+    }
+}
 
 /// How far a run has come.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -244,6 +278,7 @@ crate::keep!(Summary {
     findings,
     method,
     method_reason,
+    engine,
     notes,
     size,
     increments,
@@ -278,6 +313,14 @@ crate::keep!(FallbackSummary {
     from,
     to,
     tried
+});
+crate::keep!(EngineSummary {
+    name,
+    version,
+    ranks,
+    reproducible,
+    memory_of_rank,
+    memory_of_all
 });
 crate::keep!(Size {
     points,

@@ -110,6 +110,9 @@ impl Simulation {
             let free = view.explain_free(&failure, trial);
             return free.unwrap_or_else(|| diagnosis::explain_singular(&view, &failure));
         }
+        if failure.cause == Cause::Engine {
+            return failure.at(t);
+        }
         if failure.cause == Cause::Memory {
             let help = Some(doctor::MORE_MEMORY.to_string());
             return StepFailure { help, ..failure }.at(t);

@@ -13,7 +13,7 @@ use crate::newton::Progress;
 use crate::results::history;
 use crate::results::observer::{Event, Observer};
 use crate::solve::choice::TOGETHER;
-use crate::system::{State, StepFailure};
+use crate::system::{Cause, State, StepFailure};
 
 impl Simulation {
     /// Goes on from an accepted increment: at once, or with others in one sweep.
@@ -100,6 +100,10 @@ impl Simulation {
             let before = self.exchange((histories, couplings));
             if let Err(failure) = self.complete(&mut one) {
                 self.exchange(one.before.take().unwrap_or(before));
+                if failure.cause == Cause::Engine {
+                    self.pending.clear();
+                    return Err(failure.at(self.frame.state.t).into());
+                }
                 return Err(self.takes_back(&one, failure));
             }
             outcome = self.report(one, observers);
@@ -212,6 +216,9 @@ impl Simulation {
         let log = &mut self.solver.log;
         self.summary.method = log.method.into();
         self.summary.method_reason.clone_from(&log.reason);
+        if let Some(engine) = &log.engine {
+            self.summary.engine = engine.report().into();
+        }
         for note in std::mem::take(&mut log.notes) {
             self.tell(observers, || Event::Note(&note))?;
             // Which method was chosen and why has a place of its own in the summary.

@@ -306,6 +306,12 @@ impl Simulation {
                 self.steps.running = Some(running);
                 return Err(self.stop(observers));
             }
+            Err(failure) if failure.cause == Cause::Engine => {
+                // Interiors of those before it cannot be found any more.
+                self.pending.clear();
+                self.examine(&trial, (running.attempt, counters), &failure);
+                return Err(self.give_up(failure, &trial).into());
+            }
             // With half the increment it takes the same memory.
             Err(failure) if failure.cause == Cause::Memory => {
                 self.flush(observers)?;

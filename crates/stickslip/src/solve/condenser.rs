@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::model::course::Course;
 use crate::newton::condensed::{Amplitudes, Condensation, Library, LoadPatterns, ReducedSystem};
-use crate::system::State;
+use crate::system::{State, StepFailure};
 
 /// What is known of bodies without their interiors.
 pub(crate) struct Condenser {
@@ -19,6 +19,8 @@ pub(crate) struct Condenser {
     pub(super) at_rest: Option<Condensed>,
     /// Those of increments in motion, the last used last.
     pub(super) moving: Vec<Moving>,
+    /// Why the engine cannot go on: increments are not even tried any more.
+    pub(super) broken: Option<StepFailure>,
     /// Largest norm of the forces in play at any recovered increment `[N]`.
     pub(super) largest_forces: f64,
 }
@@ -85,6 +87,7 @@ impl Condenser {
             decided: None,
             at_rest: None,
             moving: Vec::new(),
+            broken: None,
             largest_forces: 0.0,
         }
     }
@@ -92,6 +95,11 @@ impl Condenser {
     /// The bodies of a quasi-static step; `None` where the sparse matrix serves it.
     pub fn at_rest(&self) -> Option<&Condensed> {
         self.at_rest.as_ref()
+    }
+
+    /// Why the engine cannot go on, if it cannot.
+    pub fn broken(&self) -> Option<&StepFailure> {
+        self.broken.as_ref()
     }
 
     /// Nothing is condensed in quasi-static steps until it is made anew.

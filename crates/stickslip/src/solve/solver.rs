@@ -8,7 +8,7 @@ use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::{Inertia, times};
 use super::work::Seen;
-use crate::linear::{BlockCsr, Digest};
+use crate::linear::{BlockCsr, Digest, Engine};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Body, Model, Solution, Step};
@@ -51,6 +51,8 @@ pub(crate) struct Log {
     pub method: &'static str,
     /// Why so.
     pub reason: String,
+    /// Who factors condensed bodies.
+    pub engine: Option<Arc<dyn Engine>>,
 }
 
 impl Solver {
@@ -61,7 +63,10 @@ impl Solver {
             diagonal: stiffness.diagonal(),
             stiffness,
             newton: Newton::new(model.settings),
-            method: model.method,
+            method: match (model.method, model.engine.as_dyn().condenses()) {
+                (Solution::Automatic, true) => Solution::Condensed,
+                (method, _) => method,
+            },
             factors: match model.method {
                 Solution::Multigrid => Factors::multigrid(model.places()),
                 _ => Factors::default(),

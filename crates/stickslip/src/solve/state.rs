@@ -13,7 +13,7 @@ use crate::model::course::Course;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::Frame;
 use crate::newton::condensed::{LoadPatterns, PatternsRecipe, ReducedRecipe, ReducedSystem};
-use crate::newton::{Factors, FactorsRecipe, Statistics};
+use crate::newton::{Factors, FactorsRecipe, Statistics, describe};
 use crate::system::{Cause, State, StepFailure};
 
 /// What a solver takes along.
@@ -104,6 +104,7 @@ impl Solver {
             decided,
             at_rest,
             moving,
+            broken: _,
             largest_forces,
         } = &self.condenser;
         SolverState {
@@ -212,7 +213,8 @@ impl Solver {
         let condensation = self
             .condensation(model, frame, contact, &held, Which::Stiffness)
             .ok_or_else(|| self.not_again())?;
-        let patterns = LoadPatterns::again(at_rest.patterns, &condensation, &self.stiffness);
+        let patterns = LoadPatterns::again(at_rest.patterns, &condensation, &self.stiffness)
+            .map_err(describe)?;
         Ok(Condensed {
             reduced: ReducedSystem::again(reduced, &condensation)?,
             patterns,
@@ -253,6 +255,9 @@ impl Solver {
 
     /// Bodies that were condensed cannot be condensed again.
     fn not_again(&self) -> StepFailure {
+        if let Some(broken) = self.condenser.broken() {
+            return broken.clone();
+        }
         let why = self.log.notes.last().cloned().unwrap_or_default();
         StepFailure::new(
             Cause::Memory,

@@ -20,5 +20,5 @@ mod symbolic;
 mod tests;
 mod tree;
 
-pub use numeric::{PartialFactor, Workspace};
+pub use numeric::{Numbers, PartialFactor, Workspace};
 pub use symbolic::Fronts;

@@ -69,16 +69,19 @@ impl DerefMut for Numbers {
 }
 
 impl Workspace {
-    /// For factorisations of these bodies.
-    pub fn of<'a>(bodies: impl IntoIterator<Item = &'a Fronts>) -> Workspace {
+    /// For factorisations that ask for so many numbers at once.
+    pub fn of(longest: impl IntoIterator<Item = usize>) -> Workspace {
         Workspace {
             free: Mutex::default(),
-            longest: bodies.into_iter().map(Fronts::longest).max().unwrap_or(0),
+            longest: longest.into_iter().max().unwrap_or(0),
         }
     }
 
     /// So many numbers of any value.
-    fn take(&self, length: usize) -> Result<Numbers, LinearError> {
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn take(&self, length: usize) -> Result<Numbers, LinearError> {
         let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
         // Of equally good ones the last that was given back: it is likely in a cache.
         let long_enough = (0..free.len()).rev().filter(|&i| free[i].len() >= length);

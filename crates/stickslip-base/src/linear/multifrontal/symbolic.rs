@@ -227,7 +227,7 @@ impl Fronts {
     }
 
     /// The most numbers that a factorisation asks of its workspace at once.
-    pub(super) fn longest(&self) -> usize {
+    pub fn longest(&self) -> usize {
         let square = |front: usize| self.sizes(front).1.pow(2);
         let of_piece = |piece: &Piece| {
             let [even, odd] = piece.stacks(&self.tree, square);

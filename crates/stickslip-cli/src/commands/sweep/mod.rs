@@ -19,7 +19,7 @@ use stickslip::assess::doctor::Severity;
 use stickslip::newton::condensed::Library;
 use stickslip::results::FileClaim;
 
-use super::{library, spare, use_threads};
+use super::{EngineArguments, library, spare, use_threads};
 
 use crate::failure::{Failure, Outcome};
 use crate::input::Case;
@@ -79,6 +79,8 @@ pub struct Arguments {
     /// Keep the factors of bodies in DIR too, and take from there what was factored before; see `run --cache`.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
+    #[command(flatten)]
+    engine: EngineArguments,
     /// Threads; all processors if not given. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -121,7 +123,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let share = arguments.shard.as_deref().map(Share::parse).transpose()?;
     use_threads(arguments.threads, arguments.quiet);
-    let plan = Plan::new(&arguments.set, &arguments.fix, arguments.zip)?;
+    let fixed = arguments.engine.overrides(&arguments.fix);
+    let plan = Plan::new(&arguments.set, &fixed, arguments.zip)?;
     let case = Case::read(file)?;
     let read = plan.check(&case.document);
     let files = case.files(read.map_err(|e| case.failure(e.into()))?);

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::file;
 use super::identity::{Identity, Part};
 use super::library::{Library, Reserved, Source};
-use super::substructure::{Seconds, Substructure};
+use super::substructure::{Seconds, Substructure, SweptPart};
 use crate::lease::Lease;
-use crate::linear::{BlockCsr, Fronts, LinearError, Workspace};
+use crate::linear::{BlockCsr, Engine, FactorEffort, LinearError, Ordered, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::dot;
 
@@ -19,6 +19,8 @@ pub struct Plan {
     parts: Vec<Planned>,
     /// Points that may come into contact.
     kept: Vec<bool>,
+    /// Whether what is made can be written to files, for which others would wait.
+    filed: bool,
     /// What it took.
     pub effort: Effort,
 }
@@ -28,9 +30,28 @@ pub struct Plan {
 struct Planned {
     points: (usize, usize),
     identity: Identity,
-    fronts: Arc<Fronts>,
-    /// The substructure, if it was made before.
-    known: Option<(Arc<Substructure>, Source)>,
+    what: Made,
+}
+
+/// Whether a substructure was made before.
+#[derive(Debug)]
+enum Made {
+    Before(Arc<Substructure>, Source),
+    Not(Arc<dyn Ordered>),
+}
+
+impl Planned {
+    /// Whether it was made before.
+    fn is_known(&self) -> bool {
+        matches!(self.what, Made::Before(..))
+    }
+
+    fn ordered(&self) -> &dyn Ordered {
+        match &self.what {
+            Made::Before(part, _) => part.interior.ordered(),
+            Made::Not(ordered) => &**ordered,
+        }
+    }
 }
 
 /// What was made, and what was there.
@@ -52,6 +73,8 @@ pub struct Effort {
     pub seconds_order: f64,
     /// Seconds of factoring; parts are factored side by side.
     pub seconds: Seconds,
+    /// What factoring took.
+    pub factor: FactorEffort,
     /// What the user should know about files.
     pub notes: Vec<String>,
 }
@@ -79,18 +102,18 @@ pub struct Cost {
 }
 
 impl Plan {
-    /// Looks for the substructures of every part of the model, given by its points, and analyses those that were not made before. Parts must not be
+    /// Looks for the substructures of every part of the model, given by its points, and lets the engine order those that were not made before. Parts must not be
     /// coupled. `fixed` marks dofs that are no unknowns, `kept` the points that may come into contact; `typical` is a stiffness for springs where
     /// there is no other `[N/m]`.
     ///
     /// # Errors
-    /// Those of [`Fronts::analyze`].
+    /// Those of [`Engine::order`].
     pub fn new(
         matrix: &BlockCsr,
         parts: &[Range<usize>],
         (fixed, kept): (&[bool], &[bool]),
         (places, typical): (Places, f64),
-        library: &Library,
+        (library, engine): (&Library, &Arc<dyn Engine>),
     ) -> Result<Plan, LinearError> {
         let started = Instant::now();
         let find = |points: &Range<usize>| {
@@ -100,13 +123,17 @@ impl Plan {
                 fixed,
                 kept,
             };
-            let identity = part.substructure(places, typical);
+            let (identity, analysis) = (
+                part.substructure(places, typical)
+                    .made_by(engine.identity()),
+                part.analysis().made_by(engine.identity()),
+            );
             let (known, note) = library.find(identity, &part);
-            let fronts = match &known {
-                Some((part, _)) => Some(Arc::clone(part.partial.fronts())),
-                None => library.analysis(part.analysis()),
+            let before = match &known {
+                Some(_) => None,
+                None => library.analysis(analysis),
             };
-            (part, identity, known, note, fronts)
+            (part, (identity, analysis), known, note, before)
         };
         let found: Vec<_> = parts.par_iter().map(find).collect();
         let mut effort = Effort {
@@ -114,38 +141,47 @@ impl Plan {
             ..Effort::default()
         };
         let started = Instant::now();
-        let analysed: Result<Vec<Arc<Fronts>>, LinearError> = found
+        let ordered: Result<Vec<Option<Arc<dyn Ordered>>>, LinearError> = found
             .par_iter()
-            .map(|(part, _, _, _, fronts)| match fronts {
-                Some(fronts) => Ok(Arc::clone(fronts)),
-                None => {
-                    let made = Fronts::analyze(matrix, part.points(), fixed, kept)?;
-                    let made = Arc::new(made);
-                    library.keep_analysis(part.analysis(), &made);
-                    Ok(made)
-                }
-            })
+            .map(
+                |(part, (_, analysis), known, _, before)| match (known, before) {
+                    (Some(_), _) => Ok(None),
+                    (None, Some(before)) => Ok(Some(Arc::clone(before))),
+                    (None, None) => {
+                        let made =
+                            Arc::clone(engine).order(matrix, (part.points(), fixed, kept))?;
+                        library.keep_analysis(*analysis, &made);
+                        Ok(Some(made))
+                    }
+                },
+            )
             .collect();
         let mut parts = Vec::with_capacity(found.len());
-        for ((part, identity, known, note, before), fronts) in found.into_iter().zip(analysed?) {
-            effort.analysed += usize::from(before.is_none());
+        for ((part, (identity, _), known, note, before), ordered) in found.into_iter().zip(ordered?)
+        {
+            effort.analysed += usize::from(known.is_none() && before.is_none());
             match &known {
                 Some((_, Source::Memory)) => effort.shared += 1,
                 Some((_, Source::Disk)) => effort.read += 1,
                 _ => effort.made += 1,
             }
             effort.notes.extend(note);
+            let what = match (known, ordered) {
+                (Some((part, source)), _) => Made::Before(part, source),
+                (None, Some(ordered)) => Made::Not(ordered),
+                (None, None) => unreachable!("what is not known was ordered"),
+            };
             parts.push(Planned {
                 points: part.points,
                 identity,
-                fronts,
-                known,
+                what,
             });
         }
         effort.seconds_order = started.elapsed().as_secs_f64();
         Ok(Plan {
             parts,
             kept: kept.to_vec(),
+            filed: engine.keeps_files(),
             effort,
         })
     }
@@ -153,17 +189,19 @@ impl Plan {
     /// What it would cost to carry it out, were nothing known: how to solve must not depend on who was here before.
     pub fn cost(&self) -> Cost {
         let mut cost = Cost::default();
-        for Planned { fronts, known, .. } in &self.parts {
-            let n = fronts.root().len() as f64;
-            cost.factor += fronts.flops();
+        for part in &self.parts {
+            let ordered = part.ordered();
+            let (effort, root) = (ordered.effort(), ordered.root().len());
+            let n = root as f64;
+            cost.factor += effort.flops;
             cost.condense += n * n * n;
-            if known.is_none() {
-                cost.left += fronts.flops() + n * n * n;
+            if let Made::Not(_) = part.what {
+                cost.left += effort.flops + n * n * n;
             }
-            cost.nonzeros += fronts.nonzeros() as f64;
+            cost.nonzeros += effort.nonzeros;
             cost.dense += n * n;
-            cost.candidates += fronts.root().len();
-            cost.bytes += fronts.peak_bytes();
+            cost.candidates += root;
+            cost.bytes += effort.bytes;
         }
         // the inverse, its copy in single precision and the work space
         cost.bytes += (28.0 * cost.dense) as u64;
@@ -195,9 +233,10 @@ impl Plan {
         let Plan {
             parts,
             kept,
+            filed,
             mut effort,
         } = self;
-        let reserve = |part: &Planned| match part.known.is_some() || part.is_tiny() {
+        let reserve = |part: &Planned| match part.is_known() || !filed || part.is_tiny() {
             true => Maker::Here(None),
             false => match library.reserve(part.identity) {
                 Reserved::Ours(lease) => Maker::Here(lease),
@@ -205,9 +244,9 @@ impl Plan {
             },
         };
         let makers: Vec<Maker> = parts.iter().map(reserve).collect();
-        let new = parts.iter().filter(|part| part.known.is_none());
-        let workspace = Workspace::of(new.map(|part| &*part.fronts));
-        let make = |part: &Planned, lease: Option<Lease>| -> Result<Got, LinearError> {
+        let new = parts.iter().filter(|part| !part.is_known());
+        let workspace = Workspace::of(new.map(|part| part.ordered().longest()));
+        let make = |part: &Planned, ordered: &Arc<dyn Ordered>, lease: Option<Lease>| {
             let of_matrix = Part {
                 matrix,
                 points: part.points,
@@ -221,27 +260,27 @@ impl Plan {
             {
                 return Ok((found, source, note));
             }
-            let body = (part.identity, &part.fronts, matrix);
+            let body = (part.identity, ordered, matrix);
             let made = Arc::new(Substructure::new(body, (places, typical), &workspace)?);
             let note = library.keep(&made);
             drop(lease);
             Ok((made, Source::Made, note))
         };
-        let here = parts.par_iter().zip(makers).map(|(part, maker)| {
-            let known = part.known.as_ref();
-            match (known, maker) {
-                (Some((known, source)), _) => Some(Ok((Arc::clone(known), *source, None))),
-                (None, Maker::Here(lease)) => Some(make(part, lease)),
-                (None, Maker::Elsewhere) => None,
-            }
-        });
+        let here = parts
+            .par_iter()
+            .zip(makers)
+            .map(|(part, maker)| match (&part.what, maker) {
+                (Made::Before(known, source), _) => Some(Ok((Arc::clone(known), *source, None))),
+                (Made::Not(ordered), Maker::Here(lease)) => Some(make(part, ordered, lease)),
+                (Made::Not(_), Maker::Elsewhere) => None,
+            });
         let here: Vec<Option<Result<Got, LinearError>>> = here.collect();
         let mut all = Vec::new();
         for (part, got) in parts.iter().zip(here) {
-            let planned = part.known.is_some();
-            let (made, source, note) = match got {
-                Some(got) => got?,
-                None => {
+            let (made, source, note) = match (got, &part.what) {
+                (Some(got), _) => got?,
+                (None, Made::Before(..)) => unreachable!("what is known is not made elsewhere"),
+                (None, Made::Not(ordered)) => {
                     let of_matrix = Part {
                         matrix,
                         points: part.points,
@@ -254,11 +293,11 @@ impl Plan {
                     effort.notes.extend(note);
                     match found {
                         Some((found, source)) => (found, source, None),
-                        None => make(part, lease)?,
+                        None => make(part, ordered, lease)?,
                     }
                 }
             };
-            effort.count(planned, source, &made);
+            effort.count(part.is_known(), source, &made);
             effort.notes.extend(note);
             all.push(made);
         }
@@ -269,7 +308,8 @@ impl Plan {
 impl Planned {
     /// Whether it is not worth a file.
     fn is_tiny(&self) -> bool {
-        self.fronts.root().len() <= file::TINY && self.fronts.interior().is_empty()
+        let ordered = self.ordered();
+        ordered.root().len() <= file::TINY && ordered.interior().is_empty()
     }
 }
 
@@ -283,6 +323,9 @@ impl Effort {
             Source::Made => {
                 self.seconds.factor += part.seconds.factor;
                 self.seconds.condense += part.seconds.condense;
+                let taken = part.interior.effort();
+                self.factor.flops += taken.flops;
+                self.factor.nonzeros += taken.nonzeros;
                 return;
             }
             Source::Memory => self.shared += 1,
@@ -408,27 +451,44 @@ impl Condensation {
 
     /// Sweeps forces over all dofs forward. Returns what is left of them at the candidates, and in the interiors what
     /// [`recover`](Condensation::recover) needs of them.
-    pub fn sweep(&self, forces: &[f64]) -> Swept {
+    ///
+    /// # Errors
+    /// Those of [`Interior::reduce`](crate::linear::Interior::reduce).
+    pub fn sweep(&self, forces: &[f64]) -> Result<Swept, LinearError> {
         self.sweep_with(|part| part.sweep(forces))
     }
 
     /// The same of forces that other runs with the same bodies are likely to have, too.
-    pub fn sweep_pattern(&self, forces: &[f64]) -> Swept {
+    ///
+    /// # Errors
+    /// As for [`sweep`](Condensation::sweep).
+    pub fn sweep_pattern(&self, forces: &[f64]) -> Result<Swept, LinearError> {
         self.sweep_with(|part| part.sweep_pattern(forces))
     }
 
-    fn sweep_with(&self, sweep: impl Fn(&Substructure) -> (Vec<f64>, Vec<f64>) + Sync) -> Swept {
-        let swept: Vec<(Vec<f64>, Vec<f64>)> =
+    fn sweep_with(
+        &self,
+        sweep: impl Fn(&Substructure) -> Result<SweptPart, LinearError> + Sync,
+    ) -> Result<Swept, LinearError> {
+        let swept: Result<Vec<SweptPart>, LinearError> =
             self.parts.par_iter().map(|part| sweep(part)).collect();
-        let (roots, interiors): (Vec<_>, Vec<_>) = swept.into_iter().unzip();
-        (roots.concat(), interiors)
+        let (roots, interiors): (Vec<_>, Vec<_>) = swept?.into_iter().unzip();
+        Ok((roots.concat(), interiors))
     }
 
     /// Finds the interiors of several states in one sweep. For each state `swept` has forces as [`sweep`](Condensation::sweep) leaves them, part
     /// by part, and `at` the displacements of the candidates; both are written into the states' vectors over all dofs.
-    pub fn recover(&self, mut swept: Vec<Vec<Vec<f64>>>, at: &[Vec<f64>], all: &mut [Vec<f64>]) {
+    ///
+    /// # Errors
+    /// Those of [`Interior::recover`](crate::linear::Interior::recover).
+    pub fn recover(
+        &self,
+        mut swept: Vec<Vec<Vec<f64>>>,
+        at: &[Vec<f64>],
+        all: &mut [Vec<f64>],
+    ) -> Result<(), LinearError> {
         let columns = at.len();
-        let found: Vec<Vec<f64>> = (0..self.parts.len())
+        let found: Result<Vec<Vec<f64>>, LinearError> = (0..self.parts.len())
             .map(|k| {
                 let mut interior = Vec::new();
                 for state in &mut swept {
@@ -442,14 +502,13 @@ impl Condensation {
             .map(|(k, mut interior)| {
                 let range = self.starts[k]..self.starts[k + 1];
                 let root: Vec<f64> = at.iter().flat_map(|u| u[range.clone()].to_vec()).collect();
-                self.parts[k]
-                    .partial
-                    .backward(&mut interior, &root, columns);
-                interior
+                let part = &self.parts[k].interior;
+                part.recover(&mut interior, &root, columns)?;
+                Ok(interior)
             })
             .collect();
-        for (part, interior) in self.parts.iter().zip(&found) {
-            let dofs = part.partial.fronts().interior();
+        for (part, interior) in self.parts.iter().zip(&found?) {
+            let dofs = part.interior.ordered().interior();
             for (all, values) in all.iter_mut().zip(interior.chunks(dofs.len().max(1))) {
                 for (&dof, &value) in dofs.iter().zip(values) {
                     all[dof as usize] = value;
@@ -459,5 +518,6 @@ impl Condensation {
         for (all, values) in all.iter_mut().zip(at) {
             self.scatter(values, all);
         }
+        Ok(())
     }
 }

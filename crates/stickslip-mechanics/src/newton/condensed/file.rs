@@ -52,10 +52,13 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, what.to_string())
 }
 
+/// A substructure and its factor, which is one for files.
+pub(super) type Whole<'a> = (&'a Substructure, &'a PartialFactor);
+
 /// Writes a substructure aside and renames it: other processes see all of it or nothing.
-pub(super) fn write(path: &Path, substructure: &Substructure) -> io::Result<()> {
+pub(super) fn write(path: &Path, whole: Whole) -> io::Result<()> {
     let aside = lease::aside(path);
-    let written = write_all(&aside, substructure).and_then(|()| fs::rename(&aside, path));
+    let written = write_all(&aside, whole).and_then(|()| fs::rename(&aside, path));
     if written.is_err() {
         // The first error is the one to report.
         let _ = fs::remove_file(&aside);
@@ -63,10 +66,10 @@ pub(super) fn write(path: &Path, substructure: &Substructure) -> io::Result<()> 
     written
 }
 
-fn write_all(path: &Path, substructure: &Substructure) -> io::Result<()> {
+fn write_all(path: &Path, whole: Whole) -> io::Result<()> {
     let mut counter = Counter(0);
-    encode(substructure, &mut counter)?;
-    let header = header(substructure.identity, counter.0);
+    encode(whole, &mut counter)?;
+    let header = header(whole.0.identity, counter.0);
     let mut digest = Digest::default();
     digest.bytes(&header);
     let mut file = File::create(path)?;
@@ -76,15 +79,15 @@ fn write_all(path: &Path, substructure: &Substructure) -> io::Result<()> {
         digest,
         buffer: Vec::with_capacity(CHUNK),
     };
-    encode(substructure, &mut writer)?;
+    encode(whole, &mut writer)?;
     writer.flush()?;
     let digest = writer.digest.finish();
     let bytes: Vec<u8> = digest.iter().flat_map(|w| w.to_le_bytes()).collect();
     writer.file.write_all(&bytes)
 }
 
-fn encode(substructure: &Substructure, out: &mut dyn Write) -> io::Result<()> {
-    substructure.partial.encode(out)?;
+fn encode((substructure, factor): Whole, out: &mut dyn Write) -> io::Result<()> {
+    factor.encode(out)?;
     substructure.compliance.encode(out)?;
     let modes = substructure.floating.as_ref();
     let (modes, sigma) = modes.map_or((&[][..], 0.0), |f| (&f.modes[..], f.sigma));
@@ -182,7 +185,7 @@ fn decode(input: &mut Reader, identity: Identity, part: &Part) -> io::Result<Sub
     let floating = (!modes.is_empty()).then(|| Floating::new(modes, sigma, &compliance));
     Ok(Substructure {
         identity,
-        partial,
+        interior: Box::new(partial),
         compliance,
         floating,
         seconds: Seconds::default(),

@@ -1,12 +1,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::engine::EngineModel;
 use super::file;
 use super::identity::{Identity, Part};
 use super::substructure::Substructure;
 use crate::error::Error;
 use crate::lease::{self, Asked, Lease, Waiting};
-use crate::linear::{BlockCsr, Fronts};
+use crate::linear::{BlockCsr, Engine, LinearError, Ordered};
 use crate::machine::total_memory;
 
 /// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
@@ -22,8 +23,9 @@ pub struct Library {
 #[derive(Debug, Default)]
 struct Shelves {
     substructures: Shelf<Substructure>,
-    analyses: Shelf<Fronts>,
+    analyses: Shelf<dyn Ordered>,
     stiffnesses: Shelf<BlockCsr>,
+    engines: Vec<(EngineModel, Arc<dyn Engine>)>,
 }
 
 /// Where a substructure comes from.
@@ -106,7 +108,8 @@ impl Library {
 
     /// The substructure of a part, if it was made before.
     pub(super) fn find(&self, identity: Identity, part: &Part) -> Found {
-        if let Some(found) = self.shelves().substructures.find(identity) {
+        let known = self.shelves().substructures.find(identity);
+        if let Some(found) = known.filter(|known| known.interior.is_alive()) {
             return (Some((found, Source::Memory)), None);
         }
         let Some(path) = self.path(identity) else {
@@ -177,10 +180,15 @@ impl Library {
     pub(super) fn keep(&self, substructure: &Arc<Substructure>) -> Option<String> {
         self.shelve(substructure);
         let path = self.path(substructure.identity)?;
-        if substructure.root().len() <= file::TINY && substructure.partial.bytes() == 0 {
+        let Some(factor) = substructure.interior.to_file() else {
+            return Some(
+                "factors of this engine are not kept in files: they are where it is".into(),
+            );
+        };
+        if substructure.root().len() <= file::TINY && factor.bytes() == 0 {
             return None;
         }
-        let written = file::write(&path, substructure);
+        let written = file::write(&path, (substructure, factor));
         let why = written.err()?;
         Some(format!(
             "{CACHE_NOTE}{}: not written: {why}",
@@ -196,14 +204,30 @@ impl Library {
     }
 
     /// The analysis of a part, if it was made before.
-    pub(super) fn analysis(&self, identity: Identity) -> Option<Arc<Fronts>> {
-        self.shelves().analyses.find(identity)
+    pub(super) fn analysis(&self, identity: Identity) -> Option<Arc<dyn Ordered>> {
+        let known = self.shelves().analyses.find(identity);
+        known.filter(|known| known.is_alive())
     }
 
     /// Keeps an analysis.
-    pub(super) fn keep_analysis(&self, identity: Identity, fronts: &Arc<Fronts>) {
-        let entry = (identity, Arc::clone(fronts), fronts.bytes());
+    pub(super) fn keep_analysis(&self, identity: Identity, ordered: &Arc<dyn Ordered>) {
+        let entry = (identity, Arc::clone(ordered), ordered.bytes());
         self.shelves().analyses.keep(entry, self.limit / ANALYSES);
+    }
+
+    /// An engine for all runs that ask for the same: started where there is none, or none that is alive.
+    ///
+    /// # Errors
+    /// [`LinearError::Engine`] if it cannot be started.
+    pub fn engine(&self, model: &EngineModel) -> Result<Arc<dyn Engine>, LinearError> {
+        let mut shelves = self.shelves();
+        shelves.engines.retain(|(_, engine)| engine.is_alive());
+        if let Some((_, engine)) = shelves.engines.iter().find(|(known, _)| known == model) {
+            return Ok(Arc::clone(engine));
+        }
+        let engine = model.as_dyn().start()?;
+        shelves.engines.push((model.clone(), Arc::clone(&engine)));
+        Ok(engine)
     }
 
     /// The matrix with this identity: what was assembled before, or what `assemble` makes.
@@ -226,11 +250,11 @@ impl Library {
 
 /// Things with their identity and size, the least recently used one first.
 #[derive(Debug)]
-struct Shelf<T> {
+struct Shelf<T: ?Sized> {
     entries: Vec<(Identity, Arc<T>, u64)>,
 }
 
-impl<T> Default for Shelf<T> {
+impl<T: ?Sized> Default for Shelf<T> {
     fn default() -> Self {
         Shelf {
             entries: Vec::new(),
@@ -238,7 +262,7 @@ impl<T> Default for Shelf<T> {
     }
 }
 
-impl<T> Shelf<T> {
+impl<T: ?Sized> Shelf<T> {
     fn find(&mut self, identity: Identity) -> Option<Arc<T>> {
         let at = self.entries.iter().position(|e| e.0 == identity)?;
         let entry = self.entries.remove(at);

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::condensation::{Condensation, Swept};
-use crate::linear::BlockCsr;
+use crate::linear::{BlockCsr, LinearError};
 use crate::math::vector::{dot, norm};
 
 /// The patterns of loads and prescribed displacements met so far, swept through the factors once.
@@ -66,8 +66,15 @@ impl LoadPatterns {
         }
     }
 
-    /// Sweeps them through the factors again.
-    pub fn again(recipe: PatternsRecipe, condensation: &Condensation, matrix: &BlockCsr) -> Self {
+    /// Sweeps them through the factors again, each by itself as at first: that leaves the same bits.
+    ///
+    /// # Errors
+    /// Those of [`Condensation::sweep`].
+    pub fn again(
+        recipe: PatternsRecipe,
+        condensation: &Condensation,
+        matrix: &BlockCsr,
+    ) -> Result<Self, LinearError> {
         let pattern = |(unit, (root, interior)): (Arc<Vec<f64>>, Swept)| Pattern {
             unit,
             root,
@@ -75,42 +82,43 @@ impl LoadPatterns {
         };
         let loads = recipe.loads.into_iter();
         let motions = recipe.motions.into_iter();
-        LoadPatterns {
-            loads: loads
-                .map(|unit| {
-                    let swept = condensation.sweep_pattern(&unit);
-                    pattern((unit, swept))
-                })
-                .collect(),
-            motions: motions
-                .map(|unit| {
-                    let swept = condensation.sweep_pattern(&resisted(matrix, &unit));
-                    pattern((unit, swept))
-                })
-                .collect(),
-        }
+        let loads = loads.map(|unit| {
+            let swept = condensation.sweep_pattern(&unit)?;
+            Ok(pattern((unit, swept)))
+        });
+        let motions = motions.map(|unit| {
+            let swept = condensation.sweep_pattern(&resisted(matrix, &unit))?;
+            Ok(pattern((unit, swept)))
+        });
+        Ok(LoadPatterns {
+            loads: loads.collect::<Result<_, LinearError>>()?,
+            motions: motions.collect::<Result<_, LinearError>>()?,
+        })
     }
 
     /// Finds the amplitudes of external forces and prescribed displacements, both over all dofs.
+    ///
+    /// # Errors
+    /// Those of [`Condensation::sweep`].
     pub fn resolve(
         &mut self,
         condensation: &Condensation,
         matrix: &BlockCsr,
         external: &[f64],
         prescribed: &[f64],
-    ) -> Amplitudes {
+    ) -> Result<Amplitudes, LinearError> {
         let mut others = Vec::new();
         let loads = resolve(&mut self.loads, &mut others, external, &mut |pattern| {
             condensation.sweep_pattern(pattern)
-        });
+        })?;
         let motions = resolve(&mut self.motions, &mut others, prescribed, &mut |pattern| {
             condensation.sweep_pattern(&resisted(matrix, pattern))
-        });
-        Amplitudes {
+        })?;
+        Ok(Amplitudes {
             loads,
             motions,
             others,
-        }
+        })
     }
 
     /// The forces at the candidates.
@@ -129,7 +137,7 @@ impl LoadPatterns {
         let mut out: Vec<Vec<f64>> = condensation
             .parts
             .iter()
-            .map(|part| vec![0.0; part.partial.fronts().interior().len()])
+            .map(|part| vec![0.0; part.interior.ordered().interior().len()])
             .collect();
         for (a, pattern) in self.all(amplitudes) {
             for (out, interior) in out.iter_mut().zip(&pattern.interior) {
@@ -164,12 +172,12 @@ fn resolve(
     patterns: &mut Vec<Pattern>,
     others: &mut Vec<Arc<Pattern>>,
     vector: &[f64],
-    sweep: &mut dyn FnMut(&[f64]) -> Swept,
-) -> Vec<f64> {
+    sweep: &mut dyn FnMut(&[f64]) -> Result<Swept, LinearError>,
+) -> Result<Vec<f64>, LinearError> {
     let size = norm(vector);
     let mut amplitudes = vec![0.0; patterns.len()];
     if size == 0.0 || !size.is_finite() {
-        return amplitudes;
+        return Ok(amplitudes);
     }
     let mut left = vector.to_vec();
     // the second pass takes what rounding left in the first
@@ -187,7 +195,7 @@ fn resolve(
         let keep = patterns.len() < MOST;
         let size = if keep { rest } else { 1.0 };
         left.iter_mut().for_each(|l| *l /= size);
-        let (root, interior) = sweep(&left);
+        let (root, interior) = sweep(&left)?;
         let pattern = Pattern {
             unit: Arc::new(left),
             root,
@@ -200,5 +208,5 @@ fn resolve(
             others.push(Arc::new(pattern));
         }
     }
-    amplitudes
+    Ok(amplitudes)
 }

@@ -20,6 +20,7 @@
 mod active;
 mod bulk;
 mod condensation;
+pub mod engine;
 mod file;
 mod gap_space;
 mod identity;

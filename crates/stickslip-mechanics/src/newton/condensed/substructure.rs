@@ -4,7 +4,7 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::identity::Identity;
-use crate::linear::{BlockCsr, Compliance, Digest, Fronts, LinearError, PartialFactor, Workspace};
+use crate::linear::{BlockCsr, Compliance, Digest, Interior, LinearError, Ordered, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::{dot, norm};
 
@@ -27,7 +27,7 @@ pub struct Substructure {
     /// What it was made from.
     pub identity: Identity,
     /// Factor of the interior.
-    pub partial: PartialFactor,
+    pub interior: Box<dyn Interior>,
     /// `(S + σ R Rᵀ)⁻¹`.
     pub compliance: Compliance,
     /// Rigid motions with artificial springs.
@@ -39,7 +39,7 @@ pub struct Substructure {
 }
 
 /// What is left of forces at the kept dofs, and what the interior keeps of them.
-type SweptPart = (Vec<f64>, Vec<f64>);
+pub(super) type SweptPart = (Vec<f64>, Vec<f64>);
 
 /// Load patterns that were swept through the factor, by their digest, the last ones: runs with the same body mostly have the same loads.
 #[derive(Debug, Default)]
@@ -86,16 +86,16 @@ impl Substructure {
     /// # Errors
     /// Those of the factorisation: the interior is singular if the kept points do not hold it.
     pub fn new(
-        (identity, fronts, matrix): (Identity, &Arc<Fronts>, &BlockCsr),
+        (identity, ordered, matrix): (Identity, &Arc<dyn Ordered>, &BlockCsr),
         (place, typical): (&dyn Fn(usize) -> Option<Vec3>, f64),
         workspace: &Workspace,
     ) -> Result<Substructure, LinearError> {
         let started = Instant::now();
-        let (partial, mut stiffness) = PartialFactor::new(fronts, matrix, workspace)?;
+        let (interior, mut stiffness) = Arc::clone(ordered).factor(matrix, workspace)?;
         let factor = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let floating = free_motions(
-            fronts.root(),
+            ordered.root(),
             matrix.block_size(),
             &stiffness,
             place,
@@ -115,18 +115,18 @@ impl Substructure {
                 }
             }
         }
-        let compliance = Compliance::of(fronts.root().len(), &mut stiffness);
+        let compliance = Compliance::of(ordered.root().len(), &mut stiffness);
         workspace.give(stiffness);
         let compliance = compliance.map_err(|e| match e {
             LinearError::NotPositive { dof } => LinearError::NotPositive {
-                dof: fronts.root().get(dof).map_or(0, |&d| d as usize),
+                dof: ordered.root().get(dof).map_or(0, |&d| d as usize),
             },
             other => other,
         })?;
         let floating = floating.map(|(modes, sigma)| Floating::new(modes, sigma, &compliance));
         Ok(Substructure {
             identity,
-            partial,
+            interior,
             compliance,
             floating,
             seconds: Seconds {
@@ -138,14 +138,14 @@ impl Substructure {
     }
 
     /// Sweeps forces over all dofs forward: what is left of them at the kept dofs, and what the interior keeps.
-    pub(super) fn sweep(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn sweep(&self, forces: &[f64]) -> Result<SweptPart, LinearError> {
         let (mut root, mut interior) = self.own(forces);
-        self.partial.forward(&mut interior, &mut root, 1);
-        (root, interior)
+        self.interior.reduce(&mut interior, &mut root, 1)?;
+        Ok((root, interior))
     }
 
     /// The same of forces that other runs are likely to have, too.
-    pub(super) fn sweep_pattern(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn sweep_pattern(&self, forces: &[f64]) -> Result<SweptPart, LinearError> {
         let (mut root, mut interior) = self.own(forces);
         let mut digest = Digest::default();
         digest.floats(&root);
@@ -157,35 +157,35 @@ impl Substructure {
             .find(|(of, _)| *of == digest)
             .map(|(_, swept)| Arc::clone(swept));
         if let Some(found) = found {
-            return SweptPart::clone(&found);
+            return Ok(SweptPart::clone(&found));
         }
-        self.partial.forward(&mut interior, &mut root, 1);
+        self.interior.reduce(&mut interior, &mut root, 1)?;
         let swept = (root, interior);
         let mut known = known();
         if known.len() == MOST_SWEPT {
             known.remove(0);
         }
         known.push((digest, Arc::new(swept.clone())));
-        swept
+        Ok(swept)
     }
 
     /// Forces at the kept dofs, and in the interior.
     fn own(&self, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let take = |dofs: &[u32]| dofs.iter().map(|&d| forces[d as usize]).collect();
-        let fronts = self.partial.fronts();
-        (take(fronts.root()), take(fronts.interior()))
+        let ordered = self.interior.ordered();
+        (take(ordered.root()), take(ordered.interior()))
     }
 
     /// About the memory held `[bytes]`, with the compliance in single precision that Newton's method makes.
     pub fn bytes(&self) -> u64 {
         let n = self.root().len() as u64;
         let modes = self.floating.as_ref().map_or(0, |f| f.modes.len() as u64);
-        self.partial.bytes() + self.partial.fronts().bytes() + 12 * n * n + 16 * modes * n
+        self.interior.bytes() + self.interior.ordered().bytes() + 12 * n * n + 16 * modes * n
     }
 
     /// The kept dofs, ascending.
     pub fn root(&self) -> &[u32] {
-        self.partial.fronts().root()
+        self.interior.ordered().root()
     }
 }
 

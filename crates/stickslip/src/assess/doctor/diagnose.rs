@@ -49,6 +49,7 @@ pub(crate) fn diagnose(
         Cause::Memory => {
             Finding::new(DoctorCause::Stopped, Severity::Error, "").advise(MORE_MEMORY)
         }
+        Cause::Engine => Finding::new(DoctorCause::Stopped, Severity::Error, ""),
         Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
     });
     finding = with_drivers(finding, view, trial);
@@ -88,7 +89,12 @@ pub(crate) fn diagnose(
 /// A mistake in the model that keeps any system from being solved.
 fn root(view: &View, cause: &Cause) -> Option<Finding> {
     match cause {
-        Cause::TooFar | Cause::Reach | Cause::Event | Cause::Interrupted | Cause::Memory => {
+        Cause::TooFar
+        | Cause::Reach
+        | Cause::Event
+        | Cause::Interrupted
+        | Cause::Memory
+        | Cause::Engine => {
             return None;
         }
         Cause::Singular

@@ -233,6 +233,7 @@ impl Problem {
                 linear_tolerance: self.solver.linear.tolerance,
             },
             method: self.solver.method,
+            engine: self.solver.engine.clone(),
             energy_limit: self.solver.energy_limit,
             follow: self.solver.follow_loose_bodies,
             unused: unused::tables(self),

@@ -1,9 +1,10 @@
 //! Rules that bind the tables of a problem to each other.
 //!
 //! One file per kind of rule: names that are used (`names.rs`), tables on their own (`tables.rs`), time (`steps.rs`),
-//! motion (`motion.rs`), cuts through bolts (`pretensions.rs`).
+//! motion (`motion.rs`), engines (`engine.rs`), cuts through bolts (`pretensions.rs`).
 //! Ranges of single numbers are stated where the key is declared and checked with the schema.
 
+mod engine;
 mod findings;
 mod motion;
 mod names;
@@ -27,5 +28,6 @@ pub(super) fn check(problem: &Problem) -> Vec<Diagnostic> {
     pretensions::check(problem, &mut findings);
     steps::check(problem, &mut findings);
     motion::check(problem, &mut findings);
+    engine::check(problem, &mut findings);
     findings.0
 }

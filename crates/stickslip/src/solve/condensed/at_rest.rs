@@ -3,13 +3,14 @@
 use crate::solve::condenser::{Candidates, Condensed};
 use std::time::Instant;
 
-use crate::linear::BlockCsr;
+use crate::linear::{BlockCsr, LinearError};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::newton::condensed::{Amplitudes, CondensedBulk};
+use crate::newton::describe;
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{Recovered, check_candidates, check_change};
 use crate::solve::inertia;
@@ -41,6 +42,7 @@ impl Solver {
             (condenser.at_rest.as_mut()).expect("bodies were condensed when the step was begun");
         let started = Instant::now();
         let amplitudes = condensed.amplitudes(stiffness, &external, &constraints);
+        let amplitudes = amplitudes.map_err(describe)?;
         let Condensed {
             condensation,
             reduced,
@@ -141,7 +143,9 @@ impl Solver {
             owners.push(accepted);
         }
         self.seen.tell(&Work::Recovering(owners.len()));
-        condensed.condensation.recover(swept, &at, &mut all);
+        let recovered = condensed.condensation.recover(swept, &at, &mut all);
+        // Whoever completes the increments is told.
+        self.condenser.broken = recovered.map_err(describe).err();
         let states: Vec<&[f64]> = all.iter().map(Vec::as_slice).collect();
         let internal = self.stiffness.mul_all(&states);
         for ((accepted, u), internal) in owners.into_iter().zip(all).zip(internal) {
@@ -159,6 +163,9 @@ impl Solver {
         contact: &mut Contact,
         (found, accepted): (&Candidates, &mut Accepted),
     ) -> Result<(), StepFailure> {
+        if let Some(broken) = self.condenser.broken() {
+            return Err(broken.clone());
+        }
         let started = Instant::now();
         let t = accepted.state.t;
         accepted.external = frame.external(model, t);
@@ -223,7 +230,7 @@ impl Condensed {
         stiffness: &BlockCsr,
         external: &[f64],
         constraints: &Constraints,
-    ) -> Amplitudes {
+    ) -> Result<Amplitudes, LinearError> {
         let held = &self.condensation.held;
         let free: Vec<f64> = external
             .iter()

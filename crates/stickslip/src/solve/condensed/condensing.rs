@@ -4,17 +4,18 @@ use crate::solve::condenser::{Condensed, Which};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::linear::BlockCsr;
+use crate::linear::{BlockCsr, LinearError};
+use crate::machine;
 use crate::math::Vec3;
 use crate::model::contact::Contact;
 use crate::model::course::Course;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::Frame;
 use crate::model::scene::Scene;
-use crate::newton::Factors;
 use crate::newton::condensed::{
     Condensation, Cost, Effort, LoadPatterns, Places, Plan, ReducedSystem,
 };
+use crate::newton::{Factors, describe};
 use crate::solve::choice::cost_fits;
 use crate::solve::inertia;
 use crate::solve::inertia::in_motion;
@@ -50,7 +51,11 @@ impl Solver {
         condensation.scatter(&u, &mut at);
         let mut carried = vec![0.0; u.len()];
         if u.iter().any(|u| *u != 0.0) {
-            carried = condensation.sweep(&inertia::times(&self.stiffness, &at)).0;
+            let swept = condensation.sweep(&inertia::times(&self.stiffness, &at));
+            carried = match swept {
+                Ok(swept) => swept.0,
+                Err(e) => return self.breaks(e),
+            };
             let mut springs = vec![0.0; u.len()];
             condensation.release(&u, &mut springs);
             carried.iter_mut().zip(&springs).for_each(|(c, s)| *c -= s);
@@ -84,10 +89,15 @@ impl Solver {
         let library = Arc::clone(&self.condenser.library);
         let kept = self.condenser.kept.clone().unwrap_or_default();
         let parts = parts(model);
-        let plan = Plan::new(self.matrix(which), &parts, (held, &kept), springs, &library);
+        let engine = match library.engine(&model.engine) {
+            Ok(engine) => engine,
+            Err(e) => return self.not_factored(model, frame, contact, e),
+        };
+        let with = (&*library, &engine);
+        let plan = Plan::new(self.matrix(which), &parts, (held, &kept), springs, with);
         let plan = match plan {
             Ok(plan) => plan,
-            Err(e) => return self.not_condensed(model, frame, contact, &e.to_string()),
+            Err(e) => return self.not_factored(model, frame, contact, e),
         };
         if self.condenser.decided.as_deref() != Some(held) {
             let scene = Scene {
@@ -102,8 +112,7 @@ impl Solver {
         }
         let cost = plan.cost();
         if !cost_fits(cost.bytes) {
-            let why = "it would take more memory than is free";
-            return self.not_condensed(model, frame, contact, why);
+            return self.too_large(model, frame, contact, &cost);
         }
         let started = Instant::now();
         self.seen.tell(&Work::Condensing);
@@ -117,10 +126,11 @@ impl Solver {
             Ok((condensation, effort)) => {
                 let passed = started.elapsed().as_secs_f64();
                 self.count(&cost, effort, passed);
+                self.log.engine = Some(engine);
                 self.log.method = "condensed";
                 Some(condensation)
             }
-            Err(e) => self.not_condensed(model, frame, contact, &e.to_string()),
+            Err(e) => self.not_factored(model, frame, contact, e),
         }
     }
 
@@ -138,6 +148,18 @@ impl Solver {
     /// Chooses the cheapest way to solve, and says why; whether it is to condense.
     fn decide(&mut self, scene: Scene, plan: &Plan, held: &[bool], which: Which) -> bool {
         let cost = plan.cost();
+        if scene.model.engine.as_dyn().condenses() {
+            self.log.reason = format!(
+                "as the engine does; {} of {} dofs are contact candidates",
+                cost.candidates,
+                held.iter().filter(|h| !**h).count()
+            );
+            self.log
+                .notes
+                .push(format!("condensed: {}", self.log.reason));
+            self.condenser.decided = Some(held.to_vec());
+            return true;
+        }
         let choice = scene.choose(&cost, (self.matrix(which), held));
         let forced = self.method == Solution::Condensed;
         let fits = cost_fits(cost.bytes);
@@ -173,10 +195,13 @@ impl Solver {
     /// Counts what condensing took, `passed` seconds in all.
     fn count(&mut self, cost: &Cost, effort: Effort, passed: f64) {
         let statistics = &mut self.newton.statistics;
-        statistics.factor_nonzeros = cost.nonzeros as usize;
+        // Some engines know only afterwards.
+        let known = cost.nonzeros.max(effort.factor.nonzeros);
+        statistics.factor_nonzeros = known as usize;
         statistics.factor_bytes = cost.bytes;
         if effort.made > 0 {
-            statistics.flops += cost.left;
+            // Some engines know only afterwards.
+            statistics.flops += cost.left.max(effort.factor.flops);
         }
         statistics.analyses += effort.analysed;
         statistics.factorisations += effort.made;
@@ -227,6 +252,53 @@ impl Solver {
         );
     }
 
+    /// Bodies cannot be factored: if the engine is to blame nothing is solved any more, otherwise the analysis goes on with the sparse matrix.
+    fn not_factored(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        error: LinearError,
+    ) -> Option<Condensation> {
+        match error {
+            LinearError::Engine { .. } => {
+                self.breaks(error);
+                None
+            }
+            other => self.not_condensed(model, frame, contact, &other.to_string()),
+        }
+    }
+
+    /// What is dense does not fit. Who asked for an engine did not ask for the sparse matrix, which would take more.
+    fn too_large(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        cost: &Cost,
+    ) -> Option<Condensation> {
+        if !model.engine.as_dyn().condenses() {
+            let why = "it would take more memory than is free";
+            return self.not_condensed(model, frame, contact, why);
+        }
+        self.breaks(LinearError::Engine {
+            message: format!(
+                "the matrices of {} contact candidates take {} in this process, more than is free",
+                cost.candidates,
+                machine::bytes(cost.bytes)
+            ),
+            help: "smaller contact surfaces, or a machine with more memory for the first process"
+                .into(),
+        });
+        None
+    }
+
+    /// The engine cannot go on.
+    fn breaks(&mut self, error: LinearError) {
+        self.condenser.at_rest = None;
+        self.condenser.broken = Some(describe(error));
+    }
+
     /// The analysis goes on with the sparse matrix.
     fn not_condensed(
         &mut self,
@@ -236,7 +308,11 @@ impl Solver {
         why: &str,
     ) -> Option<Condensation> {
         self.condenser.at_rest = None;
-        self.log.notes.push(format!("not condensed: {why}"));
+        let by = match model.engine.as_dyn().condenses() {
+            true => " (the sparse matrix is factored by the built-in engine, in this process)",
+            false => "",
+        };
+        self.log.notes.push(format!("not condensed: {why}{by}"));
         self.method = Solution::Sparse;
         self.choose_candidates(model, frame, contact);
         None

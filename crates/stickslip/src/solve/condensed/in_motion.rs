@@ -7,8 +7,8 @@ use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::newton::Converged;
 use crate::newton::condensed::{CondensedBulk, ReducedSystem};
+use crate::newton::{Converged, describe};
 use crate::solve::checks::Recovered;
 use crate::solve::inertia::in_motion;
 use crate::solve::iteration::{Iteration, Load, Task};
@@ -80,7 +80,7 @@ impl Solver {
         let newton = &mut self.newton;
         let started = Instant::now();
         let opposite: Vec<f64> = origin.forces.iter().map(|f| -f).collect();
-        let (load, interior) = condensation.sweep(&opposite);
+        let (load, interior) = condensation.sweep(&opposite).map_err(describe)?;
         newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
         let base = condensation.gather(&origin.at);
         let still = vec![0.0; base.len()];
@@ -105,7 +105,9 @@ impl Solver {
         let mut moved = condensation.gather(&at.u);
         moved.iter_mut().zip(&base).for_each(|(m, b)| *m -= b);
         let mut all = vec![vec![0.0; origin.at.len()]];
-        condensation.recover(vec![interior], &[moved], &mut all);
+        condensation
+            .recover(vec![interior], &[moved], &mut all)
+            .map_err(describe)?;
         let moved = all.swap_remove(0);
         for i in 0..moved.len() {
             if !fixed[i] {

@@ -1,0 +1,16 @@
+//! Engines: who eliminates the interiors of bodies, and keeps the factors.
+//!
+//! An [`Engine`] cuts a body into interior and kept dofs, which is [`Ordered`] before any arithmetic, factors it, which leaves the Schur complement of the kept
+//! dofs here, and keeps an [`Interior`], which reduces forces and finds displacements, for many columns at once. Where the factor is, in this process or
+//! in others, its user does not know: nothing but vectors and the Schur complement passes through here. What an engine would add that assembles its own shares of the
+//! matrix, or keeps the Schur complement distributed, is another `Ordered::factor`.
+
+mod builtin;
+mod contract;
+mod mumps;
+mod split;
+
+pub use builtin::Multifrontal;
+pub use contract::{Cut, Engine, EngineReport, FactorEffort, Interior, Ordered};
+pub use mumps::{Mumps, MumpsOptions};
+pub use split::Split;

@@ -1,0 +1,66 @@
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use super::body::Body;
+use super::job::Job;
+use super::options::MumpsOptions;
+use crate::linear::engine::contract::{Cut, Engine, EngineReport, Ordered};
+use crate::linear::engine::split::Split;
+use crate::linear::{BlockCsr, Fronts, LinearError};
+
+/// MUMPS on the ranks of an MPI job, which ends with the last factor of its bodies.
+#[derive(Debug)]
+pub struct Mumps {
+    options: MumpsOptions,
+    job: Arc<Job>,
+}
+
+impl Mumps {
+    /// Starts the ranks.
+    ///
+    /// # Errors
+    /// [`LinearError::Engine`] with what is missing.
+    pub fn start(options: MumpsOptions) -> Result<Mumps, LinearError> {
+        let job = Arc::new(Job::start(options.ranks)?);
+        Ok(Mumps { options, job })
+    }
+}
+
+impl Engine for Mumps {
+    fn report(&self) -> EngineReport {
+        let [rank, all] = &self.job.memory;
+        EngineReport {
+            name: "mumps",
+            version: self.job.version.clone(),
+            ranks: self.options.ranks,
+            reproducible: false,
+            memory_of_rank: rank.load(Ordering::Relaxed),
+            memory_of_all: all.load(Ordering::Relaxed),
+        }
+    }
+
+    fn identity(&self) -> u64 {
+        self.options.identity()
+    }
+
+    fn is_alive(&self) -> bool {
+        self.job.is_alive()
+    }
+
+    fn order(
+        self: Arc<Self>,
+        matrix: &BlockCsr,
+        (points, fixed, kept): Cut,
+    ) -> Result<Arc<dyn Ordered>, LinearError> {
+        let split = Split::new(matrix, (points.clone(), fixed, kept))?;
+        if split.interior.is_empty() {
+            // There is nothing to eliminate, as in rigid bodies.
+            return Ok(Arc::new(Fronts::analyze(matrix, points, fixed, kept)?));
+        }
+        Ok(Arc::new(Body {
+            job: Arc::clone(&self.job),
+            options: self.options,
+            split,
+        }))
+    }
+}

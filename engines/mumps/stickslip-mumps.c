@@ -1,0 +1,434 @@
+/* stickslip-mumps: factors of bodies by MUMPS, on the ranks of one MPI job. stickslip starts it, as `mpirun -n N stickslip-mumps FOLDER`.
+ *
+ * Rank 0 reads commands, a line each, from its standard input and answers each by a line on its standard output. Numbers go through files in
+ * FOLDER: eight bytes that name the format, the count of words, the words (eight bytes each, of this machine), and their checksum. Who reads a file
+ * deletes it. What a body is known by, ID, is a small number that stickslip chooses.
+ *
+ *   factor ID N C OUT-OF-CORE LOW-RANK MEGABYTES FILE   rank r reads FILE.r, its share of the lower triangle of a matrix of N rows, of which
+ *                                                       the last C are kept; the Schur complement goes to FILE.schur, by columns from the diagonal
+ *   reduce ID COLUMNS FILE      forces, N a column -> FILE.out, what is left of them at the kept rows, C a column
+ *   expand ID COLUMNS 0 FILE    displacements of the kept rows for the forces reduced last -> FILE.out, those of the others
+ *   expand ID COLUMNS 1 FILE    the same for forces that come first in the file, N - C a column
+ *   free ID
+ *   quit
+ *
+ * Answers: `ready PROTOCOL VERSION RANKS` at first, then `ok NUMBERS...` or `error INFOG(1) INFOG(2) WHAT`. What cannot go on ends all ranks. So does the end of the
+ * input without `quit` (stickslip is gone: FOLDER is removed), or that of the parent of any rank (mpirun is gone).
+ */
+#define _GNU_SOURCE
+#include <dirent.h>
+#include <dmumps_c.h>
+#include <inttypes.h>
+#include <mpi.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#define PROTOCOL 1
+#define BODIES 256
+#define MAGIC 0x31706d75736c7073ULL /* "spslump1" */
+#define ICNTL(i) icntl[(i) - 1]
+#define CNTL(i) cntl[(i) - 1]
+#define INFOG(i) infog[(i) - 1]
+#define RINFOG(i) rinfog[(i) - 1]
+#define USE_COMM_WORLD -987654
+#define CHUNK 65536
+/* Times that a factorisation which asked for more work space is tried again with twice as much. */
+#define TRIES 6
+
+enum { QUIT, FACTOR, REDUCE, EXPAND, FREE };
+
+/* A command, as all ranks get it. */
+typedef struct {
+    int what, id, columns, fresh, out_of_core, megabytes;
+    int64_t n, kept;
+    double low_rank;
+    char file[64];
+} Command;
+
+static DMUMPS_STRUC_C *bodies[BODIES];
+static int rank, ranks;
+static const char *folder;
+/* Lines of the standard input on their way from the thread that waits for them. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t came = PTHREAD_COND_INITIALIZER;
+static char line[512];
+static int has_line, quitting;
+
+static void die(const char *format, ...) {
+    va_list list;
+    fprintf(stderr, "stickslip-mumps, rank %d: ", rank);
+    va_start(list, format);
+    vfprintf(stderr, format, list);
+    va_end(list);
+    fputc('\n', stderr);
+    fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    _exit(1);
+}
+
+static void *get(size_t count, size_t size) {
+    void *memory = count ? calloc(count, size) : NULL;
+    if (count && !memory) die("no memory for %zu numbers", count);
+    return memory;
+}
+
+static void doze(long *nanoseconds) {
+    struct timespec pause = {0, *nanoseconds};
+    nanosleep(&pause, NULL);
+    if (*nanoseconds < 1000000) *nanoseconds += *nanoseconds / 4;
+}
+
+/* Nobody is left to work for: takes the folder with what is in it along. */
+static void remove_folder(void) {
+    char path[4096];
+    struct dirent *entry;
+    DIR *open = opendir(folder);
+    while (open && (entry = readdir(open))) {
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.') unlink(path);
+    }
+    if (open) closedir(open);
+    rmdir(folder);
+}
+
+/* Ends this rank when what started it is gone: MPI would have it wait for ever. */
+static void *watch_parent(void *of) {
+    pid_t parent = *(pid_t *)of;
+    struct timespec pause = {0, 200000000};
+    while (getppid() == parent) nanosleep(&pause, NULL);
+    _exit(1);
+    return NULL;
+}
+
+static void *read_lines(void *unused) {
+    char text[sizeof line];
+    (void)unused;
+    while (fgets(text, sizeof text, stdin)) {
+        pthread_mutex_lock(&lock);
+        while (has_line) pthread_cond_wait(&came, &lock);
+        memcpy(line, text, sizeof line);
+        has_line = 1;
+        quitting |= !strncmp(text, "quit", 4);
+        pthread_cond_broadcast(&came);
+        pthread_mutex_unlock(&lock);
+    }
+    if (!quitting) {
+        remove_folder();
+        _exit(1);
+    }
+    return NULL;
+}
+
+static void answer(const char *format, ...) {
+    va_list list;
+    if (rank != 0) return;
+    va_start(list, format);
+    vprintf(format, list);
+    va_end(list);
+    putchar('\n');
+    if (fflush(stdout)) die("the answer cannot be written");
+}
+
+/* The next command on all ranks. Who waits for one sleeps: between two, stickslip works, maybe on the same processors. */
+static Command next_command(void) {
+    Command c;
+    MPI_Request request;
+    char what[16];
+    int done = 0;
+    long pause = 20000;
+    memset(&c, 0, sizeof c);
+    if (rank == 0) {
+        pthread_mutex_lock(&lock);
+        while (!has_line) pthread_cond_wait(&came, &lock);
+        if (sscanf(line, "factor %d %" SCNd64 " %" SCNd64 " %d %lf %d %63s", &c.id, &c.n, &c.kept, &c.out_of_core, &c.low_rank, &c.megabytes,
+                   c.file) == 7)
+            c.what = FACTOR;
+        else if (sscanf(line, "reduce %d %d %63s", &c.id, &c.columns, c.file) == 3)
+            c.what = REDUCE;
+        else if (sscanf(line, "expand %d %d %d %63s", &c.id, &c.columns, &c.fresh, c.file) == 4)
+            c.what = EXPAND;
+        else if (sscanf(line, "free %d", &c.id) == 1)
+            c.what = FREE;
+        else if (sscanf(line, "%15s", what) != 1 || strcmp(what, "quit"))
+            die("what is `%s`?", line);
+        has_line = 0;
+        pthread_cond_broadcast(&came);
+        pthread_mutex_unlock(&lock);
+        if (c.id < 0 || c.id >= BODIES || c.n < 0 || c.n > INT32_MAX || c.kept < 0 || c.kept > c.n) die("wrong numbers in a command");
+        if ((c.what == REDUCE || c.what == EXPAND) && (!bodies[c.id] || c.columns < 1)) die("body %d has no factor", c.id);
+        if (c.what == FACTOR && bodies[c.id]) die("body %d has a factor already", c.id);
+    }
+    MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+    for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) doze(&pause);
+    return c;
+}
+
+static void mix(uint64_t *sum, const void *words, size_t count) {
+    const unsigned char *bytes = words;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t word;
+        memcpy(&word, bytes + 8 * i, 8);
+        *sum = (*sum ^ word) * 0x9e3779b97f4a7c15ULL;
+        *sum ^= *sum >> 32;
+    }
+}
+
+static FILE *open_words(const char *path, size_t expected) {
+    uint64_t head[2];
+    FILE *file = fopen(path, "rb");
+    if (!file) die("%s cannot be read; set STICKSLIP_MUMPS_DIR to a folder that all machines see", path);
+    if (fread(head, 8, 2, file) != 2 || head[0] != MAGIC) die("%s is something else", path);
+    if (head[1] != expected && expected != SIZE_MAX) die("%s has %" PRIu64 " words instead of %zu", path, head[1], expected);
+    return file;
+}
+
+static void read_words(FILE *file, const char *path, void *to, size_t count, uint64_t *sum) {
+    if (fread(to, 8, count, file) != count) die("%s is cut short", path);
+    mix(sum, to, count);
+}
+
+static void close_words(FILE *file, const char *path, uint64_t sum) {
+    uint64_t end;
+    if (fread(&end, 8, 1, file) != 1 || end != sum) die("%s is damaged", path);
+    fclose(file);
+    unlink(path);
+}
+
+static void write_words(const char *path, const void *words, size_t count) {
+    uint64_t head[2] = {MAGIC, count}, sum = 0;
+    FILE *file = fopen(path, "wb");
+    mix(&sum, words, count);
+    if (!file || fwrite(head, 8, 2, file) != 2 || fwrite(words, 8, count, file) != count || fwrite(&sum, 8, 1, file) != 1 || fclose(file))
+        die("%s cannot be written", path);
+}
+
+/* The share of the matrix of this rank: words (row, column) of 32 bits each, and values, in turn. */
+static void read_matrix(DMUMPS_STRUC_C *body, const char *file) {
+    char path[4096];
+    uint64_t sum = 0, count = 0, *pairs = get(2 * CHUNK, 8);
+    snprintf(path, sizeof path, "%s/%s.%d", folder, file, rank);
+    FILE *open = open_words(path, SIZE_MAX);
+    read_words(open, path, &count, 1, &sum);
+    body->nnz_loc = (int64_t)count;
+    body->irn_loc = get(count, sizeof *body->irn_loc);
+    body->jcn_loc = get(count, sizeof *body->jcn_loc);
+    body->a_loc = get(count, sizeof *body->a_loc);
+    for (uint64_t done = 0; done < count;) {
+        uint64_t some = count - done < CHUNK ? count - done : CHUNK;
+        read_words(open, path, pairs, 2 * some, &sum);
+        for (uint64_t i = 0; i < some; i++, done++) {
+            body->irn_loc[done] = (MUMPS_INT)(pairs[2 * i] & 0xffffffffu) + 1;
+            body->jcn_loc[done] = (MUMPS_INT)(pairs[2 * i] >> 32) + 1;
+            memcpy(body->a_loc + done, pairs + 2 * i + 1, 8);
+        }
+    }
+    close_words(open, path, sum);
+    free(pairs);
+}
+
+static void free_matrix(DMUMPS_STRUC_C *body) {
+    free(body->irn_loc);
+    free(body->jcn_loc);
+    free(body->a_loc);
+    body->irn_loc = body->jcn_loc = NULL;
+    body->a_loc = NULL;
+    body->nnz_loc = 0;
+}
+
+static void job(DMUMPS_STRUC_C *body, int number) {
+    body->job = number;
+    dmumps_c(body);
+}
+
+static void drop(int id) {
+    DMUMPS_STRUC_C *body = bodies[id];
+    if (!body) return;
+    job(body, -2);
+    free_matrix(body);
+    free(body->listvar_schur);
+    free(body->schur);
+    free(body->rhs);
+    free(body->redrhs);
+    free(body);
+    bodies[id] = NULL;
+}
+
+static DMUMPS_STRUC_C *new_body(const Command *c) {
+    DMUMPS_STRUC_C *body = get(1, sizeof *body);
+    body->sym = 1; /* positive definite */
+    body->par = 1; /* rank 0 works, too */
+    body->comm_fortran = USE_COMM_WORLD;
+    job(body, -1);
+    if (body->INFOG(1) < 0) return body;
+    for (int i = 1; i <= 3; i++) body->ICNTL(i) = -1;
+    body->ICNTL(4) = 0;
+    body->ICNTL(7) = 5;  /* METIS */
+    body->ICNTL(18) = 3; /* the matrix is given by ranks */
+    body->ICNTL(22) = c->out_of_core;
+    body->ICNTL(23) = c->megabytes;
+    if (c->low_rank > 0) {
+        body->ICNTL(35) = 2;
+        body->CNTL(7) = c->low_rank;
+    }
+    snprintf(body->ooc_tmpdir, sizeof body->ooc_tmpdir, "%s", folder);
+    body->n = (MUMPS_INT)c->n;
+    return body;
+}
+
+/* All of the Schur complement on rank 0, its lower triangle by columns: a grid of one. */
+static void keep_schur(DMUMPS_STRUC_C *body, const Command *c) {
+    body->size_schur = (MUMPS_INT)c->kept;
+    if (!c->kept) return;
+    body->ICNTL(19) = 2;
+    body->nprow = body->npcol = 1;
+    body->mblock = body->nblock = 64;
+    body->listvar_schur = get(c->kept, sizeof *body->listvar_schur);
+    for (int64_t i = 0; i < c->kept; i++) body->listvar_schur[i] = (MUMPS_INT)(c->n - c->kept + i + 1);
+}
+
+static void write_schur(DMUMPS_STRUC_C *body, const Command *c) {
+    char path[4096];
+    size_t at = 0, n = c->kept;
+    if (rank == 0) {
+        /* In place: what is moved is always ahead of where it goes. */
+        for (size_t j = 0; j < n; j++)
+            for (size_t i = j; i < n; i++) body->schur[at++] = body->schur[j * n + i];
+        snprintf(path, sizeof path, "%s/%s.schur", folder, c->file);
+        write_words(path, body->schur, at);
+    }
+    free(body->schur);
+    body->schur = NULL;
+}
+
+static void complain(const DMUMPS_STRUC_C *body, const char *during) { answer("error %d %d %s", body->INFOG(1), body->INFOG(2), during); }
+
+static int wants_more_space(int info) { return info == -8 || info == -9 || info == -14 || info == -15 || info == -17 || info == -20; }
+
+static void factor(const Command *c) {
+    DMUMPS_STRUC_C *body = bodies[c->id] = new_body(c);
+    if (body->INFOG(1) < 0) {
+        complain(body, "start");
+        return drop(c->id);
+    }
+    read_matrix(body, c->file);
+    keep_schur(body, c);
+    job(body, 1);
+    if (body->INFOG(1) < 0) {
+        complain(body, "analysis");
+        return drop(c->id);
+    }
+    if (rank == 0 && c->kept) {
+        body->schur_lld = (MUMPS_INT)c->kept;
+        body->schur = get((size_t)c->kept * c->kept, 8);
+    }
+    for (int tried = 0; tried < TRIES; tried++) {
+        job(body, 2);
+        if (!wants_more_space(body->INFOG(1)) || c->megabytes) break;
+        body->ICNTL(14) = 2 * body->ICNTL(14) + 20;
+    }
+    if (body->INFOG(1) < 0 || body->INFOG(12) > 0) {
+        if (body->INFOG(1) >= 0) answer("error -10 %d negative pivots", body->INFOG(12));
+        else complain(body, "factorisation");
+        return drop(c->id);
+    }
+    free_matrix(body);
+    write_schur(body, c);
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    int64_t own = usage.ru_maxrss, most = 0, sum = 0;
+    MPI_Reduce(&own, &most, 1, MPI_INT64_T, MPI_MAX, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&own, &sum, 1, MPI_INT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
+    double entries = body->INFOG(29) < 0 ? -1e6 * body->INFOG(29) : body->INFOG(29);
+    answer("ok %" PRId64 " %" PRId64 " %.0f %.0f", most, sum, body->RINFOG(3), entries);
+}
+
+/* Room for vectors on rank 0. */
+static void room(DMUMPS_STRUC_C *body, int columns) {
+    if (rank == 0 && columns != body->nrhs) {
+        free(body->rhs);
+        free(body->redrhs);
+        body->rhs = get((size_t)body->n * columns, 8);
+        body->redrhs = get((size_t)body->size_schur * columns, 8);
+    }
+    body->nrhs = columns;
+    body->lrhs = body->n;
+    body->lredrhs = body->size_schur;
+}
+
+static int solve(DMUMPS_STRUC_C *body, int way) {
+    body->ICNTL(26) = way;
+    job(body, 3);
+    if (body->INFOG(1) >= 0) return 1;
+    complain(body, "solution");
+    return 0;
+}
+
+static void solve_for(const Command *c) {
+    DMUMPS_STRUC_C *body = bodies[c->id];
+    char path[4096], out[4096];
+    size_t n = body->n, kept = body->size_schur, inner = n - kept, columns = c->columns;
+    int ok = 1, forces = c->what == REDUCE || c->fresh;
+    room(body, c->columns);
+    snprintf(path, sizeof path, "%s/%s", folder, c->file);
+    snprintf(out, sizeof out, "%s/%s.out", folder, c->file);
+    FILE *open = NULL;
+    uint64_t sum = 0;
+    if (rank == 0) {
+        size_t rows = c->what == REDUCE ? n : inner;
+        open = open_words(path, columns * (forces ? rows : 0) + columns * (c->what == EXPAND ? kept : 0));
+        for (size_t k = 0; forces && k < columns; k++) {
+            read_words(open, path, body->rhs + k * n, rows, &sum);
+            if (rows < n) memset(body->rhs + k * n + rows, 0, 8 * kept);
+        }
+    }
+    /* Without kept rows there is nothing to reduce, and the expansion is the whole solution. */
+    if (forces && kept) ok = solve(body, 1);
+    if (rank == 0) {
+        if (c->what == EXPAND) read_words(open, path, body->redrhs, columns * kept, &sum);
+        close_words(open, path, sum);
+    }
+    if (ok && c->what == EXPAND) ok = solve(body, kept ? 2 : 0);
+    if (!ok) return;
+    if (rank == 0 && c->what == REDUCE) write_words(out, body->redrhs, columns * kept);
+    if (rank == 0 && c->what == EXPAND) {
+        for (size_t k = 1; k < columns; k++) memmove(body->rhs + k * inner, body->rhs + k * n, 8 * inner);
+        write_words(out, body->rhs, columns * inner);
+        /* What was moved is no longer what was reduced. */
+    }
+    answer("ok");
+}
+
+int main(int count, char **arguments) {
+    int level;
+    pthread_t thread;
+    pid_t parent = getppid();
+    if (count != 2) {
+        fprintf(stderr, "usage: stickslip-mumps FOLDER; stickslip starts it\n");
+        return 1;
+    }
+    folder = arguments[1];
+    pthread_create(&thread, NULL, watch_parent, &parent);
+    MPI_Init_thread(&count, &arguments, MPI_THREAD_FUNNELED, &level);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (access(folder, R_OK | W_OK)) die("%s is not there; set STICKSLIP_MUMPS_DIR to a folder that all machines see", folder);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank == 0 && pthread_create(&thread, NULL, read_lines, NULL)) die("no thread");
+    answer("ready %d %s %d", PROTOCOL, MUMPS_VERSION, ranks);
+    for (Command c = next_command(); c.what != QUIT; c = next_command()) {
+        if (c.what == FACTOR) factor(&c);
+        if (c.what == FREE) drop(c.id);
+        if (c.what == FREE) answer("ok");
+        if (c.what == REDUCE || c.what == EXPAND) solve_for(&c);
+    }
+    for (int id = 0; id < BODIES; id++) drop(id);
+    MPI_Finalize();
+    return 0;
+}
