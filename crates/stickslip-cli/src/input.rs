@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use stickslip::Error;
+use stickslip::io::gmsh;
 use stickslip::model::Setup;
-use stickslip::problem::{Document, Meshes, Problem};
+use stickslip::problem::{Document, MeshSource, Meshes, Problem};
 use stickslip_deck::{Deck, Severity, Translation};
 
 use crate::failure::{Failure, located};
@@ -37,6 +38,8 @@ pub struct Case {
     pub document: Document,
     /// The deck.
     deck: Option<Arc<Translation>>,
+    /// The meshes that the last problem read from files, if those that follow shall have them.
+    kept: Option<Mutex<Meshes>>,
 }
 
 impl Case {
@@ -51,21 +54,58 @@ impl Case {
             Some(deck) => deck.document(Vec::new()),
             None => Document::read(file)?,
         };
-        Ok(Case { document, deck })
+        Ok(Case {
+            document,
+            deck,
+            kept: None,
+        })
+    }
+
+    /// Reads files of meshes once for problems that follow each other.
+    pub fn keeping_meshes(mut self) -> Case {
+        self.kept = Some(Mutex::default());
+        self
+    }
+
+    /// The meshes of a problem that are not read again. What is wrong with a file is said by who builds the model.
+    fn meshes(&self, problem: &Problem, folder: &Path) -> Meshes {
+        let mut all = self
+            .deck
+            .as_ref()
+            .map_or_else(Meshes::default, |d| d.meshes());
+        let Some(kept) = &self.kept else {
+            return all;
+        };
+        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut now = Meshes::default();
+        for body in problem.body.values() {
+            let MeshSource::Gmsh(mesh) = &body.mesh else {
+                continue;
+            };
+            let name = PathBuf::from(&mesh.file);
+            if all.contains_key(&name) || now.contains_key(&name) {
+                continue;
+            }
+            let known = kept.get(&name).map(Arc::clone);
+            let read = || gmsh::read(&folder.join(&name)).ok().map(Arc::new);
+            now.extend(known.or_else(read).map(|mesh| (name, mesh)));
+        }
+        all.extend(now.clone());
+        *kept = now;
+        all
     }
 
     /// With values changed.
     pub fn input(&self, overrides: &[String]) -> Result<Input, Failure> {
         let document = self.document.clone().with_overrides(overrides.to_vec());
         let problem = document.problem();
+        let problem = problem.map_err(|e| self.failure(e.into()))?;
+        let folder = document.folder();
         Ok(Input {
-            problem: problem.map_err(|e| self.failure(e.into()))?,
-            folder: document.folder(),
+            meshes: self.meshes(&problem, &folder),
+            problem,
+            folder,
             document,
-            meshes: self
-                .deck
-                .as_ref()
-                .map_or_else(Meshes::default, |d| d.meshes()),
             deck: self.deck.clone(),
         })
     }

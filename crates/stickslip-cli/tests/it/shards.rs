@@ -1,7 +1,7 @@
 //! Sweeps in parts: by processes that stand for machines, killed and gone on with, merged to what one process makes.
 
 use crate::support::{self, CASE, command, text};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -45,26 +45,34 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
     text(&output.stderr)
 }
 
-/// All files under a folder.
-fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut all = BTreeMap::new();
+/// The names of all files under a folder, while others may be at work in it.
+fn files(folder: &Path) -> BTreeSet<PathBuf> {
+    let mut all = BTreeSet::new();
     let mut open = vec![folder.to_path_buf()];
     while let Some(next) = open.pop() {
-        for entry in std::fs::read_dir(&next).expect("a folder") {
-            let path = entry.expect("an entry").path();
+        for entry in std::fs::read_dir(&next).into_iter().flatten().flatten() {
+            let path = entry.path();
             if path.is_dir() {
                 open.push(path);
             } else {
-                let name = path.strip_prefix(folder).expect("a name").to_path_buf();
-                all.insert(name, std::fs::read(&path).expect("a file"));
+                all.insert(path.strip_prefix(folder).expect("a name").to_path_buf());
             }
         }
     }
     all
 }
 
+/// All files under a folder, with what is in them.
+fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let read = |name: PathBuf| {
+        let bytes = std::fs::read(folder.join(&name)).expect("a file");
+        (name, bytes)
+    };
+    files(folder).into_iter().map(read).collect()
+}
+
 fn names(folder: &Path, ends: &str) -> Vec<PathBuf> {
-    let all = tree(folder).into_keys();
+    let all = files(folder).into_iter();
     all.filter(|name| name.to_string_lossy().ends_with(ends))
         .collect()
 }
@@ -169,7 +177,7 @@ fn a_shard_that_is_killed_goes_on_where_it_was() {
             part.replace('/', "-of-")
         ));
         let lines = || std::fs::read_to_string(&rows).unwrap_or_default();
-        let (before, known) = (lines(), tree(&folder).into_keys().collect::<Vec<_>>());
+        let (before, known) = (lines(), files(&folder));
         let mut child = shard(&folder, part);
         let started = Instant::now();
         let come = || match moment {

@@ -125,7 +125,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     use_threads(arguments.threads, arguments.quiet);
     let fixed = arguments.engine.overrides(&arguments.fix);
     let plan = Plan::new(&arguments.set, &fixed, arguments.zip)?;
-    let case = Case::read(file)?;
+    let case = Case::read(file)?.keeping_meshes();
     let read = plan.check(&case.document);
     let files = case.files(read.map_err(|e| case.failure(e.into()))?);
     let output = arguments.output.clone();
@@ -220,6 +220,17 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
     let started = Instant::now();
     let (plan, arguments) = (all.plan, all.arguments);
     let parts = output.with_extension("shards");
+    let above = parts.parent().filter(|above| *above != Path::new(""));
+    if let Some(above) = above.filter(|above| !above.is_dir()) {
+        return Err(Failure::Arguments(
+            format!(
+                "{}: there is no folder {}",
+                output.display(),
+                above.display()
+            ),
+            "make it first, or choose another table with -o".into(),
+        ));
+    }
     let folder = parts.join(format!("{}-of-{}", share.index, share.of));
     let own = share.runs(plan.count());
     all.tell(&format!(
