@@ -121,11 +121,6 @@ impl Bulk for SparseBulk<'_> {
         factor * settings.linear_tolerance
     }
 
-    /// The hierarchy knows nothing of the curvature, and evaluating it takes as long as the rest of mortar contact.
-    fn prefers_straight(&self, _contact: &Assembler) -> bool {
-        self.linearised.uses_multigrid()
-    }
-
     fn solve(
         &mut self,
         contact: &Assembler,
