@@ -54,3 +54,20 @@ pub(crate) fn cylindrical(a: [f64; 3], b: [f64; 3], x: [f64; 3]) -> Option<[[f64
     let radial = normalize(add_scaled(arm, -dot(arm, axial), axial))?;
     Some([radial, cross(axial, radial), axial])
 }
+
+/// Radius, angle in degrees from x to y, and z as x, y and z.
+pub(crate) fn polar([r, degrees, z]: [f64; 3]) -> [f64; 3] {
+    let (s, c) = sine_and_cosine(degrees);
+    [r * c, r * s, z]
+}
+
+/// Exact at right angles, so that what is turned by them stays along the axes.
+pub(crate) fn sine_and_cosine(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        _ => degrees.to_radians().sin_cos(),
+    }
+}

@@ -2,6 +2,8 @@
 
 use stickslip::math::{Vec3, add, cross, dot, normalize, scale, sub};
 
+use crate::axes::sine_and_cosine;
+
 /// A rotation followed by a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
@@ -68,16 +70,5 @@ impl Motion {
     pub fn in_plane(&self) -> bool {
         let z = self.vector([0.0, 0.0, 1.0]);
         (z[2] - 1.0).abs() < 1e-12
-    }
-}
-
-/// Exact at right angles, so that what is turned by them stays along the axes.
-fn sine_and_cosine(degrees: f64) -> (f64, f64) {
-    match degrees.rem_euclid(360.0) {
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        _ => degrees.to_radians().sin_cos(),
     }
 }

@@ -19,6 +19,11 @@ const CARDS: &[(&str, Read)] = &[
     ("SYSTEM", |r, c| r.system(c)),
     ("NODE", |r, c| r.nodes(c)),
     ("ELEMENT", |r, c| r.elements(c)),
+    ("NGEN", |r, c| r.generate_nodes(c)),
+    ("NFILL", |r, c| r.fill_nodes(c)),
+    ("NCOPY", |r, c| r.copy_nodes(c)),
+    ("ELGEN", |r, c| r.generate_elements(c)),
+    ("ELCOPY", |r, c| r.copy_elements(c)),
     ("NSET", |r, c| r.node_set(c)),
     ("ELSET", |r, c| r.element_set(c)),
     ("SURFACE", |r, c| r.surface(c)),
@@ -99,7 +104,7 @@ pub(super) const BENEATH: [&str; 7] = [
 ];
 
 /// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
-pub(super) const NAMES: [&str; 17] = [
+pub(super) const NAMES: [&str; 22] = [
     "PART",
     "ENDPART",
     "ASSEMBLY",
@@ -108,6 +113,11 @@ pub(super) const NAMES: [&str; 17] = [
     "ENDINSTANCE",
     "NODE",
     "ELEMENT",
+    "NGEN",
+    "NFILL",
+    "NCOPY",
+    "ELGEN",
+    "ELCOPY",
     "NSET",
     "ELSET",
     "SURFACE",

@@ -98,7 +98,7 @@ impl Reader<'_> {
     }
 
     /// Keeps an element; `false` if its nodes do not exist.
-    fn keep(&mut self, id: u64, element: Element) -> bool {
+    pub(super) fn keep(&mut self, id: u64, element: Element) -> bool {
         let place = element.place;
         let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
         if let Some(n) = element.nodes.iter().find(absent) {
@@ -195,6 +195,18 @@ impl Reader<'_> {
 
     /// Whether an element has the face; it is an error if not.
     pub(super) fn has_face(&mut self, element: u64, face: usize, place: Place) -> bool {
+        if self.reflected.contains(&element) {
+            let label = self.deck.label(element);
+            let message = format!(
+                "a face of element {label}, which *ELCOPY, REFLECT has made, is named by its number"
+            );
+            self.error(
+                place,
+                message,
+                "write the reflected elements out: which face has which number depends on how the nodes are turned round",
+            );
+            return false;
+        }
         let kind = &self.deck.elements[&element].kind;
         let known = bounding(kind).is_some()
             || abaqus::element_type(kind).is_ok_and(|t| abaqus::face_index(t.kind, face).is_some());

@@ -7,6 +7,7 @@ use stickslip::io::abaqus::{self, Space};
 
 use super::cards;
 use super::fields::nearest;
+use super::generate_elements;
 use super::reader::Reader;
 use super::structure::{Assembly, Level, OpenInstance, Part, STRUCTURE};
 use crate::card::{Card, Place};
@@ -27,7 +28,9 @@ pub(super) fn numbering(source: &Source) -> Numbering {
     }
     let lines = of("NODE").chain(of("ELEMENT")).flat_map(|c| &c.data);
     let numbers = lines.filter_map(|d| whole(d.fields.first()?));
-    Numbering::new(count, numbers.max().unwrap_or(0))
+    let most = numbers.max().unwrap_or(0);
+    let made = source.cards.iter().map(generate_elements::farther);
+    Numbering::new(count, made.fold(most, u64::saturating_add))
 }
 
 impl Reader<'_> {

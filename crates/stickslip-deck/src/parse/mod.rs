@@ -5,6 +5,8 @@ mod cards;
 mod couplings;
 mod elements;
 mod fields;
+mod generate;
+mod generate_elements;
 mod initial;
 mod instances;
 mod interaction;

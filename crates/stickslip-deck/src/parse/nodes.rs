@@ -5,29 +5,32 @@ use stickslip::math::{cross, sub};
 use super::fields::Nodes;
 use super::reader::Reader;
 use super::sets::add;
-use crate::axes::frame;
+use crate::axes::{frame, polar};
 use crate::card::Card;
 use crate::deck::Transform;
 use crate::motion::Motion;
 
 impl Reader<'_> {
     pub(super) fn nodes(&mut self, card: &Card) {
-        if card
-            .get("SYSTEM")
-            .is_some_and(|s| !s.is_empty() && s != "R")
-        {
-            self.error(
-                card.place,
-                "*NODE: only rectangular coordinates are read",
-                "give x, y and z",
-            );
-        }
+        let round = match card.get("SYSTEM") {
+            None | Some("" | "R") => false,
+            Some("C") => true,
+            Some(_) => {
+                self.error(
+                    card.place,
+                    "*NODE: only rectangular and cylindrical coordinates are read",
+                    "give x, y and z",
+                );
+                false
+            }
+        };
         let mut set = Vec::new();
         for data in &card.data {
             let Some(id) = self.own_number(data) else {
                 continue;
             };
             let x = [1, 2, 3].map(|i| self.number(data, i, 0.0));
+            let x = if round { polar(x) } else { x };
             let x = self.motion().point(self.system.point(x));
             if x.iter().any(|c| !c.is_finite()) {
                 self.error(

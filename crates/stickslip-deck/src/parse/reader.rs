@@ -45,6 +45,10 @@ pub(super) struct Reader<'a> {
     pub(super) history: Option<bool>,
     /// Sets of nodes and of elements that name one twice, with its number.
     pub(super) doubled: [BTreeMap<String, u64>; 2],
+    /// Sets of nodes that keep the order of the deck where order counts.
+    pub(super) unsorted: BTreeSet<String>,
+    /// Elements whose faces have other numbers than those they were made of.
+    pub(super) reflected: BTreeSet<u64>,
     /// Elements of types that are not supported, and sets of them: one error is enough.
     pub(super) skipped: BTreeSet<u64>,
     pub(super) skipped_sets: BTreeSet<String>,
@@ -87,6 +91,8 @@ impl<'a> Reader<'a> {
             asked: BTreeSet::new(),
             history: None,
             doubled: Default::default(),
+            unsorted: Default::default(),
+            reflected: Default::default(),
             skipped: Default::default(),
             skipped_sets: Default::default(),
             bounding: Vec::new(),

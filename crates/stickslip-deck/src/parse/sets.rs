@@ -45,6 +45,9 @@ impl Reader<'_> {
         };
         let out = self.nodes_named(card, &name);
         self.scope = outer;
+        if card.has("UNSORTED") {
+            self.unsorted.insert(name.clone());
+        }
         let set = self.deck.node_sets.entry(name.clone()).or_default();
         if let Some(n) = add(set, out) {
             self.doubled[0].entry(name).or_insert(n);

@@ -74,9 +74,14 @@ pub(super) const STRUCTURE: [&str; 6] = [
 ];
 
 /// Cards of a part or of an instance.
-const MESH: [&str; 25] = [
+const MESH: [&str; 30] = [
     "NODE",
     "ELEMENT",
+    "NGEN",
+    "NFILL",
+    "NCOPY",
+    "ELGEN",
+    "ELCOPY",
     "NSET",
     "ELSET",
     "SURFACE",

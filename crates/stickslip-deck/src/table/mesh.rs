@@ -46,6 +46,66 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
+        "NGEN",
+        Data::Lines(
+            "first node, last node, increment, node of the curve, x, y, z, normal x, normal y, normal z",
+        ),
+        &[read("NSET"), read("LINE"), read("SYSTEM")],
+    ),
+    card(
+        "NFILL",
+        Data::Lines("first set, second set, number of intervals, increment"),
+        &[
+            read("NSET"),
+            read("BIAS"),
+            read("TWOSTEP"),
+            refused(
+                "SINGULAR",
+                "elements at the tip of a crack are as others are: leave it out",
+            ),
+        ],
+    ),
+    card(
+        "NCOPY",
+        Data::Lines("x, y, z, x, y, z, angle"),
+        &[
+            read("OLDSET"),
+            read("NEWSET"),
+            read("CHANGENUMBER"),
+            read("SHIFT"),
+            read("REFLECT"),
+            refused(
+                "POLE",
+                "infinite elements are not computed: write the nodes out",
+            ),
+            refused(
+                "MULTIPLE",
+                "write the whole angle, or one *NCOPY after another",
+            ),
+        ],
+    ),
+    card(
+        "ELGEN",
+        Data::Lines(
+            "element, number in a row, increment of nodes, increment of elements, rows, increment of nodes, increment of elements, layers, increment of nodes, increment of elements",
+        ),
+        &[
+            read("ELSET"),
+            idle("ALLNODES", "it is of nodes of rigid surfaces and of beams"),
+        ],
+    ),
+    card(
+        "ELCOPY",
+        Data::Nothing,
+        &[
+            read("OLDSET"),
+            read("NEWSET"),
+            read("ELEMENTSHIFT"),
+            read("SHIFTNODES"),
+            read("REFLECT"),
+        ],
+    ),
+    card(
         "NSET",
         Data::Any,
         &[
@@ -56,7 +116,7 @@ pub(super) const ROWS: &[Row] = &[
                 "FREQUENCY",
                 "it belongs to *NODE PRINT; CalculiX leaves it out here, too",
             ),
-            idle("UNSORTED", "sets keep the order of the deck"),
+            read("UNSORTED"),
             idle("INTERNAL", "it hides the set in a viewer"),
             read("INSTANCE"),
             INPUT,

@@ -48,6 +48,19 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "SYSTEM" => ("", "", "0., 0., 0., 1., 1., 0.\n"),
         "NODE" => ("", "", "9, 0., 0., 0.\n"),
         "ELEMENT" => ("", "TYPE=C3D4", "9, 1, 2, 3, 4\n"),
+        "NGEN" => ("*NODE\n10, 1., 0., 0.\n20, 0., 1., 0.\n", "", "10, 20, 5\n"),
+        "NFILL" => (
+            "*NSET, NSET=L\n1, 3\n*NSET, NSET=H\n2, 5\n",
+            "",
+            "L, H, 2, 20\n",
+        ),
+        "NCOPY" => ("", "OLDSET=N, CHANGENUMBER=100, SHIFT", "1., 0., 0.\n"),
+        "ELGEN" => ("", "", "1\n"),
+        "ELCOPY" => (
+            "*NCOPY, OLD SET=N, CHANGE NUMBER=100, SHIFT\n1., 0., 0.\n",
+            "OLDSET=E, ELEMENTSHIFT=100, SHIFTNODES=100",
+            "",
+        ),
         "NSET" => (ASSEMBLED, "NSET=X", "1, 3, 1\n"),
         "ELSET" => (ASSEMBLED, "ELSET=X", "1, 3, 1\n"),
         "SURFACE" => ("", "NAME=X", "E, S3\n"),
@@ -124,6 +137,11 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
 fn value(keyword: &str, parameter: &str) -> &'static str {
     match (keyword, parameter) {
         ("NSET", "ELSET") => "=E",
+        ("NGEN", "LINE") => "=C",
+        ("NGEN", "SYSTEM") => "=RC",
+        ("NFILL", "BIAS") => "=2.",
+        ("NFILL", "TWOSTEP") | ("NCOPY", "SHIFT") => "",
+        ("NCOPY", "REFLECT") => "=POINT",
         (_, "INSTANCE") => "=J",
         ("SOLIDSECTION", "ORIENTATION") => "=O",
         (_, "AMPLITUDE") if keyword == "STEP" => "=RAMP",
@@ -171,6 +189,7 @@ fn sample_with<'a>(row: &Row, more: &str, data: &'a str) -> (&'static str, &'sta
     match (row.keyword, more.split('=').next()) {
         ("EQUATION", Some("REMOVE")) => ("*STEP\n*STATIC\n", needs, "1, 1\n"),
         ("EQUATION", Some("REMOVEALL")) => ("*STEP\n*STATIC\n", needs, ""),
+        ("NCOPY", Some("REFLECT")) => (before, "OLDSET=N, CHANGENUMBER=100", data),
         ("MODELCHANGE", Some("REMOVE")) => (before, "TYPE=CONTACT PAIR", data),
         _ => (before, needs, data),
     }

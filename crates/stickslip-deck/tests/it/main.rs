@@ -5,6 +5,7 @@ mod cards;
 mod changes;
 mod couplings;
 mod elements;
+mod generated;
 mod heat;
 mod instances;
 mod instances_wrong;
