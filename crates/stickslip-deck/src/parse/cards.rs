@@ -130,11 +130,31 @@ pub(super) const NAMES: [&str; 22] = [
 ];
 
 /// Procedures that are refused.
-pub(super) const OTHER_PROCEDURES: [&str; 4] = [
-    "COUPLEDTEMPERATURE-DISPLACEMENT",
-    "FREQUENCY",
-    "HEATTRANSFER",
+pub(super) const OTHER_PROCEDURES: [&str; 24] = [
+    "ANNEAL",
     "BUCKLE",
+    "CFD",
+    "COMPLEXFREQUENCY",
+    "COUPLEDTEMPERATURE-DISPLACEMENT",
+    "CRACKPROPAGATION",
+    "DIRECTCYCLIC",
+    "ELECTROMAGNETICS",
+    "FEASIBLEDIRECTION",
+    "FREQUENCY",
+    "GEOSTATIC",
+    "GREEN",
+    "HCF",
+    "HEATTRANSFER",
+    "MODALDYNAMIC",
+    "RANDOMRESPONSE",
+    "RESPONSESPECTRUM",
+    "ROBUSTDESIGN",
+    "SENSITIVITY",
+    "SOILS",
+    "STEADYSTATEDYNAMICS",
+    "SUBSTRUCTUREGENERATE",
+    "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
+    "VISCO",
 ];
 
 /// The function that reads a card.

@@ -1,5 +1,6 @@
 //! Elements: cells, springs, masses, and lines and faces that bound cells.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use stickslip::io::abaqus;
@@ -97,21 +98,15 @@ impl Reader<'_> {
         }
     }
 
-    /// Keeps an element; `false` if its nodes do not exist.
-    pub(super) fn keep(&mut self, id: u64, element: Element) -> bool {
+    /// Keeps an element. Its nodes may come later.
+    pub(super) fn keep(&mut self, id: u64, element: Element) {
         let place = element.place;
-        let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
-        if let Some(n) = element.nodes.iter().find(absent) {
-            self.error(
-                place,
-                format!(
-                    "element {} uses node {}, which does not exist",
-                    self.deck.label(id),
-                    self.deck.label(*n)
-                ),
-                "*NODE must stand before *ELEMENT",
-            );
-            return false;
+        if element
+            .nodes
+            .iter()
+            .any(|n| !self.deck.nodes.contains_key(n))
+        {
+            self.waiting.push((id, place));
         }
         if self.deck.elements.insert(id, element).is_some() {
             self.error(
@@ -120,7 +115,27 @@ impl Reader<'_> {
                 "numbers of elements are unique in the whole deck, or in an instance",
             );
         }
-        true
+    }
+
+    /// Elements whose nodes have not come.
+    pub(super) fn judge_waiting(&mut self) {
+        let mut said = BTreeSet::new();
+        for (id, place) in std::mem::take(&mut self.waiting) {
+            let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
+            let Some(n) = self.deck.elements[&id].nodes.iter().find(absent) else {
+                continue;
+            };
+            // What a line lacks it lacks in each instance; and nodes that could not be read are missed for that.
+            if self.unread || !said.insert((place.file, place.line)) {
+                continue;
+            }
+            let (id, n) = (self.deck.label(id), self.deck.label(*n));
+            self.error(
+                place,
+                format!("element {id} uses node {n}, which does not exist"),
+                "each node of an element stands in *NODE, or is generated",
+            );
+        }
     }
 
     pub(super) fn elements(&mut self, card: &Card) {
@@ -174,9 +189,8 @@ impl Reader<'_> {
                 nodes,
                 place: data.place,
             };
-            if self.keep(id, element) {
-                set.push(id);
-            }
+            self.keep(id, element);
+            set.push(id);
         }
         if let Some(name) = card.get("ELSET") {
             let name = self.scoped(name);

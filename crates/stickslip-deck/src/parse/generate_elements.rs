@@ -150,9 +150,10 @@ impl Reader<'_> {
                 else {
                     break;
                 };
-                if k == 0 || self.keep(new, element) {
-                    made.push(new);
+                if k > 0 {
+                    self.keep(new, element);
                 }
+                made.push(new);
             }
         }
         if let Some(name) = card.get("ELSET") {
@@ -207,9 +208,8 @@ impl Reader<'_> {
                 copy.nodes = order.iter().map(|i| copy.nodes[*i]).collect();
                 self.reflected.insert(new);
             }
-            if self.keep(new, copy) {
-                made.push(new);
-            }
+            self.keep(new, copy);
+            made.push(new);
         }
         if let Some(name) = card.get("NEWSET") {
             let name = self.scoped(name);

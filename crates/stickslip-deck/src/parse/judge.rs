@@ -9,6 +9,7 @@ impl Reader<'_> {
     /// Whether a card says nothing that would be dropped although it changes the answer: it is an error if it does.
     pub(super) fn judge(&mut self, card: &Card, row: &'static Row) -> bool {
         let before = self.errors.len();
+        let mut refused = 0;
         for (i, p) in card.parameters.iter().enumerate() {
             let name = p.name.as_str();
             if card.parameters[..i].iter().any(|q| q.name == p.name) {
@@ -26,6 +27,7 @@ impl Reader<'_> {
                 Some(Fate::Refused(help)) => {
                     let message = format!("{}, {name} is not supported", card.written);
                     self.error(card.place, message, help);
+                    refused += 1;
                 }
                 None => {
                     let known = match row.nearest(name) {
@@ -52,10 +54,11 @@ impl Reader<'_> {
             };
             self.error(data.place, message, &help);
         }
-        let sound = self.errors.len() == before;
-        if !sound {
+        // What is refused of a card goes with what is not computed, if there is such; what is misspelt is wrong whatever else there is.
+        let wrong = self.errors.len() - before;
+        if wrong > refused {
             self.formal.insert(card.place);
         }
-        sound
+        wrong == 0
     }
 }

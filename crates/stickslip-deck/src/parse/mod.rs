@@ -85,6 +85,7 @@ impl Reader<'_> {
                 findings: self.verdict(),
             });
         }
+        self.judge_waiting();
         self.judge_bounding();
         self.judge_absent();
         if self.deck.nodes.is_empty() && self.sound() {

@@ -27,6 +27,7 @@ impl Reader<'_> {
         let mut set = Vec::new();
         for data in &card.data {
             let Some(id) = self.own_number(data) else {
+                self.unread = true;
                 continue;
             };
             let x = [1, 2, 3].map(|i| self.number(data, i, 0.0));
@@ -38,6 +39,7 @@ impl Reader<'_> {
                     "the node lies too far away to be moved or turned",
                     "write the mesh near the origin, in units in which it is neither huge nor tiny",
                 );
+                self.unread = true;
                 continue;
             }
             if let Some(before) = self.deck.nodes.insert(id, x)

@@ -45,6 +45,10 @@ pub(super) struct Reader<'a> {
     pub(super) history: Option<bool>,
     /// Sets of nodes and of elements that name one twice, with its number.
     pub(super) doubled: [BTreeMap<String, u64>; 2],
+    /// Elements with a node that is not there yet, and where.
+    pub(super) waiting: Vec<(u64, Place)>,
+    /// A line of a *NODE could not be read.
+    pub(super) unread: bool,
     /// Sets of nodes that keep the order of the deck where order counts.
     pub(super) unsorted: BTreeSet<String>,
     /// Elements whose faces have other numbers than those they were made of.
@@ -91,6 +95,8 @@ impl<'a> Reader<'a> {
             asked: BTreeSet::new(),
             history: None,
             doubled: Default::default(),
+            waiting: Vec::new(),
+            unread: false,
             unsorted: Default::default(),
             reflected: Default::default(),
             skipped: Default::default(),

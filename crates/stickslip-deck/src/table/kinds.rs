@@ -19,7 +19,7 @@ pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
         }
         "BEAMSECTION" | "BEAMGENERALSECTION" => BEAMS,
         "MEMBRANESECTION" => MEMBRANES,
-        "FLUIDSECTION" => NETWORKS,
+        "FLUIDSECTION" | "FLUIDSECTIONS" => NETWORKS,
         "CONNECTORSECTION" | "CONNECTORBEHAVIOR" => CONNECTORS,
         "COHESIVESECTION" => COHESIVE,
         "USERELEMENT" | "UEL" | "USERSECTION" => USER_ELEMENTS,

@@ -182,4 +182,11 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("RANDOMRESPONSE", TIME),
     refused_card("RESPONSESPECTRUM", TIME),
     refused_card("MATRIXINPUT", LINK),
+    refused_card("SUBSTRUCTUREMATRIXOUTPUT", TIME),
+    refused_card("USEREFINEDMESH", "refine the mesh before"),
+    refused_card("GEOMETRICTOLERANCES", TIME),
+    refused_card("DSFLUX", HEAT),
+    refused_card("DRUCKERPRAGERHARDENING", LAW),
+    refused_card("ENRICHMENT", LAW),
+    refused_card("FLUIDSECTIONS", SECTION),
 ];

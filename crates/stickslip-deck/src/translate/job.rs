@@ -78,7 +78,13 @@ impl<'a> Job<'a> {
 
     pub(super) fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
         let finding = self.finding(Severity::Error, place, message.into(), help);
-        self.errors.push(finding);
+        // A line may say something of many nodes; that it is wrong is said once.
+        let same = |f: &Finding| {
+            f.line == finding.line && f.message == finding.message && f.file == finding.file
+        };
+        if !self.errors.iter().any(same) {
+            self.errors.push(finding);
+        }
     }
 
     pub(super) fn note(&mut self, place: Place, message: impl Into<String>) {

@@ -72,7 +72,7 @@ fn materials_and_beams_do_not_hide_what_is_misspelt() {
 #[test]
 fn cards_of_no_kind_are_counted_by_keyword() {
     let text = format!(
-        "{}{}*NCOPY, CHANGE NUMBER=10, OLD SET=N, SHIFT\n1., 1., 1.\n\n*NCopy, CHANGE NUMBER=20, OLD SET=N, SHIFT\n1., 1., 1.\n\n*NSET, NSET=MORE\n11\n\
+        "{}{}*NMAP, NSET=N, TYPE=RECTANGULAR\n1., 1., 1.\n\n*NMap, NSET=N, TYPE=RECTANGULAR\n1., 1., 1.\n\n*NSET, NSET=MORE\n11\n\
          *BOUNDARY\nMORE, 1\n*STEP\n*STATIC\n*END STEP\n",
         cube("N", 1, 0.0),
         sections(&["EN"])
@@ -80,7 +80,7 @@ fn cards_of_no_kind_are_counted_by_keyword() {
     let found = lines(&refused(&text)).len();
     assert!(found <= 2, "{}", refused(&text));
     assert!(
-        refused(&text).contains("*NCOPY is not supported (2 cards)"),
+        refused(&text).contains("*NMAP is not supported (2 cards)"),
         "{}",
         refused(&text)
     );
