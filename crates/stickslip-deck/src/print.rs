@@ -454,7 +454,16 @@ impl Printer {
                     let n: usize = interfaces().map(|i| count_in_contact(analysis, i)).sum();
                     let _ = writeln!(out, "{n:>10}");
                 }
-                "CELS" if totals != Totals::No || pair.is_none() => {
+                "CELS" => {
+                    if totals != Totals::Only {
+                        out.push_str(&all("contact print energy (slave node,energy)"));
+                        for interface in interfaces() {
+                            self.energies_in_contact(analysis, interface, out);
+                        }
+                    }
+                    if totals == Totals::No {
+                        continue;
+                    }
                     out.push_str(&format!(
                         "\n total contact spring energy for time {}\n\n",
                         time(self.time)
@@ -505,6 +514,21 @@ impl Printer {
                 ],
             };
             row(out, &self.label(value("node", i) as u64), &values);
+        }
+    }
+
+    /// What is stored at the points of an interface that are in contact.
+    fn energies_in_contact(&self, analysis: &Analysis, interface: &Interface, out: &mut String) {
+        let (names, columns) = interface.table(&analysis.frame.state.u);
+        let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
+        let (Some(nodes), Some(status)) = (column("node"), column("CSTATUS")) else {
+            return;
+        };
+        let stored = interface.stored_by_point();
+        for (energy, (node, status)) in stored.iter().zip(nodes.iter().zip(status)) {
+            if *status > 0.0 {
+                row(out, &self.label(*node as u64), &[*energy]);
+            }
         }
     }
 

@@ -175,14 +175,31 @@ impl Source {
         Ok(())
     }
 
+    /// Parameters whose names are cut short, as Abaqus lets them be where only one begins so.
+    fn spell_out(&mut self, keyword: &str, parameters: &mut [Parameter], place: Place) {
+        let Some(row) = table::row(keyword) else {
+            return;
+        };
+        for p in parameters {
+            if let Some(full) = row.abbreviated(&p.name) {
+                let message = format!("{} is taken as {full}", p.name);
+                self.forgiven.push((place, message));
+                p.name = full.into();
+            }
+        }
+    }
+
     fn cut(&mut self, lines: Vec<Line>) -> Result<(), DeckError> {
         for line in lines {
             if let Some(rest) = line.text.strip_prefix('*') {
                 let written = rest.split(',').next().unwrap_or_default().trim();
+                let keyword = squeeze(written);
+                let mut parameters = parameters(&line.text);
+                self.spell_out(&keyword, &mut parameters, line.place);
                 self.cards.push(Card {
-                    keyword: squeeze(written),
+                    keyword,
                     written: format!("*{written}"),
-                    parameters: parameters(&line.text),
+                    parameters,
                     place: line.place,
                     data: Vec::new(),
                 });

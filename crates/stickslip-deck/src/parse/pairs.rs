@@ -78,6 +78,10 @@ impl Reader<'_> {
             let Some((slave, master)) = self.surfaces(&one) else {
                 continue;
             };
+            if card.has("TIED") {
+                self.tied_pair(card, data, (slave, master), &adjust);
+                continue;
+            }
             self.deck.pairs.push(Pair {
                 slave,
                 master,
@@ -88,6 +92,32 @@ impl Reader<'_> {
                 place: data.place,
             });
         }
+    }
+
+    /// `TIED`: the nodes that ADJUST moves onto the master are tied for good.
+    fn tied_pair(
+        &mut self,
+        card: &Card,
+        data: &Data,
+        (slave, master): (String, String),
+        adjust: &Option<Adjust>,
+    ) {
+        let Some(Adjust::Within(distance)) = adjust else {
+            self.error(
+                card.place,
+                "*CONTACT PAIR, TIED does not say how far the surfaces may be apart",
+                "write ADJUST with that distance, or *TIE, NAME=..., POSITION TOLERANCE=... in its place",
+            );
+            return;
+        };
+        self.deck.ties.push(Tie {
+            name: format!("{slave}-{master}"),
+            slave,
+            master,
+            tolerance: Some(*distance),
+            adjust: true,
+            place: data.place,
+        });
     }
 
     /// Contact pairs that act from this step on, or no longer.

@@ -1,5 +1,7 @@
 //! Surfaces: faces of elements, or nodes.
 
+use std::collections::BTreeSet;
+
 use super::fields::Nodes;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
@@ -80,6 +82,10 @@ impl Reader<'_> {
         let Some(name) = self.required_name(card, "NAME") else {
             return;
         };
+        if let Some(how) = card.get("COMBINE").map(str::to_string) {
+            self.combine(card, name, &how);
+            return;
+        }
         let outside = |d: &Data| d.fields.len() < 2;
         if card.get("TRIM") == Some("YES") && card.data.iter().any(outside) {
             self.error(
@@ -108,6 +114,10 @@ impl Reader<'_> {
                 "name faces of elements, or nodes with TYPE=NODE",
             );
         }
+        self.put_surface(card, name, parts);
+    }
+
+    fn put_surface(&mut self, card: &Card, name: String, parts: SurfaceParts) {
         let surface = Surface {
             parts,
             place: card.place,
@@ -119,5 +129,79 @@ impl Reader<'_> {
                 "give each surface a name of its own",
             );
         }
+    }
+
+    /// A surface of the faces or nodes of others: of all, of those that all have, or of the first without those of the rest.
+    fn combine(&mut self, card: &Card, name: String, how: &str) {
+        let mut all = Vec::new();
+        for field in card.data.iter().flat_map(|d| &d.fields) {
+            let part = self.name(field);
+            let Some(surface) = self.deck.surfaces.get(&part) else {
+                let message = format!("there is no surface {}", clip(field));
+                self.error(
+                    card.place,
+                    message,
+                    "define it with *SURFACE before it is combined with others",
+                );
+                return;
+            };
+            all.push(surface.parts.clone());
+        }
+        let combined = match how {
+            "UNION" => joined(&all, |_, _| true, true),
+            "INTERSECTION" => joined(&all, |i, n| i == n, false),
+            "DIFFERENCE" => joined(&all, |i, _| i == 1, false),
+            _ => {
+                let message = format!("*SURFACE, COMBINE={} is not known", clip(how));
+                let help = "COMBINE is UNION, INTERSECTION or DIFFERENCE";
+                self.error(card.place, message, help);
+                return;
+            }
+        };
+        match combined {
+            Some(parts) => self.put_surface(card, name, parts),
+            None => self.error(
+                card.place,
+                format!("the surfaces that {name} combines do not go together, or nothing is left of them"),
+                "name surfaces of faces with numbers, or of nodes",
+            ),
+        }
+    }
+}
+
+/// The members of surfaces of one kind: of the first surface, or of any, those that so many of all surfaces have. Faces without numbers are not known yet.
+fn joined(
+    all: &[SurfaceParts],
+    wanted: impl Fn(usize, usize) -> bool,
+    any: bool,
+) -> Option<SurfaceParts> {
+    fn members<T: Clone + PartialEq + Ord>(
+        all: &[Vec<T>],
+        wanted: impl Fn(usize, usize) -> bool,
+        any: bool,
+    ) -> Option<Vec<T>> {
+        let sets: Vec<BTreeSet<&T>> = all.iter().map(|l| l.iter().collect()).collect();
+        let from = if any { all } else { all.get(..1)? };
+        let mut seen = BTreeSet::new();
+        let kept = from.iter().flatten().filter(|m| {
+            let count = sets.iter().filter(|s| s.contains(m)).count();
+            wanted(count, sets.len()) && seen.insert(*m)
+        });
+        let kept: Vec<T> = kept.cloned().collect();
+        (!kept.is_empty()).then_some(kept)
+    }
+    let mut faces = Vec::new();
+    let mut nodes = Vec::new();
+    for parts in all {
+        match parts {
+            SurfaceParts::Faces(list) => faces.push(list.clone()),
+            SurfaceParts::Nodes(list) => nodes.push(list.clone()),
+        }
+    }
+    let open = faces.iter().flatten().any(|(_, face)| face.is_none());
+    match (faces.is_empty(), nodes.is_empty()) {
+        (false, true) if any || !open => members(&faces, wanted, any).map(SurfaceParts::Faces),
+        (true, false) => members(&nodes, wanted, any).map(SurfaceParts::Nodes),
+        _ => None,
     }
 }

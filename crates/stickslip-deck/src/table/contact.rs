@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Row] = &[
             read("TYPE"),
             read("SMALLSLIDING"),
             read("ADJUST"),
-            refused("TIED", "write *TIE, or PRESSURE-OVERCLOSURE=TIED"),
+            read("TIED"),
             refused(
                 "CPSET",
                 "write a *CONTACT PAIR without CPSET, and *CLEARANCE for its gap",

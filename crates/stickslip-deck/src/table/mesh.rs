@@ -1,14 +1,17 @@
 //! Nodes, elements, sets, surfaces, and what ties nodes together.
 
 use super::row::{
-    Data, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
+    Data, Fate, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
 };
 
 const IMPORT: &str =
     "results of other runs are not read: give the part, and its nodes and elements, in this deck";
 
 pub(super) const ROWS: &[Row] = &[
-    card("HEADING", Data::Any, &[]),
+    Row {
+        others: Some(Fate::Idle("the title is a name")),
+        ..card("HEADING", Data::Any, &[])
+    },
     card("PART", Data::Nothing, &[read("NAME")]),
     card("ENDPART", Data::Nothing, &[]),
     card("ASSEMBLY", Data::Nothing, &[read("NAME")]),
@@ -142,7 +145,7 @@ pub(super) const ROWS: &[Row] = &[
             read("TYPE"),
             read("TRIM"),
             idle("INTERNAL", "it hides the surface in a viewer"),
-            refused("COMBINE", "write the faces of both surfaces into one"),
+            read("COMBINE"),
             refused("CROP", "name the faces that are meant"),
             refused(
                 "MAXRATIO",

@@ -55,6 +55,19 @@ impl Row {
         self.parameters.iter().any(|p| p.name == name)
     }
 
+    /// The parameter that begins with a name of at least four letters, where others that do only go on from it.
+    pub fn abbreviated(&self, name: &str) -> Option<&'static str> {
+        if name.len() < 4 || self.lists(name) {
+            return None;
+        }
+        let all = || {
+            let names = self.parameters.iter().map(|p| p.name);
+            names.filter(|n| n.starts_with(name))
+        };
+        let shortest = all().min_by_key(|n| n.len())?;
+        all().all(|n| n.starts_with(shortest)).then_some(shortest)
+    }
+
     /// What becomes of a parameter; `None` if the card has no such parameter.
     pub fn parameter(&self, name: &str) -> Option<Fate> {
         let listed = self.parameters.iter().find(|p| p.name == name);

@@ -142,6 +142,8 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
         ("NFILL", "BIAS") => "=2.",
         ("NFILL", "TWOSTEP") | ("NCOPY", "SHIFT") => "",
         ("NCOPY", "REFLECT") => "=POINT",
+        ("SURFACE", "COMBINE") => "=UNION",
+        ("CONTACTPAIR", "TIED") => ", ADJUST=0.1",
         (_, "INSTANCE") => "=J",
         ("SOLIDSECTION", "ORIENTATION") => "=O",
         (_, "AMPLITUDE") if keyword == "STEP" => "=RAMP",
@@ -190,6 +192,7 @@ fn sample_with<'a>(row: &Row, more: &str, data: &'a str) -> (&'static str, &'sta
         ("EQUATION", Some("REMOVE")) => ("*STEP\n*STATIC\n", needs, "1, 1\n"),
         ("EQUATION", Some("REMOVEALL")) => ("*STEP\n*STATIC\n", needs, ""),
         ("NCOPY", Some("REFLECT")) => (before, "OLDSET=N, CHANGENUMBER=100", data),
+        ("SURFACE", Some("COMBINE")) => (before, needs, "S, T\n"),
         ("MODELCHANGE", Some("REMOVE")) => (before, "TYPE=CONTACT PAIR", data),
         _ => (before, needs, data),
     }

@@ -305,9 +305,18 @@ fn interface(
             job.out
                 .line(&format!("initial-gap = {}", toml::number(clearance.value)));
         }
-    } else {
+    } else if pair.adjust.is_some() {
         adjust(job, bodies, sets, pair);
+    } else if !pair.by_nodes && begins_at_rest(deck, pair) {
+        // As CalculiX does where faces meet faces: overlap goes away over the step.
+        job.out.line("initial = \"ramp\"");
     }
+}
+
+/// Whether the first step in which a pair acts is a static one.
+fn begins_at_rest(deck: &Deck, pair: &Pair) -> bool {
+    let first = present(deck, pair).iter().position(|on| *on);
+    first.is_some_and(|i| !deck.steps[i].is_dynamic())
 }
 
 /// `PRESSURE-OVERCLOSURE=TIED`: glue, or springs in all directions if it has a stiffness. CalculiX takes that against sliding from the stick slope.

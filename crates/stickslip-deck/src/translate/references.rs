@@ -219,9 +219,19 @@ fn refuse_left_out(job: &mut Job, coupling: &NodeCoupling) {
     let held = (states.iter().flat_map(|s| s.keys()))
         .filter(|(n, _)| *n == coupling.reference)
         .map(|(_, component)| *component);
-    let left_out = |c: &usize| coupling.components.get(*c) == Some(&false);
-    let acts = forces.chain(held).find(left_out);
-    if let Some(component) = acts {
+    let acts: BTreeSet<usize> = forces.chain(held).collect();
+    let turned = coupling.orientation.is_some();
+    if turned && !acts.is_empty() {
+        let message = format!(
+            "coupling {}: something acts on the reference node of a *DISTRIBUTING with an *ORIENTATION: along its axes in CalculiX, and along those of the model in Abaqus",
+            coupling.name
+        );
+        let help = "leave ORIENTATION out, and give what acts along the axes of the model";
+        job.error(coupling.place, message, help);
+        return;
+    }
+    let left_out = |c: &&usize| coupling.components.get(**c) == Some(&false);
+    if let Some(component) = acts.iter().find(left_out) {
         let message = format!(
             "coupling {}: *DISTRIBUTING leaves out direction {}, in which something acts on its reference node",
             coupling.name,

@@ -6,6 +6,7 @@ mod changes;
 mod couplings;
 mod elements;
 mod generated;
+mod habits;
 mod heat;
 mod instances;
 mod instances_wrong;

@@ -7,13 +7,18 @@ use crate::system::Energy;
 impl Interface {
     /// Recoverable energy of the interface: of the normal law, and of the springs of the enforcement where they yield, in both directions.
     pub(super) fn stored_energy(&self) -> f64 {
+        self.stored_by_point().into_iter().sum()
+    }
+
+    /// The same by point `[J]`; empty where the interface does not act.
+    pub fn stored_by_point(&self) -> Vec<f64> {
         if !self.history.acting {
-            return 0.0;
+            return Vec::new();
         }
         let own = self.law_energies(self.history.points.iter().map(|h| h.gap));
         (self.history.points.iter().enumerate())
             .map(|(i, h)| self.area_of(i) * (own[i] + self.spring_energy(i, h) + h.sheared))
-            .sum()
+            .collect()
     }
 
     /// What is stored the very moment the interface begins to act, as it has been evaluated for that: overlap that a law or a spring presses apart.
