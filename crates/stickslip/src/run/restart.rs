@@ -92,8 +92,15 @@ impl Simulation {
         for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
             interface.history = history;
         }
+        // Of increments that wait the frame knows nothing yet.
+        let waiting = pending.last().is_some_and(|p| p.found.is_some());
+        let condensed = working.solver.condensed_displacements();
+        let u = match condensed {
+            Some(u) if waiting => u.to_vec(),
+            _ => frame.state.u.clone(),
+        };
         for (interface, memory) in contact.interfaces.iter_mut().zip(working.interfaces) {
-            interface.remember(memory, &frame.state.u);
+            interface.remember(memory, &u);
         }
         contact.couplings.go_on_from(working.couplings);
         let t = frame.state.t;

@@ -94,6 +94,13 @@ crate::keep!(Bodies {
     reduced
 });
 
+impl SolverState {
+    /// Displacements at the end of the last increment of condensed bodies at rest, known at candidates and where prescribed.
+    pub fn condensed_displacements(&self) -> Option<&[f64]> {
+        self.at_rest.as_ref().map(|a| a.state.u.as_slice())
+    }
+}
+
 impl Solver {
     /// What it takes along.
     pub fn state(&self) -> SolverState {

@@ -296,6 +296,16 @@ fn a_run_that_stopped_goes_on_with_the_bits_of_one_that_did_not() {
 }
 
 #[test]
+fn a_condensed_joint_without_a_pretension_goes_on_with_the_same_bits() {
+    let text: String = joint("condensed")
+        .lines()
+        .filter(|line| !line.starts_with("pretension"))
+        .flat_map(|line| [line, "\n"])
+        .collect();
+    crate::restart::check("loose bolt", &problem(&text), Path::new("."), 5);
+}
+
+#[test]
 fn what_cannot_be_cut_or_drawn_is_said_at_its_key() {
     let wrong = [
         (

@@ -47,8 +47,8 @@ impl Interface {
         }
     }
 
-    /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an increment that ended
-    /// with displacements `u`.
+    /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an accepted increment that ended
+    /// with displacements `u`, those of increments that wait for their interiors too.
     pub fn remember(&mut self, memory: Memory, u: &[f64]) {
         let Memory {
             attempt,
@@ -72,17 +72,18 @@ impl Interface {
                 cache.search = super::search::Search::default();
                 interface.search(&mut cache.search, &searched);
             }
+            // The weights of a mortar's points are those of the last evaluation.
+            if interface.mortar.is_some() && !paired && evaluated {
+                interface.coordinates_into(u, &mut cache.x);
+                interface.integrate(cache, false);
+            }
+            // After the integrals, which look for facets anew where the last attempt did so far from `u`.
             if let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary)
                 && !faces_searched.is_empty()
                 && cache.faces.at() != faces_searched.as_slice()
             {
                 cache.faces = super::search::FaceSearch::default();
                 cache.faces.renew(&mortar.faces, facets, &faces_searched);
-            }
-            // The weights of a mortar's points are those of the last evaluation.
-            if interface.mortar.is_some() && !paired && evaluated {
-                interface.coordinates_into(u, &mut cache.x);
-                interface.integrate(cache, false);
             }
         });
     }
