@@ -89,6 +89,7 @@ impl Integrator for Implicit {
         if impulse && !frame.contact.is_empty() {
             let kick = kicked(model, inertia, &fixed, &frame.contact)?;
             from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
+            inertia.lead(model, contact, (trial.from, &fixed), &mut from.a);
         }
         let increment = Increment {
             alphas: scheme.alphas,
@@ -136,6 +137,8 @@ impl Integrator for Implicit {
             let part = 0.5 / scheme.alphas.beta - 1.0;
             let accelerations = solved.state.a.iter_mut().zip(&kick);
             accelerations.for_each(|(a, k)| *a += part * k);
+            let at = (trial.to, fixed.as_slice());
+            inertia.lead(model, contact, at, &mut solved.state.a);
             let at = solved.state.clone();
             let stage = Stage {
                 from: &frame.state,
@@ -145,6 +148,7 @@ impl Integrator for Implicit {
             };
             let bodies = (model, inertia, fixed.as_slice());
             flow.impact = stop(bodies, contact, &stage, &mut solved.state.v)?;
+            inertia.lead(model, contact, (trial.to, &fixed), &mut solved.state.v);
         }
         Ok(Accepted {
             flow,

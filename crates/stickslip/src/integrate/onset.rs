@@ -342,12 +342,16 @@ fn initial_acceleration(
     let mut accelerate = inertia.accelerator(&fixed, lag);
     frame.state.a = accelerate(&force)?;
     // Prescribed dofs have no acceleration, which is as good as known; those of light points follow from the interfaces.
+    let free: Vec<bool> = (inertia.bare.iter().zip(&fixed))
+        .map(|(b, f)| *b && !f)
+        .collect();
     contact.couplings.start_motion(
         (t, &model.links),
-        &inertia.light,
+        (&inertia.light, &free, &force),
         &mut accelerate,
         (&mut frame.state.a, &mut frame.contact),
     )?;
+    inertia.lead(model, contact, (t, &fixed), &mut frame.state.v);
     model.links.impose(&mut frame.state.a);
     Ok(())
 }

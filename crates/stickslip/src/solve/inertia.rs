@@ -26,6 +26,8 @@ pub(crate) struct Inertia {
     pub damping: Option<BlockCsr>,
     /// Dofs whose mass was given to their neighbours.
     pub light: Vec<bool>,
+    /// Dofs of reference points that have no mass or no moment of inertia: what couplings tie to them says where they go.
+    pub bare: Vec<bool>,
     matrices: Vec<Matrix>,
     keys: u64,
 }
@@ -110,12 +112,14 @@ impl Inertia {
             (0..dim).for_each(|i| mass.add_diagonal(model.dofs.of(point, i), m));
         }
         let damping = damping(model, stiffness, &mass);
+        let bare = bare(model, &mass.diagonal());
         Inertia {
             mass_kind,
             redistributed,
             masses: Isotropic::of(&mass),
             mass,
             damping,
+            bare,
             light: light
                 .iter()
                 .flat_map(|&l| std::iter::repeat_n(l, dim))
@@ -159,6 +163,19 @@ impl Inertia {
         let mut plain: Vec<bool> = light.zip(fixed).map(|(l, &f)| l || f).collect();
         links.still(fixed, &mut plain);
         plain
+    }
+
+    /// Lets what has no inertia go on at `t` as what it is tied to does, where it is free to: `x` are velocities or accelerations that impulses have changed.
+    pub fn lead(
+        &self,
+        model: &Model,
+        contact: &Contact,
+        (t, fixed): (f64, &[bool]),
+        x: &mut [f64],
+    ) {
+        let free = self.bare.iter().zip(fixed).map(|(b, f)| *b && !f);
+        let free: Vec<bool> = free.collect();
+        (contact.couplings).follow((t, &model.links), &free, x);
     }
 
     /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.
@@ -295,7 +312,7 @@ impl Inertia {
         0.5 * dot(v, &self.mass_times(v))
     }
 
-    /// Gives the accelerations that forces cause of the dofs that are neither fixed nor light: `(M + h C) a = f`.
+    /// Gives the accelerations that forces cause of the dofs that are neither fixed nor without mass: `(M + h C) a = f`.
     ///
     /// Damping that is stiff needs many iterations; then the matrix is factored, once.
     pub fn accelerator<'a>(
@@ -303,7 +320,8 @@ impl Inertia {
         fixed: &[bool],
         lag: f64,
     ) -> impl FnMut(&[f64]) -> Result<Vec<f64>, StepFailure> + 'a {
-        let out: Vec<bool> = fixed.iter().zip(&self.light).map(|(f, l)| f | l).collect();
+        let none = self.light.iter().zip(&self.bare).map(|(l, b)| l | b);
+        let out: Vec<bool> = fixed.iter().zip(none).map(|(f, n)| f | n).collect();
         let matrix = match &self.damping {
             Some(damping) if lag > 0.0 => {
                 let mut both = self.mass.clone();
@@ -397,6 +415,19 @@ fn light_points(model: &Model, contact: &Contact, redistributed: &[bool]) -> Vec
     // What is fixed to a point keeps it from following others without inertia.
     model.masses.iter().for_each(|(p, _)| light[*p] = false);
     light
+}
+
+/// Dofs of reference points that have no inertia, given the diagonal of the mass.
+fn bare(model: &Model, diagonal: &[f64]) -> Vec<bool> {
+    let mut bare = vec![false; diagonal.len()];
+    for reference in &model.references {
+        let hidden = model.links.all()[reference.link].hidden;
+        let first = model.dofs.of(hidden, 0);
+        for dof in first..first + 2 * model.dofs.dim {
+            bare[dof] = diagonal[dof] == 0.0;
+        }
+    }
+    bare
 }
 
 /// The factors of mass, damping and stiffness in the matrix of an increment.

@@ -329,3 +329,96 @@ load.turn = { set = "hub", moment = { value = [0, 1, 0] } }
     assert!(found.contains("rotation about y"), "{found}");
     problem(&format!("{}\n{spread}", bar(0.0)));
 }
+
+/// A beam whose end moves as one: tied to a reference point without mass, that does not turn, or by equations to a corner; pulled there in these steps.
+fn ended(referred: bool, steps: &str) -> String {
+    let (tie, at) = match referred {
+        true => (
+            "reference.r.point = [5, 0.5]\ncoupling.k.kinematic = { reference = \"r\", set = \"b.right\" }\nsupport.turn = { set = \"r\", rotation-z = 0 }",
+            "r",
+        ),
+        false => (
+            "set.corner = { of = \"b\", point = [4, 0] }\nset.rest = { of = \"b.right\", box = { from = [4, 0.1], to = [4, 1] } }\ncoupling.x.equation = { terms = [{ set = \"rest\", component = \"x\" }, { set = \"corner\", component = \"x\", factor = -1 }] }\ncoupling.y.equation = { terms = [{ set = \"rest\", component = \"y\" }, { set = \"corner\", component = \"y\", factor = -1 }] }",
+            "corner",
+        ),
+    };
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+solver.method = "sparse"
+quality.gate = "off"
+body.b = {{ generate.rectangle = {{ to = [4, 1], cells = [8, 4] }}, material = "m", rayleigh = {{ mass = 0, stiffness = 1e-3 }} }}
+material.m.isotropic = {{ young = 1000.0, poisson = 0.3, density = 1.0 }}
+support.wall = {{ set = "b.left", x = 0, y = 0 }}
+{tie}
+load.pull = {{ set = "{at}", nodal-force.value = [0.5, 1] }}
+probe.tip = {{ of = "b", point = [4, 0.5] }}
+{steps}
+"#
+    )
+}
+
+const STILL: &str = "[[step]]\nincrements.fixed = 1\n";
+
+fn moving(loads: &str, scheme: &str) -> String {
+    format!(
+        "[[step]]\nduration = 1\n{loads}\ndynamic = {{ scheme.{scheme} = {{}} }}\nincrements.fixed = 40\n"
+    )
+}
+
+#[test]
+fn a_reference_point_without_mass_goes_with_what_it_is_tied_to() {
+    let ways = [
+        ["tip.U1", "r.U1"],
+        ["tip.U2", "r.U2"],
+        ["tip.V1", "tip.V1"],
+        ["tip.V2", "tip.V2"],
+        ["tip.A2", "tip.A2"],
+    ];
+    for scheme in ["newmark", "hht", "generalised-alpha"] {
+        // let go of, and pulled at once
+        for steps in [
+            STILL.to_string() + &moving("loads = []", scheme),
+            moving("", scheme),
+        ] {
+            let [with, without] = [true, false].map(|referred| {
+                let text = ended(referred, &steps);
+                let record = support::run(&support::problem(&text));
+                record.unwrap_or_else(|e| panic!("{e}\n{text}")).increments
+            });
+            assert_eq!(with.len(), without.len());
+            for [name, own] in ways {
+                let column = |rows: &[(Vec<_>, support::Row)], name: &str| -> Vec<f64> {
+                    rows.iter()
+                        .map(|(_, r)| r.get(name).expect("a column"))
+                        .collect()
+                };
+                let expected = column(&without, name);
+                let largest = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+                assert!(largest > 0.0);
+                for found in [column(&with, name), column(&with, own)] {
+                    for (a, b) in found.iter().zip(&expected) {
+                        assert!((a - b).abs() < 1e-6 * largest, "{scheme} {name}: {a} {b}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_a_load_on_a_reference_point_holds_still_stays_still_in_motion() {
+    let text = ended(true, &(STILL.to_string() + &moving("", "newmark")));
+    let text = text.replace("support.turn = { set = \"r\", rotation-z = 0 }", "");
+    let rows = support::run(&support::problem(&text))
+        .expect("it runs")
+        .increments;
+    let at = |row: &support::Row, name: &str| row.get(name).expect("a column");
+    let rest = at(&rows[0].1, "tip.U2");
+    assert!(rest > 0.0);
+    for (_, row) in &rows[1..] {
+        assert!((at(row, "tip.U2") - rest).abs() < 1e-9 * rest);
+        assert!(at(row, "tip.V2").abs() < 1e-7 * rest);
+    }
+}
