@@ -133,6 +133,7 @@ fn interface(
                 stiffness: 1e12,
                 normal,
                 size: 1.0 / CELLS as f64,
+                across: Default::default(),
             });
             reference.push(place(at(i), at(j), dim, curved));
         }

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | surface | `surface.rs`, `crossing.rs` | points of the secondary with their areas, facets of the primary; whether they run through themselves |
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
+//! | symmetry | `symmetry.rs` | components that points on planes of symmetry do not have |
 //! | search | `search.rs` | which facets a point may meet |
 //! | projection | `projection.rs`, `facet_point.rs`, `bounds.rs` | the projection of a point on a facet, and what follows from a place of it; where it lies and looks, which rules most facets out |
 //! | pairing | `pairing/` | which facet a point belongs to |
@@ -34,6 +35,8 @@
 //!   that it is a stencil like any other; nothing after the kinematics knows of it. What is not a polynomial in space (skewed
 //!   quadrilaterals) is corrected to what is known of its sum (`correct.rs`): that makes patch tests exact. Weights are made anew at every evaluation,
 //!   at the reference configuration once for small sliding. Their change is not in the tangent; it is of the size of pressure over modulus.
+//! - *Planes of symmetry.* Where both surfaces end on a plane that supports hold in all steps, a point there is a sum over half of the faces that it has in the whole body.
+//!   `problem/build/mirrors.rs` marks such points (`ContactPoint::across`); normal, slip and turn have no part across the plane, as with the image of what is missing.
 //! - *Search* runs again when a node has moved by a quarter of the margin (the longest facet) since the last time; a
 //!   candidate list is complete as long as it is used.
 //! - *Pairing* takes the nearest facet; between equally near ones the one the point was on. Beyond an edge where the
@@ -68,3 +71,4 @@ pub mod projection;
 pub mod response;
 pub mod search;
 pub mod surface;
+pub mod symmetry;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::contact::facet_point::{FACET_NODES, evaluate};
+use crate::contact::symmetry::Across;
 use crate::math::{Vec3, angle, distance};
 use crate::shape::ElementKind;
 
@@ -22,6 +23,8 @@ pub struct ContactPoint {
     pub normal: Vec3,
     /// Height of the cell beneath `[m]`, for reports.
     pub size: f64,
+    /// What vectors at it do not have, because it lies on planes of symmetry.
+    pub across: Across,
 }
 
 impl ContactPoint {

@@ -21,6 +21,7 @@ mod layers;
 mod library;
 mod loose;
 mod malformed;
+mod mirrors;
 mod mortar;
 mod multigrid;
 mod pairing;

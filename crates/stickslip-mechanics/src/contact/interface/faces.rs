@@ -8,6 +8,7 @@ use super::initial::GLUE;
 use crate::contact::kinematics::{Part, of_points};
 use crate::contact::mortar::{FaceIntegral, Scratch, Sides, correct, integrate};
 use crate::contact::surface::ContactPoint;
+use crate::contact::symmetry::Across;
 use crate::math::identity;
 use crate::system::{Stage, State};
 
@@ -63,7 +64,7 @@ impl Interface {
             false => {
                 let at = (turned.as_slice(), reference.as_slice());
                 let turn = of_points(self.own_nodes(), at, self.dofs.dim);
-                (&cache.x, turn)
+                (&cache.x, self.across().turn(turn))
             }
         };
         cache.faces.renew(&mortar.faces, facets, x);
@@ -99,6 +100,12 @@ impl Interface {
         if self.dofs.dim == 3 {
             correct(&sides, &mortar.faces, integrals);
         }
+    }
+
+    /// What the mean turn of the whole surface does not have, because it ends on planes of symmetry.
+    fn across(&self) -> Across {
+        let points = self.points.iter().map(|p| p.across.0);
+        Across(points.fold([false; 3], |all, p| std::array::from_fn(|c| all[c] || p[c])))
     }
 
     /// The nodes of the faces of a mortar, each as often as it has faces.

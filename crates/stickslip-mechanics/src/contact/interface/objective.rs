@@ -150,6 +150,7 @@ fn drum(
             stiffness: 1.0,
             normal: normalize(inward(reference[node])).expect("off the axis"),
             size: 0.1,
+            across: Default::default(),
         })
         .collect();
     let beneath = faces.iter().cloned().map(facet).collect();

@@ -20,7 +20,7 @@ impl Interface {
         let sides = batch.sides.len();
         let sums = gather(
             (mortar, &cache.integrals),
-            (i, &point.nodes),
+            (i, &point.nodes, point.across),
             &mut batch.sides,
             &mut batch.gradients,
         );
@@ -42,6 +42,7 @@ impl Interface {
             reference: &self.reference,
             origin: norm(self.origin),
             carried: (!self.kinematics.as_dyn().frozen()).then(carried),
+            across: point.across,
             never_in_contact: self.attempt.never_in_contact,
         };
         mean.stencil(

@@ -70,6 +70,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
             stiffness: 1.0,
             normal: [0.0, 0.0, -1.0],
             size: 0.1,
+            across: Default::default(),
         });
     }
     Interface {

@@ -92,6 +92,7 @@ mod tests {
             stiffness: 1.0,
             normal: [0.0, 0.0, -1.0],
             size: 1.0,
+            across: Default::default(),
         }
     }
 

@@ -4,6 +4,7 @@ use super::rigid::{carried_over, tangents};
 use super::stencil::Stencil;
 use super::turning;
 use crate::contact::mortar::{FaceIntegral, Mortar};
+use crate::contact::symmetry::Across;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, dot, identity, mat_vec, norm, normalize, scale, sub,
 };
@@ -29,7 +30,7 @@ pub struct Gathered {
 /// respect to them.
 pub fn gather(
     (mortar, integrals): (&Mortar, &[FaceIntegral]),
-    (i, own): (usize, &[usize]),
+    (i, own, across): (usize, &[usize], Across),
     nodes: &mut Vec<(usize, f64)>,
     gradients: &mut Vec<Vec3>,
 ) -> Gathered {
@@ -73,6 +74,7 @@ pub fn gather(
             }
         }
     }
+    sums.normal = across.within(sums.normal);
     sums
 }
 
@@ -111,6 +113,8 @@ pub struct MeanPoint<'a> {
     pub origin: f64,
     /// What was; `None` if pairs and normals are those of the reference configuration.
     pub carried: Option<Carried>,
+    /// What its normal, slip and turn do not have.
+    pub across: Across,
     /// Nothing has been in contact yet: surfaces that just touch must not be in contact or apart by the rounding of the integrals.
     pub never_in_contact: bool,
 }
@@ -135,7 +139,8 @@ impl MeanPoint<'_> {
         let normal = normalize(sums.normal).unwrap_or(sums.normal);
         let frame = tangents(normal, dim);
         // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
-        let [own, other] = self.carried.map_or([identity(), identity()], |c| c.turns);
+        let turns = self.carried.map_or([identity(), identity()], |c| c.turns);
+        let [own, other] = turns.map(|t| self.across.turn(t));
         let normal_before = match self.carried {
             Some(c) if c.normal != [0.0; 3] => c.normal,
             _ => turning::back(&own, normal),
@@ -155,10 +160,11 @@ impl MeanPoint<'_> {
             for c in 0..dim {
                 out.rows[0][k * dim + c] = gradient[c];
                 for (t, e) in frame.iter().enumerate().take(dim - 1) {
-                    out.rows[t + 1][k * dim + c] = w * e[c];
+                    out.rows[t + 1][k * dim + c] = w * self.across.within(*e)[c];
                 }
             }
         }
+        [moved, arm] = [moved, arm].map(|v| self.across.within(v));
         if let Some(carried) = &self.carried {
             // The distance of the two sides turns with them, but for that which is no gap.
             let arm = add_scaled(arm, -carried.apart, normal_before);

@@ -385,6 +385,7 @@ fn rigid_stencils_agree_with_differences() {
         stiffness: 1.0,
         normal: [0.0; 3],
         size: 1.0,
+        across: Default::default(),
     };
     for shape in ObstacleShape::samples() {
         for (motion, along) in obstacle_motions() {
@@ -454,6 +455,7 @@ fn slip_over(
         stiffness: 1.0,
         normal: [0.0; 3],
         size: 1.0,
+        across: Default::default(),
     };
     let mut s = Stencil::default();
     let poses = (&motion.pose(1.0), &motion.pose(0.0));

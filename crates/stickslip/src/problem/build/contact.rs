@@ -2,6 +2,7 @@
 
 use super::super::{FacetShape, Interface as Table, Problem, Roles};
 use super::fault::problem_error;
+use super::mirrors::{self, Held};
 use super::schedules::Timeline;
 use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
@@ -25,10 +26,10 @@ const EDGE_TOLERANCE: f64 = 1e-3;
 pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
-    mesh: &Mesh,
-    space: Space,
+    (mesh, space): (&Mesh, Space),
     bodies: &[Body],
     timeline: &Timeline,
+    held: &Held,
 ) -> Result<Vec<Interface>, Error> {
     let surfaces = Surfaces {
         mesh,
@@ -42,6 +43,7 @@ pub(super) fn build(
             sets,
             surfaces: &surfaces,
             table,
+            held,
             schedule: timeline.interface(problem, name),
         };
         let both = table.discretisation().as_dyn().two_sided()
@@ -92,6 +94,7 @@ struct Make<'a> {
     sets: &'a Sets<'a>,
     surfaces: &'a Surfaces<'a>,
     table: &'a Table,
+    held: &'a Held<'a>,
     schedule: Schedule,
 }
 
@@ -261,7 +264,7 @@ impl Make<'_> {
             .as_ref()
             .map(|m| m.faces.iter().map(|f| f.points.clone()));
         let own: Option<Vec<Vec<usize>>> = faces.map(Iterator::collect);
-        Ok(Interface {
+        let mut interface = Interface {
             name,
             dofs: Dofs {
                 dim: surfaces.space.dim(),
@@ -293,7 +296,11 @@ impl Make<'_> {
             attempt: Attempt::default(),
             directives: Directives::default(),
             cache: Cache::default(),
-        })
+        };
+        if let Some(angle) = table.discretisation().as_dyn().weighted() {
+            mirrors::mark(&mut interface, self.held, angle.to_radians());
+        }
+        Ok(interface)
     }
 }
 

@@ -8,6 +8,7 @@ mod fault;
 mod heat;
 mod initial;
 mod meshes;
+mod mirrors;
 mod pretensions;
 mod references;
 mod rigid;
@@ -194,7 +195,8 @@ impl Problem {
             &timeline,
         )?);
         let couplings = Couplings::new(couplings, space.dim());
-        let interfaces = contact::build(self, &sets, &mesh, space, &bodies, &timeline)?;
+        let held = mirrors::Held::new(&links, dofs, &supports, space);
+        let interfaces = contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;

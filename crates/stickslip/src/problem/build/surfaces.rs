@@ -222,6 +222,7 @@ impl Surfaces<'_> {
                         stiffness: 0.0,
                         normal: [0.0; 3],
                         size: 0.0,
+                        across: Default::default(),
                     });
                     out.len() - 1
                 });
@@ -271,6 +272,7 @@ impl Surfaces<'_> {
                     stiffness: stiffness / measure,
                     normal: normalize(normal).unwrap_or_default(),
                     size: height / measure,
+                    across: Default::default(),
                 }
             })
             .collect()
@@ -298,6 +300,7 @@ impl Surfaces<'_> {
                     stiffness: b.modulus.min(primary) / b.height,
                     normal: p.normal,
                     size: b.height,
+                    across: Default::default(),
                 });
             }
         }
@@ -345,6 +348,7 @@ impl Surfaces<'_> {
                         stiffness: 0.0,
                         normal,
                         size: 0.0,
+                        across: Default::default(),
                     });
                     points.len() - 1
                 });
