@@ -351,7 +351,7 @@ static void factor(const Command *c) {
 
 /* Room for vectors on rank 0. */
 static void room(DMUMPS_STRUC_C *body, int columns) {
-    if (rank == 0 && columns != body->nrhs) {
+    if (rank == 0 && (!body->rhs || columns != body->nrhs)) {
         free(body->rhs);
         free(body->redrhs);
         body->rhs = get((size_t)body->n * columns, 8);
@@ -400,7 +400,6 @@ static void solve_for(const Command *c) {
     if (rank == 0 && c->what == EXPAND) {
         for (size_t k = 1; k < columns; k++) memmove(body->rhs + k * inner, body->rhs + k * n, 8 * inner);
         write_words(out, body->rhs, columns * inner);
-        /* What was moved is no longer what was reduced. */
     }
     answer("ok");
 }

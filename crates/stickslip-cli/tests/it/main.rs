@@ -10,6 +10,7 @@ mod convert;
 mod decks;
 #[cfg(unix)]
 mod demo;
+mod engine;
 #[cfg(unix)]
 mod faults;
 mod given;

@@ -73,6 +73,10 @@ impl Solver {
         }
         self.condenser.kept = None;
         self.log.method = "explicit";
+        if model.engine.as_dyn().condenses() {
+            let idle = "explicit steps factor nothing: the engine has nothing to do in them";
+            self.log.notes.push(idle.into());
+        }
     }
 
     /// Contact has come to points that do not take part: lets more of them.

@@ -6,7 +6,7 @@ use super::EngineChoice;
 use crate::linear::{self, Engine, LinearError};
 use crate::registry::Samples;
 
-/// The built-in multifrontal factorisation, on the threads of this process: the same bits in every run, on any number of threads.
+/// The built-in multifrontal factorisation, on the threads of this process: the same bits in every run, on any number of threads. No parameters.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

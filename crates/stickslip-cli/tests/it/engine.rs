@@ -1,0 +1,247 @@
+//! Factors by MUMPS on the ranks of an MPI job, from outside: the same results, and nothing left behind whoever dies. What needs the job says NOT RUN where
+//! `cargo xtask engine mumps` has built nothing.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::support::{self, CASE, code, text};
+
+/// Two blocks, one thrown at the other: the factor is used in every increment, of which there are more than anybody waits for.
+const THROWN: &str = r#"format = 1
+model.space = "plane-strain"
+body.floor = { generate.rectangle = { from = [0, -1], to = [3, 0], cells = [18, 6] }, material = "steel" }
+body.block = { generate.rectangle = { from = [1, 0.0005], to = [2, 1], cells = [7, 7] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3, density = 7800 }
+interface.base = { secondary = "block.bottom", primary = "floor.top", friction.coulomb = { mu = 0.3 } }
+support.floor = { set = "floor.bottom", x = 0.0, y = 0.0 }
+initial.thrown = { set = "block", velocity = [1.0, -5.0] }
+solver.tolerance = 1e-11
+output.history-every = 1
+step = [{ name = "fall", duration = 4e-4, increments = { fixed = 40 }, dynamic = {} }]
+"#;
+
+/// Whether there is a program for the ranks; says so if not. The binary looks there, too.
+fn built() -> bool {
+    let own = Path::new(env!("CARGO_BIN_EXE_stickslip"));
+    let target = own.parent().and_then(Path::parent).expect("target");
+    let there = std::env::var_os("STICKSLIP_MUMPS").is_some()
+        || target.join("engines/stickslip-mumps").is_file();
+    if !there {
+        println!("NOT RUN: there is no target/engines/stickslip-mumps");
+    }
+    there
+}
+
+fn place(name: &str, case: &str) -> PathBuf {
+    support::place("engine", name, case)
+}
+
+/// A run in a folder, whose files for the ranks go to the folder `between`.
+fn run(folder: &Path, arguments: &[&str]) -> Command {
+    let between = folder.join("between");
+    std::fs::create_dir_all(&between).expect("a folder");
+    let mut command = support::command(folder);
+    command
+        .args(["run", "case.toml", "--quiet"])
+        .args(arguments)
+        .env("STICKSLIP_MUMPS_DIR", between);
+    command
+}
+
+fn output(mut command: Command) -> Output {
+    command.output().expect("the binary runs")
+}
+
+/// Nothing is left where files for the ranks were.
+fn assert_clean(folder: &Path) {
+    let left = std::fs::read_dir(folder.join("between")).expect("a folder");
+    assert_eq!(left.count(), 0);
+}
+
+/// The columns of a history, by name; those that are times of the clock are left out.
+fn history(folder: &Path) -> Vec<(String, Vec<f64>)> {
+    let path = folder.join("history.csv");
+    let all = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut lines = all.lines().filter(|l| !l.starts_with('#'));
+    let names = lines.next().expect("a header").split(',');
+    let mut columns: Vec<(String, Vec<f64>)> =
+        names.map(|n| (n.trim_matches('"').into(), Vec::new())).collect();
+    for line in lines {
+        for (column, word) in columns.iter_mut().zip(line.split(',')) {
+            column.1.push(word.parse().unwrap_or(f64::NAN));
+        }
+    }
+    columns
+}
+
+/// Columns that are measured against a length, a force, an energy; not what rounding is (residuals), and not counts of iterations.
+fn compared(name: &str) -> bool {
+    [".CF", ".U", ".RF", "ALLSE", "ALLKE", "ALLFD", "STICK", "SLIP", "OPEN"]
+        .iter()
+        .any(|part| name.contains(part))
+}
+
+fn assert_same(a: &Path, b: &Path) {
+    let (a, b) = (history(a), history(b));
+    // Forces are compared with the largest of all, and so are displacements.
+    let kind = |name: &str| name.rsplit('.').next().map(|n| n[..2.min(n.len())].to_string());
+    let mut seen = 0;
+    for ((name, x), (other, y)) in a.iter().zip(&b) {
+        assert_eq!((name, x.len()), (other, y.len()));
+        if !compared(name) {
+            continue;
+        }
+        let alike = b.iter().filter(|(other, _)| kind(other) == kind(name));
+        let size = alike.flat_map(|(_, y)| y).fold(0.0, |m: f64, y| m.max(y.abs()));
+        for (x, y) in x.iter().zip(y) {
+            seen += usize::from(*y != 0.0);
+            assert!((x - y).abs() <= 1e-9 * size, "{name}: {x} instead of {y}");
+        }
+    }
+    assert!(seen > 50, "{seen} numbers compared");
+}
+
+#[test]
+fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
+    if !built() {
+        return;
+    }
+    let pressed = THROWN
+        .replace("initial.thrown = { set = \"block\", velocity = [1.0, -5.0] }", "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }")
+        .replace("duration = 4e-4, increments = { fixed = 40 }, dynamic = {}", "increments = { fixed = 20 }");
+    for (name, case) in [("motion", THROWN), ("rest", &pressed)] {
+        let folder = place(name, case);
+        let own = output(run(&folder, &["-o", "own"]));
+        assert_eq!(code(&own), Some(0), "{}", text(&own.stderr));
+        for ranks in ["1", "2"] {
+            let results = output(run(&folder, &["-o", ranks, "--engine", "mumps", "--ranks", ranks]));
+            assert_eq!(code(&results), Some(0), "{}", text(&results.stderr));
+            assert_same(&folder.join(ranks), &folder.join("own"));
+            let summary = std::fs::read_to_string(folder.join(ranks).join("summary.json"));
+            let summary = summary.expect("a summary");
+            for part in ["\"name\": \"mumps\"", &format!("\"ranks\": {ranks}"), "\"reproducible\": false"] {
+                assert!(summary.contains(part), "{part} in {summary}");
+            }
+            assert_clean(&folder);
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    let folder = place("missing", CASE);
+    let says = |command: Command, words: &[&str]| {
+        let ended = output(command);
+        let said = text(&ended.stderr);
+        assert_eq!(code(&ended), Some(1), "{said}");
+        for word in words {
+            assert!(said.contains(word), "{word} in {said}");
+        }
+        assert_clean(&folder);
+    };
+    let mut command = run(&folder, &["--engine", "mumps"]);
+    command.env("STICKSLIP_MUMPS", "/nowhere/stickslip-mumps");
+    says(command, &["/nowhere/stickslip-mumps", "cargo xtask engine mumps"]);
+    if !built() {
+        return;
+    }
+    let mut command = run(&folder, &["--engine", "mumps"]);
+    command.env("STICKSLIP_MPIRUN", "/nowhere/mpirun");
+    says(command, &["/nowhere/mpirun, which does not start", "mpi-default-bin"]);
+    // A program that is no engine.
+    let mut command = run(&folder, &["--engine", "mumps"]);
+    command.env("STICKSLIP_MUMPS", "/bin/true");
+    says(command, &["the engine `mumps` did not start"]);
+    let place = folder.join("between/none");
+    let mut command = run(&folder, &["--engine", "mumps"]);
+    command.env("STICKSLIP_MUMPS_DIR", &place);
+    says(command, &["files for the engine", "STICKSLIP_MUMPS_DIR"]);
+}
+
+#[test]
+fn a_method_that_does_not_condense_is_refused() {
+    let folder = place("method", CASE);
+    let refused = output(run(&folder, &["--ranks", "2", "--set", "solver.method=sparse"]));
+    let said = text(&refused.stderr);
+    assert_eq!(code(&refused), Some(1), "{said}");
+    assert!(said.contains("leave `solver.method` out"), "{said}");
+}
+
+/// Processes whose parent is one of these.
+fn children(of: u32) -> Vec<u32> {
+    let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
+    let numbers = processes.filter_map(|e| e.file_name().to_str()?.parse().ok());
+    let is_child = |process: &u32| {
+        let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+        let behind = stat.rsplit(')').next().unwrap_or_default();
+        behind.split_whitespace().nth(1) == Some(&of.to_string())
+    };
+    numbers.filter(is_child).collect()
+}
+
+fn lives(process: u32) -> bool {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+    !stat.is_empty() && !stat.contains(") Z ")
+}
+
+fn kill(process: u32) {
+    let killed = Command::new("kill").args(["-9", &process.to_string()]).status();
+    assert!(killed.expect("kill").success());
+}
+
+fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
+    let started = Instant::now();
+    while !there() {
+        assert!(started.elapsed() < Duration::from_secs(120), "{what}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// A run on two ranks that has written rows: itself, mpirun, and the ranks.
+fn started(folder: &Path) -> (Child, u32, Vec<u32>) {
+    let mut command = run(folder, &["-o", "out", "--engine", "mumps", "--ranks", "2"]);
+    command.args(["--set", "step.0.increments.fixed=40000"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the binary runs");
+    let rows = folder.join("out/history.csv");
+    wait_for("rows", || {
+        std::fs::read_to_string(&rows).is_ok_and(|text| text.lines().count() > 5)
+    });
+    let mpirun = children(child.id());
+    assert_eq!(mpirun.len(), 1);
+    let ranks = children(mpirun[0]);
+    assert_eq!(ranks.len(), 2);
+    (child, mpirun[0], ranks)
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nothing_stays_behind_whoever_dies() {
+    if !built() {
+        return;
+    }
+    for who in ["rank", "mpirun", "stickslip"] {
+        let folder = place(who, THROWN);
+        let (child, mpirun, ranks) = started(&folder);
+        match who {
+            "rank" => kill(ranks[1]),
+            "mpirun" => kill(mpirun),
+            _ => kill(child.id()),
+        }
+        let ended = child.wait_with_output().expect("it ends");
+        if who != "stickslip" {
+            let said = text(&ended.stderr);
+            assert_eq!(code(&ended), Some(1), "{said}");
+            assert!(said.contains("the engine `mumps` has died"), "{said}");
+            assert!(said.contains("stickslip resume"), "{said}");
+            let summary = std::fs::read_to_string(folder.join("out/summary.json"));
+            assert!(summary.expect("a summary").contains("\"status\": \"failed\""));
+        }
+        let rows = std::fs::read_to_string(folder.join("out/history.csv"));
+        assert!(who == "stickslip" || rows.expect("rows").ends_with('\n'));
+        wait_for("the end of all processes", || {
+            !lives(mpirun) && ranks.iter().all(|&rank| !lives(rank))
+        });
+        assert_clean(&folder);
+    }
+}
