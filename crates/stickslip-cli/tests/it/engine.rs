@@ -65,8 +65,9 @@ fn history(folder: &Path) -> Vec<(String, Vec<f64>)> {
     let all = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mut lines = all.lines().filter(|l| !l.starts_with('#'));
     let names = lines.next().expect("a header").split(',');
-    let mut columns: Vec<(String, Vec<f64>)> =
-        names.map(|n| (n.trim_matches('"').into(), Vec::new())).collect();
+    let mut columns: Vec<(String, Vec<f64>)> = names
+        .map(|n| (n.trim_matches('"').into(), Vec::new()))
+        .collect();
     for line in lines {
         for (column, word) in columns.iter_mut().zip(line.split(',')) {
             column.1.push(word.parse().unwrap_or(f64::NAN));
@@ -77,15 +78,21 @@ fn history(folder: &Path) -> Vec<(String, Vec<f64>)> {
 
 /// Columns that are measured against a length, a force, an energy; not what rounding is (residuals), and not counts of iterations.
 fn compared(name: &str) -> bool {
-    [".CF", ".U", ".RF", "ALLSE", "ALLKE", "ALLFD", "STICK", "SLIP", "OPEN"]
-        .iter()
-        .any(|part| name.contains(part))
+    [
+        ".CF", ".U", ".RF", "ALLSE", "ALLKE", "ALLFD", "STICK", "SLIP", "OPEN",
+    ]
+    .iter()
+    .any(|part| name.contains(part))
 }
 
 fn assert_same(a: &Path, b: &Path) {
     let (a, b) = (history(a), history(b));
     // Forces are compared with the largest of all, and so are displacements.
-    let kind = |name: &str| name.rsplit('.').next().map(|n| n[..2.min(n.len())].to_string());
+    let kind = |name: &str| {
+        name.rsplit('.')
+            .next()
+            .map(|n| n[..2.min(n.len())].to_string())
+    };
     let mut seen = 0;
     for ((name, x), (other, y)) in a.iter().zip(&b) {
         assert_eq!((name, x.len()), (other, y.len()));
@@ -93,7 +100,9 @@ fn assert_same(a: &Path, b: &Path) {
             continue;
         }
         let alike = b.iter().filter(|(other, _)| kind(other) == kind(name));
-        let size = alike.flat_map(|(_, y)| y).fold(0.0, |m: f64, y| m.max(y.abs()));
+        let size = alike
+            .flat_map(|(_, y)| y)
+            .fold(0.0, |m: f64, y| m.max(y.abs()));
         for (x, y) in x.iter().zip(y) {
             seen += usize::from(*y != 0.0);
             assert!((x - y).abs() <= 1e-9 * size, "{name}: {x} instead of {y}");
@@ -108,19 +117,32 @@ fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
         return;
     }
     let pressed = THROWN
-        .replace("initial.thrown = { set = \"block\", velocity = [1.0, -5.0] }", "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }")
-        .replace("duration = 4e-4, increments = { fixed = 40 }, dynamic = {}", "increments = { fixed = 20 }");
+        .replace(
+            "initial.thrown = { set = \"block\", velocity = [1.0, -5.0] }",
+            "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }",
+        )
+        .replace(
+            "duration = 4e-4, increments = { fixed = 40 }, dynamic = {}",
+            "increments = { fixed = 20 }",
+        );
     for (name, case) in [("motion", THROWN), ("rest", &pressed)] {
         let folder = place(name, case);
         let own = output(run(&folder, &["-o", "own"]));
         assert_eq!(code(&own), Some(0), "{}", text(&own.stderr));
         for ranks in ["1", "2"] {
-            let results = output(run(&folder, &["-o", ranks, "--engine", "mumps", "--ranks", ranks]));
+            let results = output(run(
+                &folder,
+                &["-o", ranks, "--engine", "mumps", "--ranks", ranks],
+            ));
             assert_eq!(code(&results), Some(0), "{}", text(&results.stderr));
             assert_same(&folder.join(ranks), &folder.join("own"));
             let summary = std::fs::read_to_string(folder.join(ranks).join("summary.json"));
             let summary = summary.expect("a summary");
-            for part in ["\"name\": \"mumps\"", &format!("\"ranks\": {ranks}"), "\"reproducible\": false"] {
+            for part in [
+                "\"name\": \"mumps\"",
+                &format!("\"ranks\": {ranks}"),
+                "\"reproducible\": false",
+            ] {
                 assert!(summary.contains(part), "{part} in {summary}");
             }
             assert_clean(&folder);
@@ -134,7 +156,7 @@ fn what_is_missing_is_named() {
     let says = |command: Command, words: &[&str]| {
         let ended = output(command);
         let said = text(&ended.stderr);
-        assert_eq!(code(&ended), Some(1), "{said}");
+        assert_eq!(code(&ended), Some(3), "{said}");
         for word in words {
             assert!(said.contains(word), "{word} in {said}");
         }
@@ -142,13 +164,19 @@ fn what_is_missing_is_named() {
     };
     let mut command = run(&folder, &["--engine", "mumps"]);
     command.env("STICKSLIP_MUMPS", "/nowhere/stickslip-mumps");
-    says(command, &["/nowhere/stickslip-mumps", "cargo xtask engine mumps"]);
+    says(
+        command,
+        &["/nowhere/stickslip-mumps", "cargo xtask engine mumps"],
+    );
     if !built() {
         return;
     }
     let mut command = run(&folder, &["--engine", "mumps"]);
     command.env("STICKSLIP_MPIRUN", "/nowhere/mpirun");
-    says(command, &["/nowhere/mpirun, which does not start", "mpi-default-bin"]);
+    says(
+        command,
+        &["/nowhere/mpirun, which does not start", "mpi-default-bin"],
+    );
     // A program that is no engine.
     let mut command = run(&folder, &["--engine", "mumps"]);
     command.env("STICKSLIP_MUMPS", "/bin/true");
@@ -162,7 +190,10 @@ fn what_is_missing_is_named() {
 #[test]
 fn a_method_that_does_not_condense_is_refused() {
     let folder = place("method", CASE);
-    let refused = output(run(&folder, &["--ranks", "2", "--set", "solver.method=sparse"]));
+    let refused = output(run(
+        &folder,
+        &["--ranks", "2", "--set", "solver.method=sparse"],
+    ));
     let said = text(&refused.stderr);
     assert_eq!(code(&refused), Some(1), "{said}");
     assert!(said.contains("leave `solver.method` out"), "{said}");
@@ -186,7 +217,9 @@ fn lives(process: u32) -> bool {
 }
 
 fn kill(process: u32) {
-    let killed = Command::new("kill").args(["-9", &process.to_string()]).status();
+    let killed = Command::new("kill")
+        .args(["-9", &process.to_string()])
+        .status();
     assert!(killed.expect("kill").success());
 }
 
@@ -202,7 +235,11 @@ fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 fn started(folder: &Path) -> (Child, u32, Vec<u32>) {
     let mut command = run(folder, &["-o", "out", "--engine", "mumps", "--ranks", "2"]);
     command.args(["--set", "step.0.increments.fixed=40000"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the binary runs");
+    let child = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
     let rows = folder.join("out/history.csv");
     wait_for("rows", || {
         std::fs::read_to_string(&rows).is_ok_and(|text| text.lines().count() > 5)
@@ -231,11 +268,15 @@ fn nothing_stays_behind_whoever_dies() {
         let ended = child.wait_with_output().expect("it ends");
         if who != "stickslip" {
             let said = text(&ended.stderr);
-            assert_eq!(code(&ended), Some(1), "{said}");
+            assert_eq!(code(&ended), Some(3), "{said}");
             assert!(said.contains("the engine `mumps` has died"), "{said}");
             assert!(said.contains("stickslip resume"), "{said}");
             let summary = std::fs::read_to_string(folder.join("out/summary.json"));
-            assert!(summary.expect("a summary").contains("\"status\": \"failed\""));
+            assert!(
+                summary
+                    .expect("a summary")
+                    .contains("\"status\": \"failed\"")
+            );
         }
         let rows = std::fs::read_to_string(folder.join("out/history.csv"));
         assert!(who == "stickslip" || rows.expect("rows").ends_with('\n'));

@@ -26,6 +26,10 @@ const END: Duration = Duration::from_secs(10);
 const KEPT: usize = 100;
 const SHOWN: usize = 4;
 
+/// What to do.
+const NOT_STARTED: &str = "try `mpirun -n 2 hostname`; the program must have been built with the MPI whose mpirun starts it: `cargo xtask engine mumps`";
+const DIED: &str = "what it was working on is lost; start again, or go on from the last checkpoint by `stickslip resume`";
+
 /// An MPI job, its folder, and the talk with its rank 0.
 #[derive(Debug)]
 pub(super) struct Job {
@@ -172,9 +176,12 @@ impl Talk {
             let left = START.saturating_sub(started.elapsed());
             let line = match self.answers.recv_timeout(left) {
                 Ok(line) => line,
-                Err(RecvTimeoutError::Disconnected) => return Err(self.died("did not start")),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(self.died("did not start", NOT_STARTED));
+                }
                 Err(RecvTimeoutError::Timeout) => {
-                    return Err(self.died(&format!("was not ready in {} s", START.as_secs())));
+                    let late = format!("was not ready in {} s", START.as_secs());
+                    return Err(self.died(&late, NOT_STARTED));
                 }
             };
             let words: Vec<&str> = line.split_whitespace().collect();
@@ -211,7 +218,7 @@ impl Talk {
         });
         loop {
             let Ok(line) = self.answers.recv() else {
-                return Err(self.died("has died"));
+                return Err(self.died("has died", DIED));
             };
             let mut words = line.split_whitespace().map(str::to_string);
             match words.next().as_deref() {
@@ -224,7 +231,7 @@ impl Talk {
     }
 
     /// The job has ended, or is to.
-    fn died(&mut self, how: &str) -> LinearError {
+    fn died(&mut self, how: &str, help: &str) -> LinearError {
         self.end();
         let status = self.child.try_wait().ok().flatten();
         let status = status.map_or(String::new(), |s| format!(" ({}: {s})", self.name));
@@ -234,7 +241,7 @@ impl Talk {
         let said = telling(&errors);
         let over = LinearError::Engine {
             message: format!("the engine `mumps` {how}{status}{said}"),
-            help: "what it was working on is lost; start again, or go on from the last checkpoint by `stickslip resume`".into(),
+            help: help.into(),
         };
         self.over = Some(over.clone());
         over
@@ -270,18 +277,22 @@ fn listen(out: impl Read, kept: &Mutex<Vec<String>>) {
     }
 }
 
-/// What a job said last: of its own, where there is something, and not the frames around it.
+/// What a job said: what the program itself said, or what MPI says of the process that ended first, or what was said last.
 fn telling(lines: &[String]) -> String {
     let mut said: Vec<&str> = lines.iter().map(|l| l.trim()).collect();
     said.retain(|l| l.chars().any(char::is_alphanumeric));
-    let own: Vec<&str> = said
-        .iter()
-        .copied()
-        .filter(|l| l.starts_with("stickslip-mumps"))
-        .collect();
-    let said = if own.is_empty() { said } else { own };
-    let first = said.len().saturating_sub(SHOWN);
-    match said[first..].join(" ") {
+    let with = |word: &str| -> Vec<&str> {
+        let lines = said.iter().copied();
+        lines.filter(|l| l.contains(word)).collect()
+    };
+    let told = [
+        with("stickslip-mumps, rank"),
+        with("noticed that process"),
+        said.clone(),
+    ];
+    let told = told.into_iter().find(|l| !l.is_empty()).unwrap_or_default();
+    let first = told.len().saturating_sub(SHOWN);
+    match told[first..].join(" ") {
         nothing if nothing.is_empty() => nothing,
         words => format!(": {words}"),
     }
