@@ -18,7 +18,7 @@ support.floor = { set = "floor.bottom", x = 0.0, y = 0.0 }
 initial.thrown = { set = "block", velocity = [1.0, -5.0] }
 solver.tolerance = 1e-11
 output.history-every = 1
-step = [{ name = "fall", duration = 4e-4, increments = { fixed = 40 }, dynamic = {} }]
+step = [{ name = "fall", duration = 1.5e-4, increments = { fixed = 15 }, dynamic = {} }]
 "#;
 
 /// Whether there is a program for the ranks; says so if not. The binary looks there, too.
@@ -122,8 +122,8 @@ fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
             "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }",
         )
         .replace(
-            "duration = 4e-4, increments = { fixed = 40 }, dynamic = {}",
-            "increments = { fixed = 20 }",
+            "duration = 1.5e-4, increments = { fixed = 15 }, dynamic = {}",
+            "increments = { fixed = 10 }",
         );
     for (name, case) in [("motion", THROWN), ("rest", &pressed)] {
         let folder = place(name, case);

@@ -2,7 +2,7 @@ use std::io;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::job::{Job, unusable};
+use super::job::Job;
 use super::options::MumpsOptions;
 use super::words::{WordReader, WordWriter};
 use crate::linear::engine::contract::{FactorEffort, Interior, Ordered};
@@ -137,7 +137,7 @@ impl Body {
             }
             Ok(())
         };
-        write().map_err(|e| unusable(&e))?;
+        write().map_err(|e| self.job.trouble(&e))?;
         Ok(name)
     }
 }
@@ -173,7 +173,7 @@ impl Factor {
             most.fetch_max(bytes as u64, Ordering::Relaxed);
         }
         let path = body.job.folder().join(format!("{file}.schur"));
-        let read = || -> io::Result<()> {
+        let mut read = || -> io::Result<()> {
             let mut reader = WordReader::new(&path, c * (c + 1) / 2)?;
             for (j, column) in schur.chunks_exact_mut(c.max(1)).enumerate() {
                 reader.numbers(&mut column[j..])?;
@@ -181,8 +181,7 @@ impl Factor {
             reader.finish()
         };
         if c > 0 {
-            let mut read = read;
-            read().map_err(|e| unusable(&e))?;
+            read().map_err(|e| body.job.trouble(&e))?;
         }
         Ok(Factor {
             body: Arc::clone(body),
@@ -250,7 +249,7 @@ impl Factor {
             vectors.iter().try_for_each(|v| file.numbers(v))?;
             file.finish()
         };
-        write().map_err(|e| unusable(&e))?;
+        write().map_err(|e| job.trouble(&e))?;
         let answer = job.ask(&format!("{command} {name}"))?;
         answer.map_err(|words| refusal(&words))?;
         let result = path.with_extension("out");
@@ -259,7 +258,7 @@ impl Factor {
             reader.numbers(out)?;
             reader.finish()
         };
-        read().map_err(|e| unusable(&e))
+        read().map_err(|e| job.trouble(&e))
     }
 }
 

@@ -142,6 +142,19 @@ impl Job {
         talk.taken[number] = false;
     }
 
+    /// That a file could not be written or read: as ranks end they take the folder along, and then that is the reason.
+    pub fn trouble(&self, error: &std::io::Error) -> LinearError {
+        if self.folder().is_dir() {
+            return unusable(error);
+        }
+        self.alive.store(false, Ordering::Relaxed);
+        let mut talk = self.talk.lock().unwrap_or_else(PoisonError::into_inner);
+        match &talk.over {
+            Some(over) => over.clone(),
+            None => talk.died("has died", DIED),
+        }
+    }
+
     /// Sends a command, and waits for its answer: the words behind `ok`, or behind `error`. Nothing in here uses the threads of rayon: one that waits for others could
     /// take up work that comes here as well.
     ///
@@ -299,7 +312,7 @@ fn telling(lines: &[String]) -> String {
 }
 
 /// That files cannot be exchanged.
-pub(super) fn unusable(error: &std::io::Error) -> LinearError {
+fn unusable(error: &std::io::Error) -> LinearError {
     LinearError::Engine {
         message: format!("files for the engine `mumps`: {error}"),
         help: "let STICKSLIP_MUMPS_DIR name a folder with enough space that all machines of the job see".into(),

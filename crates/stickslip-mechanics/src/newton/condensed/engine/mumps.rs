@@ -18,8 +18,7 @@ pub struct Mumps {
     pub ranks: usize,
     /// Whether factors are kept in files instead of in memory.
     pub out_of_core: bool,
-    /// Accuracy, relative to the matrix, to which blocks of the factor are compressed: less memory and work for large bodies. Nothing is compressed
-    /// if not given `[1]`.
+    /// Accuracy, relative to the matrix, to which blocks of the factor are compressed: less work for large bodies. Nothing is compressed if not given.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub low_rank: Option<f64>,
