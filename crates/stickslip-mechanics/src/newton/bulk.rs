@@ -36,11 +36,6 @@ pub trait Bulk {
         false
     }
 
-    /// The relative residual that a linear system may keep while points change status.
-    fn coarsest(&self, settings: &Settings) -> f64 {
-        settings.linear_tolerance
-    }
-
     /// Whether the solution needs to know which points meet which facets.
     fn wants_pairs(&self) -> bool {
         false

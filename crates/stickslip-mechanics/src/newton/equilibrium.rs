@@ -171,7 +171,7 @@ fn solve(
         }
     }
     // While points still change status the linear problem is not the last one: digits would be thrown away.
-    let coarse = system.bulk.coarsest(&settings);
+    let coarse = settings.linear_tolerance;
     let wanted = if first || system.tally().changed > 0 {
         coarse
     } else {

@@ -8,10 +8,6 @@ use super::statistics::Statistics;
 use crate::linear::BlockCsr;
 use crate::system::{Assembler, StepFailure};
 
-/// By how much linear systems may be coarser with multigrid while points change status: press-and-slide with N = 36 took 83 Newton and 738 Krylov iterations
-/// instead of 84 and 880, slabs with their whole face in contact a tenth more of the former and a tenth fewer of the latter.
-const COARSER: f64 = 10.0;
-
 /// The forces of the bulk at some displacements, from which they follow as `forces + A (u - at)`.
 ///
 /// With a time step much smaller than the periods of the bodies `A u` is the difference of large numbers; inertia from the
@@ -110,15 +106,6 @@ impl Bulk for SparseBulk<'_> {
 
     fn wants_pairs(&self) -> bool {
         self.linearised.uses_multigrid()
-    }
-
-    /// An iteration of multigrid costs a tenth of a Newton iteration, where with a factor it costs next to nothing beside it.
-    fn coarsest(&self, settings: &Settings) -> f64 {
-        let factor = match self.linearised.uses_multigrid() {
-            true => COARSER,
-            false => 1.0,
-        };
-        factor * settings.linear_tolerance
     }
 
     fn solve(

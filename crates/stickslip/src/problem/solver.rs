@@ -64,7 +64,7 @@ impl Default for Solver {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Linear {
-    /// Largest residual of a linear system, as a fraction of its right-hand side, while points change status; multigrid keeps ten times as much.
+    /// Largest residual of a linear system, as a fraction of its right-hand side.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
     pub tolerance: f64,
     /// Krylov iterations with one factorisation after which the matrix is factored anew.

@@ -54,7 +54,10 @@ fn compare(name: &str, half: &str, whole: &str) {
         // Beside the plane a sliver, as wide as the gap times the tilt of the face, has its facet on the other side: the area of the point is so much smaller.
         let on = p[0].abs() < 1e-9;
         let close = if on { 5e-4 } else { 1e-5 };
-        assert!((p[3] - q[3]).abs() < close * pressure, "{name}: {p:?} {q:?}");
+        assert!(
+            (p[3] - q[3]).abs() < close * pressure,
+            "{name}: {p:?} {q:?}"
+        );
         for k in [4, 5] {
             assert!((p[k] - q[k]).abs() < 1e-4 * shear, "{name}: {p:?} {q:?}");
         }
@@ -157,7 +160,10 @@ fn what_only_one_side_is_held_by_is_no_plane_of_symmetry() {
     let text = blocks(false)
         .replace("x = 0, y = 0.02, z = -0.05", "x = 0, y = 0, z = -0.05")
         .replace("support.lower = { set = \"b.left\", x = 0 }", "")
-        .replace("set = \"b.bottom\", x = 0,", "set = \"b.bottom\", x = -0.1,");
+        .replace(
+            "set = \"b.bottom\", x = 0,",
+            "set = \"b.bottom\", x = -0.1,",
+        );
     let end = end(&text);
     let pulled = end
         .points
