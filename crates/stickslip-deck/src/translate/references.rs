@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::math::{add, norm, scale, sub};
+
 use super::bodies::Bodies;
 use super::job::Job;
 use super::sets::Sets;
@@ -167,6 +169,7 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
     };
     if way == Way::Distributing {
         refuse_left_out(job, coupling);
+        warn_of_arm(job, bodies, coupling);
         let name = job.fresh("coupling", &label);
         job.table("coupling", &name, *place);
         job.out.line(&format!(
@@ -203,6 +206,33 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         false => format!(", components = {}", toml::texts(&axes)),
     };
     tie(job, &label, (&set, &point), *place, &more);
+}
+
+/// Where a reference node lies beside the centre of the nodes of a `*DISTRIBUTING COUPLING`, its force has an arm in Abaqus, and here; in CalculiX the
+/// place of the node does not matter.
+fn warn_of_arm(job: &mut Job, bodies: &Bodies, coupling: &NodeCoupling) {
+    let Tied::Nodes(list) = &coupling.tied else {
+        return;
+    };
+    let (mut sum, mut total, mut size) = ([0.0; 3], 0.0, 0.0_f64);
+    let point = job.deck.nodes[&coupling.reference];
+    for (target, weight) in list {
+        for node in own(bodies, coupling, &job.nodes(target)) {
+            let arm = sub(job.deck.nodes[&node], point);
+            sum = add(sum, scale(*weight, arm));
+            total += weight;
+            size = size.max(norm(arm));
+        }
+    }
+    let arm = norm(sum) / total;
+    if total > 0.0 && arm > 1e-3 * size {
+        let message = format!(
+            "coupling {}: the reference node lies {arm:.3e} from the centre of its nodes: a force there has that arm, as in Abaqus; in CalculiX the place of the node does not matter",
+            coupling.name
+        );
+        let help = "for what CalculiX does, put the node where the centre is";
+        job.warn(coupling.place, message, help);
+    }
 }
 
 /// It is an error if something acts on the reference node of a distributing coupling in a direction that its list leaves out: the point follows the mean

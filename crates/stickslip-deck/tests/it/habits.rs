@@ -208,3 +208,22 @@ fn quadratic_cells_expand_by_the_temperatures_of_all_their_nodes() {
         near(run.last("displacements")[1], 4.0e-2 / 3.0, 1e-6);
     }
 }
+
+#[test]
+fn the_arm_of_a_reference_node_is_told_where_calculix_has_none() {
+    let deck = |z: f64| {
+        let text = format!(
+            "{}{}*NODE\n99, .5, .5, {z}\n*ELEMENT, TYPE=DCOUP3D, ELSET=D\n99, 99\n*DISTRIBUTING COUPLING, ELSET=D\nNTOP, 1.\n\
+             *BOUNDARY\nNBOT, 1, 3\n*STEP\n*STATIC\n*CLOAD\n99, 1, 1.\n*END STEP\n",
+            cube("N", 1, 0.0),
+            sections(&["EN"])
+        );
+        run(&format!("habit-arm-{z}"), &text).notes.join("\n")
+    };
+    assert!(
+        deck(3.0).contains("lies 2.000e0 from the centre"),
+        "{}",
+        deck(3.0)
+    );
+    assert!(!deck(1.0).contains("from the centre"), "{}", deck(1.0));
+}
