@@ -107,20 +107,17 @@ fn names_of_parameters_may_be_cut_short_and_titles_may_have_any() {
 #[test]
 fn nodes_may_come_after_their_elements() {
     let text = pressed(-0.01, "SURFACE TO SURFACE", HELD);
-    let nodes: Vec<&str> = text.split("*ELEMENT").collect();
     // The nodes of the second cube to the end of the model.
     let at = text.rfind("*NODE, NSET=B").expect("nodes");
     let end = at + text[at..].find("*ELEMENT").expect("elements");
     let moved = text[at..end].replace(", NSET=B", "");
     let rest = format!("{}{}", &text[..at], &text[end..]);
-    let rest = rest.replace("*NSET, NSET=BBOT", "*NSET, NSET=BBOT");
     let at = rest.find("*NSET, NSET=BBOT").expect("a set");
     let late = format!(
         "{}{moved}*NSET, NSET=B, GENERATE\n11, 18\n{}",
         &rest[..at],
         &rest[at..]
     );
-    assert_eq!(nodes.len(), 3);
     let whole = 0.01 / (2.0 / 1000.0 + 1.0 / 1e4);
     near(
         run("habit-late-nodes", &late).last("total force")[2],
