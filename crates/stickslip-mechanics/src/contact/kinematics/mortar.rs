@@ -138,6 +138,7 @@ impl MeanPoint<'_> {
         out.reset(gradients.len() * dim);
         let normal = normalize(sums.normal).unwrap_or(sums.normal);
         let frame = tangents(normal, dim);
+        let along = frame.map(|e| self.across.within(e));
         // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
         let turns = self.carried.map_or([identity(), identity()], |c| c.turns);
         let [own, other] = turns.map(|t| self.across.turn(t));
@@ -159,8 +160,8 @@ impl MeanPoint<'_> {
             }
             for c in 0..dim {
                 out.rows[0][k * dim + c] = gradient[c];
-                for (t, e) in frame.iter().enumerate().take(dim - 1) {
-                    out.rows[t + 1][k * dim + c] = w * self.across.within(*e)[c];
+                for (t, e) in along.iter().enumerate().take(dim - 1) {
+                    out.rows[t + 1][k * dim + c] = w * e[c];
                 }
             }
         }
