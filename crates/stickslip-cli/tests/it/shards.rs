@@ -18,7 +18,7 @@ const SET: [&str; 6] = [
 const RUNS: usize = 8;
 
 fn place(name: &str) -> PathBuf {
-    let case = CASE.replace("fixed = 2", "fixed = 60");
+    let case = CASE.replace("fixed = 2", "fixed = 30");
     let case = case.replace("x = 0.0, y = -1e-5", "x = 2e-6, y = -1e-5");
     support::place("shards", name, &case)
 }

@@ -25,12 +25,12 @@ pub fn merge(
     tell: &dyn Fn(&str),
 ) -> Outcome {
     let found = find(folders)?;
+    let shards = found.iter().map(|folder| Shard::read(folder));
+    let shards = shards.collect::<Result<Vec<_>, Error>>()?;
     let output = match output {
         Some(output) => output.to_path_buf(),
         None => beside(&found)?,
     };
-    let shards = found.iter().map(|folder| Shard::read(folder));
-    let shards = shards.collect::<Result<Vec<_>, Error>>()?;
     let Some(first) = shards.first() else {
         return Err(none(&folders[0]));
     };
