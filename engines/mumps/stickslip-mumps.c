@@ -18,6 +18,8 @@
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dmumps_c.h>
+#include <ftw.h>
+#include <glob.h>
 #include <inttypes.h>
 #include <mpi.h>
 #include <pthread.h>
@@ -55,6 +57,7 @@ typedef struct {
 static DMUMPS_STRUC_C *bodies[BODIES];
 static int rank, ranks;
 static const char *folder;
+static pid_t parent;
 /* Lines of the standard input on their way from the thread that waits for them. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t came = PTHREAD_COND_INITIALIZER;
@@ -98,11 +101,31 @@ static void remove_folder(void) {
     rmdir(folder);
 }
 
+static int remove_one(const char *path, const struct stat *unused, int kind, struct FTW *place) {
+    (void)unused, (void)kind, (void)place;
+    remove(path);
+    return 0;
+}
+
+/* Files of Open MPI that mpirun would have removed, had it not been killed. */
+static void remove_session(void) {
+    const char *session = getenv("OMPI_MCA_orte_jobfam_session_dir"), *job = getenv("PMIX_NAMESPACE");
+    char pattern[256];
+    glob_t found;
+    if (session) nftw(session, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    if (!job) return;
+    snprintf(pattern, sizeof pattern, "/dev/shm/vader_segment.*.%lx.*", strtoul(job, NULL, 10));
+    if (glob(pattern, 0, NULL, &found)) return;
+    for (size_t i = 0; i < found.gl_pathc; i++) unlink(found.gl_pathv[i]);
+    globfree(&found);
+}
+
 /* Ends this rank when what started it is gone: MPI would have it wait for ever. */
-static void *watch_parent(void *of) {
-    pid_t parent = *(pid_t *)of;
+static void *watch_parent(void *unused) {
     struct timespec pause = {0, 200000000};
+    (void)unused;
     while (getppid() == parent) nanosleep(&pause, NULL);
+    remove_session();
     _exit(1);
     return NULL;
 }
@@ -121,6 +144,7 @@ static void *read_lines(void *unused) {
     }
     if (!quitting) {
         remove_folder();
+        if (getppid() != parent) remove_session();
         _exit(1);
     }
     return NULL;
@@ -407,13 +431,13 @@ static void solve_for(const Command *c) {
 int main(int count, char **arguments) {
     int level;
     pthread_t thread;
-    pid_t parent = getppid();
     if (count != 2) {
         fprintf(stderr, "usage: stickslip-mumps FOLDER; stickslip starts it\n");
         return 1;
     }
     folder = arguments[1];
-    pthread_create(&thread, NULL, watch_parent, &parent);
+    parent = getppid();
+    pthread_create(&thread, NULL, watch_parent, NULL);
     MPI_Init_thread(&count, &arguments, MPI_THREAD_FUNNELED, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
