@@ -35,6 +35,9 @@ use table::{Row, Table};
 
 /// Run an analysis for many values and write one table: a row a run.
 #[derive(Debug, clap::Args)]
+#[command(override_usage = "\
+stickslip sweep [OPTIONS] --set <PATH=V1,V2,...> <FILE>
+       stickslip sweep --merge <DIR>... [-o <FILE>] [--results <DIR>]")]
 #[command(after_help = "\
 Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
 includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
