@@ -9,9 +9,9 @@ use stickslip::Error;
 use stickslip::results::FileClaim;
 
 use super::effort::EffortTable;
+use super::plan::{folder_of_run, runs};
 use super::shard::{Done, Shard};
 use super::table::Table;
-use super::{folder_of_run, runs};
 use crate::failure::{Failure, Outcome};
 
 /// Most runs and reasons that are named one by one.

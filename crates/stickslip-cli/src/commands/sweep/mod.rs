@@ -29,7 +29,7 @@ use begun::{Begun, Stand};
 use columns::Columns;
 use effort::EffortTable;
 use one::{Ended, Shared, analyse};
-use plan::Plan;
+use plan::{Plan, folder_of_run, runs};
 use shard::{Done, Share, Sweep, Work, processor};
 use table::{Row, Table};
 
@@ -368,18 +368,6 @@ impl Runs<'_> {
             poor,
             processor: processor(),
         })
-    }
-}
-
-/// The folder of the results of a run, counted from 0.
-fn folder_of_run(results: &Path, run: usize) -> PathBuf {
-    results.join(format!("{:04}", run + 1))
-}
-
-fn runs(count: usize) -> String {
-    match count {
-        1 => "1 run".into(),
-        n => format!("{n} runs"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which runs a sweep consists of, and the check of all of them before the first.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use stickslip::Diagnostic;
@@ -211,6 +211,19 @@ fn side_by_side(axes: &[Axis]) -> Result<usize, Failure> {
         ));
     }
     product(&axes[..axes.len().min(1)])
+}
+
+/// The folder of the results of a run, counted from 0.
+pub fn folder_of_run(results: &Path, run: usize) -> PathBuf {
+    results.join(format!("{:04}", run + 1))
+}
+
+/// So many runs, as one says it.
+pub fn runs(count: usize) -> String {
+    match count {
+        1 => "1 run".into(),
+        n => format!("{n} runs"),
+    }
 }
 
 #[cfg(test)]
