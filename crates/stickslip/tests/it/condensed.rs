@@ -85,6 +85,12 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Increments at the end that are not determined well enough to be compared. The last one of bolted-joint lets go of all of the pull: with the sparse matrix
+/// alone, Young's modulus larger or smaller by two roundings moves it by 1.0e-7, and those before it by 1.2e-12.
+fn undetermined(name: &str) -> usize {
+    usize::from(name == "bolted-joint")
+}
+
 /// How near displacements and reactions are relative to the largest of the run, and whether only up to the first change of status.
 ///
 /// The exceptions are cases whose results the last digit of the input changes as much: with the sparse matrix alone, Young's modulus larger by two
@@ -94,9 +100,6 @@ fn demanded(name: &str) -> (f64, bool) {
     match name {
         "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-4, true),
         "braking-block" => (1e-6, false),
-        // With the sparse matrix alone, Young's modulus larger or smaller by two roundings moves the last increment, which lets go of all of the pull, by 1.03e-7, and
-        // those before it by 1e-12.
-        "bolted-joint" => (2e-7, false),
         // Followed bodies are at rest when their anchors carry less than 1e-8 of the load.
         "closing-gaps" => (1e-7, false),
         // What is in balance to the default tolerance agrees to that.
@@ -168,7 +171,7 @@ fn check(name: &str) {
         } else {
             sparse.times.len()
         };
-        let rows = rows.min(condensed.times.len());
+        let rows = rows.min(condensed.times.len()) - undetermined(name);
         assert!(rows > 0, "{name}: no rows");
         // The length of increments may follow from iterations, and these need not be the same: compared is what comes before.
         let alike = |k: &usize| (condensed.times[*k] - sparse.times[*k]).abs() <= limit;
