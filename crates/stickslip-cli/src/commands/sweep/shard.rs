@@ -616,7 +616,8 @@ mod tests {
     #[test]
     fn what_differs_is_named() {
         assert_eq!(sweep().differs(&sweep()), None);
-        let changes: [(fn(&mut Sweep), &str); 6] = [
+        type Change = fn(&mut Sweep);
+        let changes: [(Change, &str); 6] = [
             (|s| s.version = "2".into(), "it is of version 2"),
             (|s| s.files[0].1 = "1".into(), "its file a.toml is another"),
             (
