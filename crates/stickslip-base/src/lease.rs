@@ -1,7 +1,7 @@
 //! Who does what, of processes on several machines: a file that is there as long as a process is at it, so that others wait, or do something else.
 //!
 //! What it relies on holds on network file systems as well: a file is created by one of those who try at once, and a rename is seen as a whole. Locks of the
-//! system are not used. Whoever holds a lease writes another number into it every [`BEAT`]; whoever waits and has seen none for [`PATIENCE`], by a
+//! system are not used. Whoever holds a lease writes another number into it every `BEAT`; whoever waits and has seen none for `PATIENCE`, by a
 //! clock of its own, takes the holder for dead. On the same machine it asks the system instead. Leases spare work, and keep messages apart; what is written
 //! is whole without them: where two do the same after all, both are right, and the file is that of the one who was last.
 

@@ -303,7 +303,7 @@ impl BlockCsr {
         }
     }
 
-    /// The same of several vectors: each product has the bits that [`mul`](BlockCsr::mul) gives, and the matrix is read once for [`TOGETHER`] of them.
+    /// The same of several vectors: each product has the bits that [`mul`](BlockCsr::mul) gives, and the matrix is read once for `TOGETHER` of them.
     pub fn mul_all(&self, all: &[&[f64]]) -> Vec<Vec<f64>> {
         let groups = all.chunks(TOGETHER);
         groups
