@@ -19,6 +19,16 @@ pub fn peak_memory() -> u64 {
     keyed("/proc/self/status", "VmHWM:").unwrap_or(0)
 }
 
+/// Pages that the system had to lay under addresses of this process so far, none of them read from a file; 0 if it does not tell.
+pub fn page_faults() -> u64 {
+    // The name of the program, in brackets, may hold anything; `minflt` is the eighth word behind it (proc_pid_stat(5)).
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let word = text
+        .rsplit_once(')')
+        .and_then(|(_, rest)| rest.split_whitespace().nth(7));
+    word.and_then(|word| word.parse().ok()).unwrap_or(0)
+}
+
 /// A number of bytes for people.
 pub fn bytes(count: u64) -> String {
     let count = count as f64;
@@ -88,6 +98,14 @@ mod tests {
         let (total, available) = (total_memory().unwrap(), available_memory().unwrap());
         assert!(available <= total, "{available} of {total}");
         assert!(peak_memory() > 1 << 16);
+        let before = page_faults();
+        let pages = std::hint::black_box(vec![1u8; 1 << 26]);
+        let taken = page_faults() - before;
+        // 2 MB a page at the most, 4 kB at the least.
+        assert!(
+            (pages.len() >> 21..=(pages.len() >> 11)).contains(&(taken as usize)),
+            "{taken}"
+        );
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod book;
 mod cluster;
 mod commands;
 mod convert;
+mod counts;
 mod decks;
 #[cfg(unix)]
 mod demo;

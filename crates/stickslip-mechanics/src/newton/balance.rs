@@ -40,6 +40,7 @@ impl Balance {
             force.prepare(&stage);
             force.assemble(&stage, out)?;
         }
+        statistics.evaluations += 1;
         statistics.seconds_contact += started.elapsed().as_secs_f64();
         let mut forces = vec![0.0; at.u.len()];
         let others = system.bulk.forces(&at.u, &mut forces);

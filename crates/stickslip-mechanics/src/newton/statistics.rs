@@ -24,6 +24,8 @@ pub struct Statistics {
     pub krylov: usize,
     /// Factorisations of matrices of gaps and slips.
     pub reduced: usize,
+    /// Evaluations of all interfaces, with their tangents or without.
+    pub evaluations: usize,
     /// Seconds in looking for substructures made before, reading them included.
     pub seconds_find: f64,
     /// Seconds in symbolic factorisation.
@@ -70,6 +72,7 @@ crate::keep!(Statistics {
     substructures_read,
     krylov,
     reduced,
+    evaluations,
     seconds_find,
     seconds_order,
     seconds_factor,

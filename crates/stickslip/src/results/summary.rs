@@ -6,7 +6,7 @@ use crate::assess::doctor::Finding;
 use crate::assess::quality::{Gate, InterfaceSummary};
 use crate::error::Error;
 use crate::linear::EngineReport;
-use crate::machine::peak_memory;
+use crate::machine::{page_faults, peak_memory};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::ledger::{EnergyLedger, EnergyQuality};
@@ -76,6 +76,8 @@ pub struct Summary {
     pub relative_to_linear: f64,
     /// Largest memory of the process `[bytes]`; 0 if the system does not tell.
     pub peak_memory: u64,
+    /// Pages of memory that the system gave to the process, at a microsecond or two each; 0 if the system does not tell.
+    pub page_faults: u64,
     /// Threads used.
     pub threads: usize,
     /// Energies at the end.
@@ -96,6 +98,7 @@ const OF_PROCESS: &[&str] = &[
     "linear-solve",
     "relative-to-linear",
     "peak-memory",
+    "page-faults",
     "threads",
 ];
 const OF_SHARING: &[&str] = &[
@@ -266,6 +269,7 @@ impl Summary {
         };
         self.outcome = error.map_or("done".into(), Error::to_string);
         self.peak_memory = peak_memory();
+        self.page_faults = page_faults();
     }
 }
 
@@ -298,6 +302,7 @@ crate::keep!(Summary {
     linear_solve,
     relative_to_linear,
     peak_memory,
+    page_faults,
     energy,
     energy_quality,
     quality,
