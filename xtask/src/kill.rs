@@ -369,6 +369,7 @@ fn summary(bytes: &[u8]) -> Option<Vec<u8>> {
         "linear-solve",
         "relative-to-linear",
         "peak-memory",
+        "page-faults",
         "method-reason",
     ] {
         all.remove(key);

@@ -58,6 +58,7 @@ fn summary(simulation: &Simulation) -> String {
             "linear-solve",
             "relative-to-linear",
             "peak-memory",
+            "page-faults",
             "method-reason",
         ] {
             all.remove(clock);

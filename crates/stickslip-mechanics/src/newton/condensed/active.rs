@@ -100,11 +100,6 @@ impl Active {
         }
     }
 
-    /// The part that an active dof belongs to.
-    pub fn part_of(&self, i: usize) -> usize {
-        self.starts.partition_point(|&s| s <= i) - 1
-    }
-
     /// The compliance of a part among its active dofs.
     pub fn compliance<'a>(&'a self, condensation: &'a Condensation, part: usize) -> &'a Compliance {
         match &self.compliance[part] {

@@ -12,7 +12,7 @@
 use super::preconditioner::Preconditioner;
 use super::rows::Rows;
 use super::tangent::{Precision, Tangent};
-use crate::linear::{GmresReport, GmresSettings, gmres};
+use crate::linear::{GmresReport, GmresSettings, gmres_inexact};
 
 /// Finds the forces at the active dofs from the displacements `u` that they have without; `None` where gaps curve, bodies float, or the factor is of other
 /// points.
@@ -39,9 +39,9 @@ pub(super) fn solve(
     rows.iter()
         .for_each(|rows| rows.apply_changes(u, &mut known));
     let mut q = vec![0.0; count];
-    let report = gmres(
-        &mut |v, out| {
-            let u = tangent.apply_compliance(&against(v), precision);
+    let report = gmres_inexact(
+        &mut |v, out, error| {
+            let u = tangent.apply_compliance(&against(v), precision.within(error));
             rows.iter().for_each(|rows| rows.apply_changes(&u, out));
             out.iter_mut().zip(v).for_each(|(out, v)| *out = v - *out);
         },

@@ -1,4 +1,4 @@
-use std::ops::{Add, Mul};
+use std::ops::{Add, AddAssign, Mul};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -27,7 +27,13 @@ pub struct Factor<T> {
 
 /// Numbers a factor may have.
 pub trait Entry:
-    faer::traits::ComplexField + Copy + Send + Sync + Add<Output = Self> + Mul<Output = Self>
+    faer::traits::ComplexField
+    + Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + AddAssign
+    + Mul<Output = Self>
 {
     /// From double precision.
     fn of(x: f64) -> Self;
@@ -39,20 +45,6 @@ pub trait Entry:
     fn wrap(factor: Factor<Self>) -> Lu;
     /// Pivot below which the matrix counts as singular.
     const SINGULAR: f64;
-
-    /// `y = a x`.
-    fn set_scaled(y: &mut [Self], a: Self, x: &[Self]) {
-        for (y, &x) in y.iter_mut().zip(x) {
-            *y = a * x;
-        }
-    }
-
-    /// `y += a x`.
-    fn add_scaled(y: &mut [Self], a: Self, x: &[Self]) {
-        for (y, &x) in y.iter_mut().zip(x) {
-            *y += a * x;
-        }
-    }
 }
 
 impl Entry for f64 {

@@ -5,7 +5,7 @@ use super::condensation::Condensation;
 use super::gap_space;
 use super::preconditioner::{Factored, Preconditioner, SMALL};
 use super::tangent::{Precision, Spring, Tangent};
-use crate::linear::{GmresSettings, gmres};
+use crate::linear::{GmresSettings, gmres_inexact};
 use crate::math::vector::norm;
 use crate::newton::failure::{not_finite, not_reached};
 use crate::newton::settings::Settings;
@@ -39,9 +39,6 @@ pub struct ReducedSolution {
 /// Residual relative to the right-hand side that counts as solved if the factor is fresh.
 const ROUNDING: f64 = 1e-6;
 
-/// Tolerance above which products may be in single precision.
-const SINGLE_TOLERANCE: f64 = 3e-6;
-
 /// The finest tolerance of an iteration, and the coarsest.
 const TOLERANCES: (f64, f64) = (1e-14, 0.1);
 
@@ -72,16 +69,24 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// What is tried after a failure: the same in double precision, then a fresh factor.
+    /// What is tried after a failure: a fresh factor, then nothing but double precision.
     fn next(self) -> Option<Attempt> {
-        let precision = Precision::Double;
-        match (self.precision, self.factor) {
-            (Precision::Single, factor) => Some(Attempt { precision, factor }),
-            (Precision::Double, Factor::Kept) => Some(Attempt {
+        match self {
+            Attempt {
+                factor: Factor::Kept,
                 precision,
+            } => Some(Attempt {
                 factor: Factor::Fresh,
+                precision,
             }),
-            (Precision::Double, Factor::Fresh) => None,
+            Attempt {
+                precision: Precision::Single,
+                factor,
+            } => Some(Attempt {
+                precision: Precision::Double,
+                factor,
+            }),
+            _ => None,
         }
     }
 
@@ -260,10 +265,7 @@ fn solve_preconditioned(
         false => Precision::Double,
     };
     let mut attempt = Attempt {
-        precision: match tolerance >= SINGLE_TOLERANCE {
-            true => coarse,
-            false => Precision::Double,
-        },
+        precision: coarse,
         factor: match kept {
             Some(_) => Factor::Kept,
             None => Factor::Fresh,
@@ -282,8 +284,8 @@ fn solve_preconditioned(
         let in_gaps = gap_space::solve((tangent, preconditioner), u, attempt.precision, asked);
         let (y, report) = in_gaps.unwrap_or_else(|| {
             let mut y = vec![0.0; rhs.len()];
-            let report = gmres(
-                &mut |v, out| tangent.apply(v, out, attempt.precision),
+            let report = gmres_inexact(
+                &mut |v, out, error| tangent.apply(v, out, attempt.precision.within(error)),
                 &mut |v| preconditioner.apply(tangent, v, coarse),
                 rhs,
                 &mut y,
@@ -296,8 +298,9 @@ fn solve_preconditioned(
         if !report.relative_residual.is_finite() {
             return Err(not_finite());
         }
-        // With a fresh factor what is left is rounding: whether it is too much shows in the forces.
-        let rounding = attempt.factor == Factor::Fresh && report.relative_residual <= ROUNDING;
+        // With a fresh factor and double precision what is left is rounding: whether it is too much shows in the forces.
+        let last = attempt.next().is_none();
+        let rounding = last && report.relative_residual <= ROUNDING;
         if report.converged || rounding {
             if report.iterations > patience {
                 *kept = None;

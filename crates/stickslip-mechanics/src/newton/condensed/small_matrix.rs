@@ -1,14 +1,18 @@
 //! The matrix of the preconditioner: one row for every gap, slip and artificial spring.
 
+use std::collections::BTreeMap;
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
-use super::active::NONE;
 use super::lu::Entry;
 use super::rows::{Rows, at_active};
 use super::tangent::Tangent;
 use crate::math::vector::dot;
 
-/// Columns that one task makes, so that it can use its memory again.
+/// Columns that are made together. Points beside each other share most of their nodes: a product of matrices takes each column of the compliance once for all
+/// of them, and rows of it serve as many columns with one instruction.
 const COLUMNS: usize = 16;
 
 /// What the matrix is made of: `[[I + C W Bᵀ, -C Z], [σ Zᵀ Bᵀ, I - σ Rᵀ Z]]`.
@@ -22,13 +26,64 @@ pub(super) struct SmallMatrix<'a> {
     pub springs: &'a [(f64, Vec<f64>)],
 }
 
-/// Work space of a task.
-struct Scratch<T> {
-    /// `W Bᵀ e` at the active dofs of the parts met.
-    product: Vec<T>,
-    /// The parts met.
-    met: Vec<usize>,
-    local: Vec<T>,
+/// Some columns of `Bᵀ`, and what the compliance makes of them.
+struct Block<'a> {
+    /// Row `q` of a point each.
+    columns: &'a [(&'a Rows, usize)],
+}
+
+impl Block<'_> {
+    /// `W Bᵀ` at all active dofs, by dof. Zero columns fill it up.
+    fn compliance_product<T: Entry>(&self, tangent: &Tangent) -> Vec<[T; COLUMNS]> {
+        let Tangent {
+            condensation,
+            active,
+            ..
+        } = tangent;
+        let mut out = vec![[T::of(0.0); COLUMNS]; active.len()];
+        let entries = self.entries::<T>();
+        let mut wide = Vec::new();
+        for part in 0..condensation.parts.len() {
+            let (start, end) = (active.starts[part], active.starts[part + 1]);
+            let own = entries.range(start..end);
+            let coefficients: Vec<[T; COLUMNS]> = own.clone().map(|(_, b)| *b).collect();
+            if coefficients.is_empty() {
+                continue;
+            }
+            let w = active.compliance(condensation, part);
+            wide.clear();
+            own.for_each(|(at, _)| wide.extend_from_slice(T::column(w, at - start)));
+            matmul(
+                MatMut::from_row_major_slice_mut(
+                    out[start..end].as_flattened_mut(),
+                    end - start,
+                    COLUMNS,
+                ),
+                Accum::Replace,
+                MatRef::from_column_major_slice(&wide, end - start, coefficients.len()),
+                MatRef::from_row_major_slice(
+                    coefficients.as_flattened(),
+                    coefficients.len(),
+                    COLUMNS,
+                ),
+                T::of(1.0),
+                Par::Seq,
+            );
+        }
+        out
+    }
+
+    /// Entries of the columns by active dof.
+    fn entries<T: Entry>(&self) -> BTreeMap<usize, [T; COLUMNS]> {
+        let mut entries = BTreeMap::new();
+        for (k, &(rows, q)) in self.columns.iter().enumerate() {
+            for (at, b) in rows.gradient(q).filter(|(_, b)| *b != 0.0) {
+                let row = entries.entry(at).or_insert([T::of(0.0); COLUMNS]);
+                row[k] += T::of(b);
+            }
+        }
+        entries
+    }
 }
 
 impl SmallMatrix<'_> {
@@ -41,22 +96,12 @@ impl SmallMatrix<'_> {
             .iter()
             .flat_map(|rows| (0..rows.count()).map(move |q| (rows, q)))
             .collect();
-        let springs = self.springs.len();
         let mut matrix = Vec::with_capacity(size * size);
         matrix.resize(size * self.count, T::of(0.0));
         matrix
             .par_chunks_mut(COLUMNS * size.max(1))
             .zip(columns.par_chunks(COLUMNS))
-            .for_each(|(out, columns)| {
-                let mut scratch = Scratch {
-                    product: vec![T::of(0.0); self.tangent.active.len()],
-                    met: Vec::new(),
-                    local: Vec::new(),
-                };
-                for (out, &(rows, q)) in out.chunks_exact_mut(size.max(1)).zip(columns) {
-                    self.column(rows, q, &mut scratch, out.split_at_mut(size - springs));
-                }
-            });
+            .for_each(|(out, columns)| self.columns(&Block { columns }, out));
         let mut amplification = 0.0_f64;
         for k in 0..self.count {
             let diagonal = &mut matrix[k * size + k];
@@ -67,68 +112,30 @@ impl SmallMatrix<'_> {
         (matrix, amplification)
     }
 
-    /// The column of row `q` of a point: `C W Bᵀ e` and `σ Zᵀ Bᵀ e`.
-    fn column<T: Entry>(
-        &self,
-        rows: &Rows,
-        q: usize,
-        scratch: &mut Scratch<T>,
-        (out, of_springs): (&mut [T], &mut [T]),
-    ) {
-        self.compliance_product(rows, q, scratch);
-        let Scratch {
-            product,
-            met,
-            local,
-        } = scratch;
-        let active = self.tangent.active;
-        let in_part = |i: usize| {
-            met.iter()
-                .any(|&part| (active.starts[part]..active.starts[part + 1]).contains(&i))
-        };
-        let all = met.len() == self.tangent.condensation.parts.len();
-        let mut out = out.iter_mut();
-        for other in self.rows {
-            local.clear();
-            local.resize(other.at.len(), T::of(0.0));
-            for (l, &at) in local.iter_mut().zip(&other.at) {
-                if at != NONE && (all || in_part(at as usize)) {
-                    *l = product[at as usize];
+    /// Columns of the matrix: `C W Bᵀ` and `σ Zᵀ Bᵀ`.
+    fn columns<T: Entry>(&self, block: &Block, out: &mut [T]) {
+        let product = block.compliance_product::<T>(self.tangent);
+        let size = self.count + self.springs.len();
+        let changes = self.rows.iter().flat_map(|rows| {
+            let of_point = rows.changes();
+            of_point.map(|changes| (&rows.at, changes))
+        });
+        for (row, (at, changes)) in changes.enumerate() {
+            let mut sums = [T::of(0.0); COLUMNS];
+            for (at, c) in at_active(at, changes) {
+                let c = T::of(c);
+                for (sum, p) in sums.iter_mut().zip(&product[at]) {
+                    *sum += c * *p;
                 }
             }
-            for (changes, out) in other.changes().zip(&mut out) {
-                for (c, l) in changes.iter().zip(&*local) {
-                    *out += T::of(*c) * *l;
-                }
+            for (column, sum) in out.chunks_exact_mut(size).zip(sums) {
+                column[row] = sum;
             }
         }
-        for ((sigma, z), out) in self.springs.iter().zip(of_springs) {
-            let mut sum = 0.0;
-            for (at, b) in rows.gradient(q) {
-                sum += b * z[at];
-            }
-            *out = T::of(sigma * sum);
-        }
-    }
-
-    /// `W Bᵀ e` for row `q` of a point, in the parts that it touches.
-    fn compliance_product<T: Entry>(&self, rows: &Rows, q: usize, scratch: &mut Scratch<T>) {
-        let Tangent {
-            condensation,
-            active,
-            ..
-        } = self.tangent;
-        scratch.met.clear();
-        for (at, b) in rows.gradient(q).filter(|(_, b)| *b != 0.0) {
-            let part = active.part_of(at);
-            let start = active.starts[part];
-            let column = T::column(active.compliance(condensation, part), at - start);
-            let target = &mut scratch.product[start..start + column.len()];
-            if scratch.met.contains(&part) {
-                T::add_scaled(target, T::of(b), column);
-            } else {
-                scratch.met.push(part);
-                T::set_scaled(target, T::of(b), column);
+        for (column, &(rows, q)) in out.chunks_exact_mut(size).zip(block.columns) {
+            for (out, (sigma, z)) in column[self.count..].iter_mut().zip(self.springs) {
+                let sum: f64 = rows.gradient(q).map(|(at, b)| b * z[at]).sum();
+                *out = T::of(sigma * sum);
             }
         }
     }

@@ -25,6 +25,19 @@ pub(super) enum Precision {
     Double,
 }
 
+/// Error of a compliance product in single precision relative to the product: `6·10⁻⁸` for each number and sums of thousands of them.
+const SINGLE_ERROR: f64 = 3e-7;
+
+impl Precision {
+    /// The coarsest numbers in which a product is as good as asked for, if they are not to be coarser than `self`.
+    pub fn within(self, error: f64) -> Precision {
+        match error >= SINGLE_ERROR {
+            true => self,
+            false => Precision::Double,
+        }
+    }
+}
+
 /// Part of a load that may be elsewhere than at the active dofs without its counting: rounding.
 const ELSEWHERE: f64 = 1e-9;
 
