@@ -163,6 +163,7 @@ fn interface(
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
+        relief: Vec::new(),
         history: History::default(),
         attempt: Attempt::default(),
         directives: Directives::default(),

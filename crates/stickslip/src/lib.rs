@@ -17,6 +17,8 @@ pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, s
 pub mod io;
 pub mod time;
 
+pub mod roughness;
+
 pub mod model;
 
 mod solve;

@@ -69,7 +69,13 @@ impl Document {
             MeshSource::Generate(_) => None,
         });
         let results = problem.initial.values().filter_map(|i| i.result.as_ref());
+        let roughness = problem
+            .interface
+            .values()
+            .filter_map(|i| i.roughness.as_ref());
+        let maps = roughness.filter_map(|r| r.kind.as_dyn().file());
         let named = meshes.chain(results).map(|file| folder.join(file));
+        let named = named.chain(maps.map(|file| folder.join(file)));
         self.file.iter().cloned().chain(named).collect()
     }
 

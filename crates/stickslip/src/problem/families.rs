@@ -16,6 +16,7 @@ use crate::material::Material;
 use crate::mesh::generators::Generator;
 use crate::newton::condensed::engine::EngineModel;
 use crate::registry::Family;
+use crate::roughness::RoughnessKind;
 use crate::time::scheme::SchemeModel;
 
 /// A model family as the problem file sees it.
@@ -67,6 +68,7 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<DampingModel>("DampingModel", "[interface.NAME] damping.KIND"),
         listing::<FrictionModel>("FrictionModel", "[interface.NAME] friction.KIND"),
         listing::<SlipModel>("SlipModel", "[interface.NAME] slip.KIND"),
+        listing::<RoughnessKind>("Roughness", "[interface.NAME] roughness.KIND"),
         listing::<EnforcementModel>("EnforcementModel", "[interface.NAME] enforcement.KIND"),
         listing::<DiscretisationModel>(
             "DiscretisationModel",

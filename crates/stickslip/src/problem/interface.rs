@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::roughness::Roughness;
 use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::interface::{Start, Within};
@@ -39,6 +40,9 @@ pub struct Interface {
     /// followed if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wear: Option<Wear>,
+    /// Heights of the secondary surface above its mesh. Default: none, it is smooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roughness: Option<Roughness>,
     /// How contact and stick are enforced.
     #[serde(default)]
     pub enforcement: EnforcementModel,

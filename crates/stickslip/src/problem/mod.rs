@@ -36,6 +36,7 @@ mod probe;
 mod prose;
 mod quality;
 mod reference;
+mod roughness;
 mod schema;
 mod set;
 mod solver;
@@ -71,6 +72,7 @@ pub use pretension::{FacetSection, Pretension, Section, Tension};
 pub use probe::Probe;
 pub use quality::Quality;
 pub use reference::Reference;
+pub use roughness::Roughness;
 #[cfg(feature = "schema")]
 pub use schema::derived as derived_schema;
 pub use schema::schema;

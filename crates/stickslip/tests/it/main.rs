@@ -33,6 +33,7 @@ mod references;
 mod restart;
 mod restep;
 mod rigid;
+mod roughness;
 mod schema;
 mod starts;
 mod stops;

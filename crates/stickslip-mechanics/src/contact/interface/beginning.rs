@@ -25,9 +25,11 @@ impl Interface {
             Start::Offset => self.initial.within.unwrap_or(CLOSE),
             _ => Within::Distance(0.0),
         };
-        let points = gaps.iter().zip(&self.points);
+        let points = gaps.iter().zip(&self.points).enumerate();
         self.history.start.offset = points
-            .map(|(&gap, point)| {
+            .map(|(i, (&gap, point))| {
+                // It is the gap of the meshes that counts as another one: heights stay.
+                let gap = gap + self.relief.get(i).copied().unwrap_or(0.0);
                 if gap <= largest.of(point.size) {
                     gap - self.initial.gap
                 } else {

@@ -67,6 +67,9 @@ pub struct Interface {
     pub edge_tolerance: f64,
     /// What becomes of the gaps of the meshes.
     pub initial: Initial,
+    /// Height of the real surface above the mesh at each point, towards the primary `[m]`; empty where they are the same. To first order, as of waves that are
+    /// long beside their heights.
+    pub relief: Vec<f64>,
     /// What accepted increments have left; all that a checkpoint has to hold.
     pub history: History,
     /// The attempt at the next one.
@@ -106,7 +109,8 @@ impl Interface {
 
     /// What is subtracted from the gap of a point at time `t` `[m]`.
     pub(super) fn offset(&self, i: usize, t: f64) -> f64 {
-        self.initial.offset(&self.history.start, i, t)
+        let relief = self.relief.get(i).copied().unwrap_or(0.0);
+        relief + self.initial.offset(&self.history.start, i, t)
     }
 
     /// Makes room for all points, and begins an attempt if there is none.

@@ -101,6 +101,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
+        relief: Vec::new(),
         history: History::default(),
         attempt: Attempt::default(),
         directives: Directives::default(),

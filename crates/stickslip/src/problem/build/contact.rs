@@ -131,6 +131,7 @@ impl Make<'_> {
         let settled = table.roles == Roles::AsNamed
             || table.tied
             || table.initial == Start::Snap
+            || table.roughness.is_some()
             || table.initial_set.is_some();
         if settled {
             return false;
@@ -292,6 +293,7 @@ impl Make<'_> {
             schedule: self.schedule.clone(),
             edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.1)?,
+            relief: Vec::new(),
             history: History::default(),
             attempt: Attempt::default(),
             directives: Directives::default(),

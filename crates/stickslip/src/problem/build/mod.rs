@@ -11,6 +11,7 @@ mod meshes;
 mod mirrors;
 mod pretensions;
 mod references;
+mod relief;
 mod rigid;
 mod schedules;
 mod sets;
@@ -196,12 +197,15 @@ impl Problem {
         )?);
         let couplings = Couplings::new(couplings, space.dim());
         let held = mirrors::Held::new(&links, dofs, &supports, space);
-        let interfaces = contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
+        let mut interfaces =
+            contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
+        let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;
         let mut notes = moves.notes;
         notes.extend(interfaces.iter().filter_map(|i| self.exchange_note(i)));
+        notes.extend(heights);
         let model = Model {
             title: self.title.clone().unwrap_or_default(),
             space,

@@ -49,6 +49,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
     for (name, interface) in &problem.interface {
         laws(findings, &["interface", name], interface);
+        roughness(problem, findings, name, interface);
         velocity(problem, findings, name, interface);
     }
     changes(problem, findings);
@@ -299,6 +300,29 @@ fn changes(problem: &Problem, findings: &mut Findings) {
     }
 }
 
+/// What is wrong with the heights of a rough surface.
+fn roughness(problem: &Problem, findings: &mut Findings, name: &str, interface: &Interface) {
+    let Some(roughness) = &interface.roughness else {
+        return;
+    };
+    let key = |last| ["interface", name, "roughness", last];
+    for (last, vector) in [("origin", &roughness.origin), ("along", &roughness.along)] {
+        if let Some(vector) = vector {
+            findings.vector(problem, &key(last), vector);
+        }
+    }
+    let kind = &roughness.kind;
+    let dim = problem.model.space.dim();
+    findings.faults(&key(kind.kind()), kind.as_dyn().faults(dim));
+    if interface.discretisation().as_dyn().two_sided() {
+        findings.add(
+            &["interface", name, "roughness"],
+            "heights are those of one surface, and here each is the secondary of half of the contact",
+            "choose another discretisation",
+        );
+    }
+}
+
 /// What is wrong with how near points have to be at the start.
 fn initial(findings: &mut Findings, table: &[&str], interface: &Interface) {
     let mut add = |key: &str, message: &str, help: &str| {
@@ -429,6 +453,15 @@ fn tied(findings: &mut Findings, table: &[&str], interface: &Interface) {
         primary_velocity_table: None,
         ..interface.clone()
     };
+    if interface.tied && interface.roughness.is_some() {
+        let message =
+            "surfaces that are tied keep the distances that they have: heights have no meaning";
+        findings.add(
+            &[table, &["roughness"]].concat(),
+            message,
+            "remove it, or `tied`",
+        );
+    }
     if interface.tied && plain != *interface {
         findings.add(
             &[table, &["tied"]].concat(),

@@ -45,6 +45,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
         "stickslip",
         &[
             &["io", "time"],
+            &["roughness"],
             &["model"],
             &["solve"],
             &["integrate"],
