@@ -11,6 +11,7 @@ use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
+use crate::contact::law::wear::WearModel;
 use crate::contact::obstacle::ObstacleShape;
 use crate::material::Material;
 use crate::mesh::generators::Generator;
@@ -69,6 +70,7 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<FrictionModel>("FrictionModel", "[interface.NAME] friction.KIND"),
         listing::<SlipModel>("SlipModel", "[interface.NAME] slip.KIND"),
         listing::<RoughnessKind>("Roughness", "[interface.NAME] roughness.KIND"),
+        listing::<WearModel>("WearModel", "[interface.NAME] wear.KIND"),
         listing::<EnforcementModel>("EnforcementModel", "[interface.NAME] enforcement.KIND"),
         listing::<DiscretisationModel>(
             "DiscretisationModel",

@@ -5,11 +5,11 @@ use crate::contact::discretisation::{DiscretisationModel, NodeToFacet};
 use crate::contact::enforcement::EnforcementModel;
 use crate::contact::interface::{Start, Within};
 use crate::contact::kinematics::KinematicsModel;
-use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
+use crate::contact::law::wear::{Feedback, WearModel};
 
 /// `[interface.NAME]`: two surfaces that may touch, and their laws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,10 +36,13 @@ pub struct Interface {
     /// How stick and slip change hands.
     #[serde(default)]
     pub slip: SlipModel,
-    /// What sliding wears off the surfaces: the field CWEAR, and depth and volume in the history. The geometry stays as it is. Not
-    /// followed if not given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wear: Option<Wear>,
+    /// What sliding wears off the surfaces: the field CWEAR, and depth and volume in the history. What is worn off opens the gap, unless `wear-feedback`
+    /// says otherwise.
+    #[serde(default, skip_serializing_if = "WearModel::is_none")]
+    pub wear: WearModel,
+    /// Whether contact feels what is worn off.
+    #[serde(default, skip_serializing_if = "implicit")]
+    pub wear_feedback: Feedback,
     /// Heights of the secondary surface above its mesh. Default: none, it is smooth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roughness: Option<Roughness>,
@@ -92,6 +95,11 @@ pub struct Interface {
 
 fn by_mesh(roles: &Roles) -> bool {
     *roles == Roles::ByMesh
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // what serde asks for
+fn implicit(feedback: &Feedback) -> bool {
+    *feedback == Feedback::Implicit
 }
 
 fn as_meshed(start: &Start) -> bool {

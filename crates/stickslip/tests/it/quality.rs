@@ -302,7 +302,7 @@ fn contact_that_a_coarse_secondary_misses_is_found_or_said() {
 
 #[test]
 fn the_finer_side_is_secondary_whichever_is_named_so() {
-    let more = ", wear = { coefficient = 1e-12, primary-coefficient = 3e-12 }, primary-velocity = [0.01, 0]";
+    let more = ", wear.archard = { coefficient = 1e-12, primary-coefficient = 3e-12 }, wear-feedback = \"none\", primary-velocity = [0.01, 0]";
     for cells in [5, 6, 8, 12, 20] {
         let named = disc(cells, "disc.arc", "block.top", more);
         // A belt the other way is the same belt seen from the other side.

@@ -65,7 +65,8 @@ secondary = "upper.bottom"
 primary = "lower.top"
 friction.coulomb = {{ mu = {MU} }}
 enforcement.augmented-lagrangian = {{ error = 1e-9 }}
-wear = {{ coefficient = 1e-6, primary-coefficient = 3e-6 }}
+wear.archard = {{ coefficient = 1e-6, primary-coefficient = 3e-6 }}
+wear-feedback = "none"
 primary-velocity-table = [{belt}]
 "#
     );
@@ -148,7 +149,8 @@ support.still = { set = "slider", x = 0.0 }
 secondary = "slider.bottom"
 primary = "rail.top"
 friction.coulomb = { mu = 0.25 }
-wear = { coefficient = 1e-6, primary-coefficient = 1e-6 }
+wear.archard = { coefficient = 1e-6, primary-coefficient = 1e-6 }
+wear-feedback = "none"
 "#;
     let mut simulation = support::build(&support::problem(text)).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
@@ -179,4 +181,195 @@ wear = { coefficient = 1e-6, primary-coefficient = 1e-6 }
     assert!(pressed.values[at(1.0)].is_nan());
     let secondary = simulation.summary.last["joint.CWEARVOL"] / 2.0;
     assert!((secondary / (full * 2.0) - 1.0).abs() < 1e-3, "{secondary}");
+}
+
+/// Length and height of the layer whose surface is wavy, its modulus and Poisson's ratio.
+const LENGTH: f64 = 1.0;
+const HEIGHT: f64 = 1.0;
+const POISSON: f64 = 0.3;
+
+/// A layer on a rigid ground, under a rigid flat that is pressed on it in the first step and slides by `path` in the second, in `increments`, following
+/// what is worn off so that the mean pressure stays. `bed`: stiffness of the contact. The surface is moved by `wave` of each place: as a gap alone, so that
+/// all is linear.
+fn wavy(
+    cells: usize,
+    (laws, k): (&str, f64),
+    (mean, path, increments): (f64, f64, usize),
+    bed: f64,
+    wave: impl Fn(f64) -> f64,
+) -> Simulation {
+    let soft = (1.0 + POISSON) * (1.0 - 2.0 * POISSON) / (1.0 - POISSON) * HEIGHT;
+    let down = (soft + 1.0 / bed) * mean;
+    let further = down + k * mean * path;
+    let text = format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.layer = {{ generate.rectangle = {{ to = [{LENGTH}, {HEIGHT}], cells = [{cells}, {cells}] }}, material = "soft" }}
+material.soft.isotropic = {{ young = 1.0, poisson = {POISSON} }}
+support.ground = {{ set = "layer.bottom", x = 0.0, y = 0.0 }}
+support.left = {{ set = "layer.left", x = 0.0 }}
+support.right = {{ set = "layer.right", x = 0.0 }}
+obstacle.flat = {{ plane = {{ point = [0.0, {HEIGHT}], normal = [0.0, -1.0] }}, motion.translation = [[0, 0, 0], [1, 0, -{down}], [2, {path}, -{further}]] }}
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "slide", increments = {{ fixed = {increments} }} }}]
+[interface.joint]
+secondary = "layer.top"
+primary = "flat"
+wear.archard = {{ coefficient = {k} }}
+{laws}
+"#
+    );
+    let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let interface = &mut simulation.contact.interfaces[0];
+    for x in &mut interface.reference {
+        x[1] += wave(x[0]);
+    }
+    simulation
+}
+
+/// Part of the pressure at the nodes along a wave: the other waves have none in common with it.
+fn part(simulation: &Simulation, wave: impl Fn(f64) -> f64) -> f64 {
+    let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let column = |name: &str| {
+        let k = names.iter().position(|n| n == name);
+        &columns[k.expect("a column")]
+    };
+    let mut sums = [0.0; 2];
+    for (x, force) in column("x").iter().zip(column("CNORMF")) {
+        sums[0] += force * wave(*x);
+    }
+    let (x, pressure) = (column("x"), column("CPRESS"));
+    for ((x, p), force) in x.iter().zip(pressure).zip(column("CNORMF")) {
+        sums[1] += force / p * wave(*x).powi(2);
+    }
+    sums[0] / sums[1]
+}
+
+/// The part at the end of each increment from the time at which it is pressed.
+fn parts(mut simulation: Simulation, wave: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut out = Vec::new();
+    let mut last = 0;
+    loop {
+        let more = simulation.advance(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        if simulation.summary.increments > last {
+            last = simulation.summary.increments;
+            out.push(part(&simulation, &wave));
+        }
+        if !more {
+            return out;
+        }
+    }
+}
+
+const EXACT: &str = "enforcement.augmented-lagrangian = { error = 1e-12 }";
+
+/// Amplitude of the waves: so low that all of the surface stays in contact.
+const LOW: f64 = 1e-4;
+
+fn cosine(x: f64) -> f64 {
+    (std::f64::consts::TAU * x).cos()
+}
+
+/// W1: compliance of a bonded layer, one unit high, for a cosine of that length, without friction, in plane strain.
+fn compliance() -> f64 {
+    let q = std::f64::consts::TAU;
+    let (nu, t) = (POISSON, q * HEIGHT);
+    let (s, c) = ((2.0 * t).sinh(), (2.0 * t).cosh());
+    let num = (3.0 - 4.0 * nu) * s - 2.0 * t;
+    let den = (3.0 - 4.0 * nu) * c + 2.0 * t * t + 5.0 - 12.0 * nu + 8.0 * nu * nu;
+    2.0 * (1.0 - nu * nu) / q * num / den
+}
+
+#[test]
+fn a_wave_is_worn_off_as_it_is_soft() {
+    let exact = compliance();
+    assert!((exact - 0.289_556_925_3).abs() < 1e-10, "{exact}");
+    let (k, path) = (0.2, 1.5);
+    let mut off = Vec::new();
+    for (cells, increments) in [(8, 4), (16, 4), (32, 4), (32, 8)] {
+        let laws = (EXACT, k);
+        let simulation = wavy(cells, laws, (0.01, path, increments), f64::INFINITY, |x| LOW * cosine(x));
+        let found = parts(simulation, cosine);
+        // To the last digits what the backward Euler rule makes of the compliance of the mesh.
+        let soft = LOW / found[0];
+        let factor = 1.0 / (1.0 + k * path / increments as f64 / soft);
+        for (n, p) in found.iter().enumerate() {
+            let expected = found[0] * factor.powi(n as i32);
+            assert!((p / expected - 1.0).abs() < 1e-7, "{cells} {n}: {p} {expected}");
+        }
+        let last = found[increments];
+        let decay = LOW / soft * (-k * path / soft).exp();
+        off.push((soft / exact - 1.0, last / decay - 1.0));
+    }
+    // Second order in the cells, first order in the increments.
+    for pair in off.windows(2).take(2) {
+        let ratio = pair[0].0 / pair[1].0;
+        assert!((3.4..4.6).contains(&ratio), "{off:?}");
+    }
+    assert!(off[2].0.abs() < 5e-3, "{off:?}");
+    let ratio = off[2].1 / off[3].1;
+    assert!((1.7..2.4).contains(&ratio), "{off:?}");
+}
+
+#[test]
+fn explicit_wear_is_stable_up_to_its_limit_and_implicit_wear_beyond() {
+    const CELLS: usize = 16;
+    let saw = |x: f64| match (x * CELLS as f64).round() as usize % 2 {
+        0 => 1.0,
+        _ => -1.0,
+    };
+    let k = 0.2;
+    let run = |feedback: &str, path: f64, increments: usize| {
+        let laws = format!("{EXACT}\nwear-feedback = \"{feedback}\"");
+        let wave = |x: f64| 1e-7 * saw(x);
+        let simulation = wavy(CELLS, (&laws, k), (0.01, path, increments), f64::INFINITY, wave);
+        parts(simulation, saw)
+    };
+    let first = run("explicit", 1e-9, 1)[0];
+    // The limit of this mesh, from its own compliance of the shortest wave.
+    let limit = 2.0 * (1e-7 / first) / k;
+    for (part, increments, decays) in [(0.95, 40, true), (1.05, 40, false)] {
+        let found = run("explicit", part * limit * increments as f64, increments);
+        let last = (found[increments] / found[0]).abs();
+        let expected = (1.0 - 2.0 * part).abs().powi(increments as i32);
+        assert!((last / expected - 1.0).abs() < 1e-3, "{part}: {last} {expected}");
+        assert_eq!(last < 1.0, decays);
+    }
+    let found = run("implicit", 100.0 * limit * 5.0, 5);
+    assert!((found[5] / found[0]).abs() < 1e-10, "{found:?}");
+}
+
+#[test]
+fn a_punch_on_a_bed_of_springs_wears_to_a_uniform_pressure() {
+    // W3, in units of its own: a bed so soft that the layer is a rigid punch on it, under a pressure from 1.5 to 0.5 of the mean.
+    let (bed, mean, path) = (1e-6, 1e-9, 1.0);
+    let k = 1.0 / (bed * path);
+    let tilt = |x: f64| 0.5 - x;
+    let mut off = Vec::new();
+    for (more, increments) in [
+        ("", 10),
+        ("", 20),
+        ("enforcement.penalty = {}", 10),
+        ("normal.linear = { c = 1e-6 }\nenforcement.penalty = { stiffness = 1e-6 }", 10),
+    ] {
+        // Springs of a penalty in series with those of the law are half as stiff.
+        let two = more.contains("stiffness");
+        let laws = match two {
+            true => more.into(),
+            false => format!("normal.linear = {{ c = {bed} }}\n{more}"),
+        };
+        let soft = if two { bed / 2.0 } else { bed };
+        let wave = |x: f64| mean / soft * tilt(x);
+        let simulation = wavy(4, (&laws, k), (mean, path, increments), soft, wave);
+        let found = parts(simulation, tilt);
+        assert!((found[0] / mean - 1.0).abs() < 1e-5, "{found:?}");
+        let factor = 1.0 / (1.0 + soft * k * path / increments as f64);
+        for (n, p) in found.iter().enumerate() {
+            let expected = mean * factor.powi(n as i32);
+            assert!((p / expected - 1.0).abs() < 1e-5, "{laws}: {p} {expected}");
+        }
+        off.push(found[increments] / mean - (-1.0_f64).exp());
+    }
+    // p(0) = 1.18393972 of the mean: once the error, of first order, is taken out.
+    let extrapolated = 1.0 + 0.5 * ((-1.0_f64).exp() + 2.0 * off[1] - off[0]);
+    assert!((extrapolated - 1.183_939_72).abs() < 2e-4, "{extrapolated}");
 }

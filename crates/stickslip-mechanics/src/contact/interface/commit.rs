@@ -20,8 +20,8 @@ struct Passed {
     uncertain: f64,
     /// See [`Energy::excess`](crate::system::Energy::excess) `[J/m²]`.
     excess: f64,
-    /// Pressure times path of sliding `[Pa m]`.
-    rubbed: f64,
+    /// Depth worn off the side with the points and the other `[m]`.
+    worn: [f64; 2],
     /// Work on the bodies by the trapezoidal rule, but for damping `[J/m²]`.
     work: f64,
 }
@@ -64,19 +64,22 @@ impl Interface {
             true => self.gaps_before(stage),
             false => Vec::new(),
         };
-        let mut traces = vec![[0.0; 2]; self.history.points.len()];
+        let mut traces = vec![0.0; self.history.points.len()];
+        let mut volumes = traces.clone();
         self.history.creep = 0.0;
         let (mut dissipated, mut work) = (0.0, 0.0);
         for (i, trace) in traces.iter_mut().enumerate() {
             let passed = self.take_over(i, gaps.get(i).copied(), &increment);
             let area = passed.history.area;
-            *trace = [passed.dissipated, passed.rubbed];
+            *trace = passed.dissipated;
+            volumes[i] = passed.worn[1] * area;
             dissipated += passed.dissipated * area;
             work += passed.work * area;
         }
         self.history.start.overlap.clear();
         self.history.energy.dissipated += dissipated;
         self.leave_traces(&traces);
+        self.hollow_out(&volumes);
         let stored = self.stored_energy();
         let before = std::mem::replace(&mut self.history.energy.stored, stored);
         if increment.resolved {
@@ -107,7 +110,9 @@ impl Interface {
             *h = PointHistory {
                 slip: h.slip,
                 dissipated: h.dissipated,
-                rubbed: h.rubbed,
+                worn: h.worn,
+                hollow: h.hollow,
+                path: h.path,
                 ..PointHistory::default()
             };
         }
@@ -117,7 +122,7 @@ impl Interface {
     /// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
     fn take_over(&mut self, i: usize, gap: Option<f64>, increment: &Increment) -> Passed {
         let (e, h) = (&self.cache.last.points[i], &self.history.points[i]);
-        let passed = self.pass(h, e, gap.unwrap_or(h.gap), increment.resolved);
+        let passed = self.pass((i, h), e, gap.unwrap_or(h.gap), increment.resolved);
         let (area, r) = (e.area, &e.response);
         let shear = passed.history.shear;
         let sheared = match self.directives.impulses {
@@ -126,7 +131,9 @@ impl Interface {
         };
         let mut belt_work = dot(sheared, increment.belt) * area;
         // Overlap that is resolved drives the surfaces apart.
-        let [before, now] = increment.times.map(|t| self.offset(i, t));
+        let [before, now] = increment.times.map(|t| self.offset_at_start(i, t));
+        // So does what is worn off, the other way: the bodies come together as it goes.
+        let [before, now] = [before - h.hollow, now - passed.history.hollow];
         belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
         belt_work += self.pressed_out(i, e) * area;
         let mut damped = 0.0;
@@ -147,7 +154,9 @@ impl Interface {
         let history = &mut self.history;
         history.energy.uncertain += passed.uncertain * area;
         history.energy.excess += passed.excess * area;
-        history.rubbed += passed.rubbed * area;
+        for (total, depth) in history.worn.iter_mut().zip(passed.worn) {
+            *total += depth * area;
+        }
         history.energy.work += belt_work;
         history.energy.damped += damped;
         history.creep = history.creep.max(creep);
@@ -175,7 +184,13 @@ impl Interface {
     }
 
     /// A point over an increment. `gap`: at its start.
-    fn pass(&self, h: &PointHistory, e: &Evaluation, gap: f64, resolved: bool) -> Passed {
+    fn pass(
+        &self,
+        (i, h): (usize, &PointHistory),
+        e: &Evaluation,
+        gap: f64,
+        resolved: bool,
+    ) -> Passed {
         let r = &e.response;
         let frictional = self.laws.friction_law().frictional();
         let shear = e.along(&e.frames.now);
@@ -189,7 +204,11 @@ impl Interface {
             false => 0.0,
         };
         let [dissipated, uncertain, excess] = self.dissipated(h, e, part, resolved);
-        let rubbed = 0.5 * (h.pressure + r.traction[0]) * e.path(frictional);
+        let path = e.path(frictional);
+        let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
+        let worn = self.wears_off(h, e, (pressed, dissipated));
+        let whole = self.points[i].area * self.share;
+        let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
         // Slip so far goes along with the surface, as tractions do.
         let dim = self.dofs.dim;
         let so_far = e.forward(h.slip, h.normal, dim);
@@ -211,7 +230,7 @@ impl Interface {
             dissipated,
             uncertain,
             excess,
-            rubbed: rubbed.max(0.0),
+            worn,
             work: 0.5 * (pressures * opened + dot(both, e.moved)),
             history: PointHistory {
                 pressure: r.traction[0],
@@ -225,7 +244,9 @@ impl Interface {
                 area: e.area,
                 damping: r.damping,
                 dissipated: h.dissipated + dissipated,
-                rubbed: h.rubbed + rubbed.max(0.0),
+                worn: h.worn + worn[0] * covered,
+                hollow: e.hollow,
+                path: h.path + path,
                 limit,
                 sheared: self.sheared(e, shear),
                 stiffness: [e.normal_stiffness, e.tangential_stiffness],

@@ -5,6 +5,7 @@ use super::cache::Cache;
 use super::directives::Directives;
 use super::history::History;
 use super::initial::Initial;
+use super::worn::Hollows;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::mortar::Mortar;
 use crate::contact::obstacle::{Motion, ObstacleShape};
@@ -50,6 +51,8 @@ pub struct Interface {
     pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,
+    /// How what is worn off the primary is divided among its nodes; empty where nothing wears.
+    pub hollows: Hollows,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
     pub share: f64,
     /// The points are those of the side that the problem calls primary, because its cells are smaller. What is reported of forces, slip and normals
@@ -107,8 +110,13 @@ impl Interface {
         }
     }
 
-    /// What is subtracted from the gap of a point at time `t` `[m]`.
+    /// What is subtracted from the gap of a point at time `t` `[m]`, with what was worn off at the last accepted state.
     pub(super) fn offset(&self, i: usize, t: f64) -> f64 {
+        self.offset_at_start(i, t) - self.history.points.get(i).map_or(0.0, |h| h.hollow)
+    }
+
+    /// The same without what is worn off.
+    pub(super) fn offset_at_start(&self, i: usize, t: f64) -> f64 {
         let relief = self.relief.get(i).copied().unwrap_or(0.0);
         relief + self.initial.offset(&self.history.start, i, t)
     }

@@ -13,6 +13,8 @@ pub struct Directives {
     pub(super) inner: Vec<bool>,
     /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
     pub(super) all_stick: bool,
+    /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
+    pub(super) skipped: f64,
 }
 
 crate::keep!(Directives {
@@ -20,5 +22,6 @@ crate::keep!(Directives {
     impulses,
     excluded,
     inner,
-    all_stick
+    all_stick,
+    skipped
 });

@@ -103,6 +103,8 @@ pub(super) struct Evaluation {
     /// Force that rounding may leave.
     pub rounding: f64,
     pub gap: f64,
+    /// By how much what is worn off opens it, at the end of the increment.
+    pub hollow: f64,
     pub frames: Frames,
     /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,

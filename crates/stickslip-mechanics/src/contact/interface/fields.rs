@@ -85,31 +85,27 @@ impl Interface {
             for (node, w) in self.own_weights(i) {
                 let share = area * w.max(0.0);
                 sums[node][0] += share * h.dissipated;
-                sums[node][1] += share * h.rubbed;
+                sums[node][1] += share * h.worn;
                 sums[node][2] += share;
             }
         }
-        // energy and depth: factors of the two accumulated numbers on the secondary and on the primary
-        let friction = self.laws.friction_law().frictional();
-        let wear = self.laws.wear;
-        let wear = wear.map(|w| [w.coefficient, w.primary_coefficient]);
         let kinds = [
-            ("CDISS", 0, friction.then_some([1.0; 2])),
-            ("CWEAR", 1, wear),
+            ("CDISS", 0, self.laws.friction_law().frictional()),
+            ("CWEAR", 1, self.laws.wear.as_dyn().active()),
         ];
-        for (name, k, factors) in kinds {
-            let Some([own, other]) = factors else {
+        for (name, k, followed) in kinds {
+            if !followed {
                 continue;
-            };
+            }
             let field = out.shared(name, Location::Point, 1, points, f64::NAN);
             for (sum, &node) in sums.iter().zip(&self.nodes) {
                 if sum[2] > 0.0 {
-                    field.values[node] = own * sum[k] / sum[2];
+                    field.values[node] = sum[k] / sum[2];
                 }
             }
             for local in self.primary_nodes() {
                 let trace = self.history.traces.get(local).map_or(0.0, |t| t[k]);
-                field.values[self.nodes[local]] = other * trace;
+                field.values[self.nodes[local]] = trace;
             }
         }
     }

@@ -21,11 +21,11 @@ pub struct History {
     pub(super) rest: Vec<f64>,
     /// Energies, of which all but the stored one add up over increments.
     pub(super) energy: Energy,
-    /// Sum of area times `rubbed` over all points and increments `[N m]`.
-    pub(super) rubbed: f64,
+    /// Volume that the side with the points and the other have lost `[m³]`.
+    pub(super) worn: [f64; 2],
     /// Forces on the nodes `[N]`; empty before there was an accepted state.
     pub(super) nodal: Vec<Vec3>,
-    /// Dissipated energy and `rubbed` per area at the nodes of the primary, by node; empty before anything slid.
+    /// Dissipated energy per area and worn depth at the nodes of the primary, by node; empty before anything slid.
     pub(super) traces: Vec<[f64; 2]>,
     /// Force, and moment about the centre of rotation, with which a moving obstacle pushed.
     pub(super) pushed: [Vec3; 2],
@@ -55,8 +55,12 @@ pub(super) struct PointHistory {
     pub damping: f64,
     /// Energy that friction has dissipated here `[J/m²]`.
     pub dissipated: f64,
-    /// Pressure times path of sliding, accumulated: `∫ p |ds|` `[Pa m]`.
-    pub rubbed: f64,
+    /// Depth worn off the side with the points `[m]`.
+    pub worn: f64,
+    /// By how much that of both sides opened the gap `[m]`.
+    pub hollow: f64,
+    /// Path of sliding, accumulated `[m]`.
+    pub path: f64,
     /// The largest shear traction that could be carried `[Pa]`.
     pub limit: f64,
     /// Elastic energy of the spring that sticks `[J/m²]`.
@@ -162,7 +166,7 @@ crate::keep!(History {
     springs,
     rest,
     energy,
-    rubbed,
+    worn,
     nodal,
     traces,
     pushed,
@@ -181,7 +185,9 @@ crate::keep!(PointHistory {
     area,
     damping,
     dissipated,
-    rubbed,
+    worn,
+    hollow,
+    path,
     limit,
     sheared,
     stiffness

@@ -2,7 +2,7 @@
 
 use super::definition::Interface;
 use super::objective::{accept, all, start, tried};
-use crate::contact::law::Wear;
+use crate::contact::law::wear::{Archard, Feedback, WearModel};
 use crate::math::{Vec3, mat_vec, rotation};
 use crate::system::{Fields, State};
 
@@ -36,10 +36,13 @@ fn said(interface: &Interface, state: &State) -> String {
 fn what_is_reported_does_not_depend_on_what_was_tried_since() {
     for dim in [2, 3] {
         for (what, mut interface) in all(dim) {
-            interface.laws.wear = Some(Wear {
+            interface.laws.wear = WearModel::Archard(Archard {
                 coefficient: 1e-9,
                 primary_coefficient: 1e-9,
+                running_in: 0.0,
+                running_in_path: 0.0,
             });
+            interface.laws.feedback = Feedback::Implicit;
             let drum = interface.primary_nodes;
             let origin = start(&interface);
             let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));

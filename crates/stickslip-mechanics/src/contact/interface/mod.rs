@@ -54,6 +54,7 @@ mod table;
 mod turned;
 mod user_laws;
 mod values;
+mod worn;
 
 #[cfg(test)]
 mod history_tests;
@@ -81,3 +82,4 @@ pub use resolution::Resolution;
 pub use resultant::Resultant;
 pub use sheet::Sheet;
 pub use sides::WearReport;
+pub use worn::Hollows;

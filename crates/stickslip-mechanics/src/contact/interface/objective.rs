@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::definition::{Interface, Primary};
 use super::history::PointHistory;
-use super::{Attempt, Cache, Directives, History, Initial};
+use super::{Attempt, Cache, Directives, History, Hollows, Initial};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
@@ -167,6 +167,7 @@ fn drum(
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
+    let hollows = Hollows::new(&facets, &reference, |_| 1.0);
     Interface {
         name: "shoe".into(),
         dofs: Dofs {
@@ -182,6 +183,7 @@ fn drum(
         neighbours: Vec::new(),
         primary: Primary::Facets(facets),
         skin,
+        hollows,
         share: 1.0,
         exchanged: false,
         laws: Laws {

@@ -9,10 +9,15 @@ use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
-use crate::math::{Vec3, add_scaled, dot, scale};
+use crate::math::{Vec3, add_scaled, dot, norm, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
+
+/// Length of a way along two directions.
+fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
+    norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
+}
 
 impl Interface {
     /// Laws at the stencil of the batch.
@@ -21,7 +26,8 @@ impl Interface {
         if let Some(glued) = self.history.start.glued.get(i) {
             batch.stencil.gap -= glued;
         }
-        batch.stencil.gap -= self.offset(i, scene.t);
+        let hollow = self.hollow(i, &batch.sides[met.sides..]);
+        batch.stencil.gap += hollow - self.offset_at_start(i, scene.t);
         let slots = self.claim(met, batch);
         let stencil = &batch.stencil;
         let belt = stencil.frame.map(|e| dot(e, scene.belt));
@@ -42,6 +48,7 @@ impl Interface {
                 },
             },
             rest: self.rest(i),
+            worn: self.softness(i, length(stencil.frame_before, slid)),
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
             pressed: self.directives.all_stick,
@@ -62,6 +69,7 @@ impl Interface {
             return Evaluation::default();
         }
         let response = self.laws.respond(stencil, &at);
+        let worn = at.worn * response.traction[0];
         Evaluation {
             slots,
             viscosity: response
@@ -69,7 +77,8 @@ impl Interface {
                 .iter()
                 .fold(0.0, |m: f64, d| m.max(-d * at.dt)),
             response,
-            gap: stencil.gap,
+            gap: stencil.gap + worn,
+            hollow: hollow + worn,
             frames: Frames {
                 normal: stencil.normal,
                 now: stencil.frame,

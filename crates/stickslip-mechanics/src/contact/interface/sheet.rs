@@ -53,8 +53,7 @@ impl Interface {
     /// `u`: displacements; `t`: time, at which a rigid obstacle is where its motion has it.
     pub fn sheet(&self, u: &[f64], t: f64) -> Sheet {
         let (corners, faces, cells) = self.corners(u);
-        let worn = self.laws.wear.map_or(0.0, |w| w.coefficient);
-        let shown: Vec<Shown> = corners.iter().map(|c| self.shown(c, worn)).collect();
+        let shown: Vec<Shown> = corners.iter().map(|c| self.shown(c)).collect();
         let mut fields = Fields::default();
         let mut push = |name: &str, components: usize, values: Vec<f64>| {
             fields.all.push(Field {
@@ -78,7 +77,7 @@ impl Interface {
             push(name, 3, shown.iter().flat_map(|s| s.vectors[k]).collect());
         }
         push("CDISS", 1, shown.iter().map(|s| s.dissipated).collect());
-        if self.laws.wear.is_some() {
+        if self.laws.wear.as_dyn().active() {
             push("CWEAR", 1, shown.iter().map(|s| s.worn).collect());
         }
         Sheet {
@@ -163,7 +162,7 @@ impl Interface {
     }
 
     /// The mean of what its points say; a gap is that of those which have something opposite.
-    fn shown(&self, corner: &Corner, wear: f64) -> Shown {
+    fn shown(&self, corner: &Corner) -> Shown {
         let mut shown = Shown {
             values: [0.0; MEANS.len()],
             normal: [0.0; 3],
@@ -181,7 +180,7 @@ impl Interface {
             sum += w;
             shown.normal = add_scaled(shown.normal, w, values.normal);
             shown.dissipated += w * h.dissipated;
-            shown.worn += w * wear * h.rubbed;
+            shown.worn += w * h.worn;
             if w > largest {
                 (largest, shown.status) = (w, values.status);
             }

@@ -103,45 +103,40 @@ impl Interface {
         facets.iter().flat_map(|f| f.nodes.iter().copied())
     }
 
-    /// Adds what the last increment dissipated and rubbed per area at each point to the nodes of the primary that it met: the mean of the
+    /// Adds what the last increment dissipated per area at each point to the nodes of the primary that it met: the mean of the
     /// points over a node, weighted by their areas there. What slides over the primary so leaves its trace where it was.
-    pub(super) fn leave_traces(&mut self, traces: &[[f64; 2]]) {
-        if self.rigid() || traces.iter().all(|t| *t == [0.0; 2]) {
+    pub(super) fn leave_traces(&mut self, traces: &[f64]) {
+        if self.rigid() || traces.iter().all(|t| *t == 0.0) {
             return;
         }
-        let mut sums = vec![[0.0; 3]; self.nodes.len()];
+        let mut sums = vec![[0.0; 2]; self.nodes.len()];
         for (i, trace) in traces.iter().enumerate() {
             let area = self.area_of(i);
             for (node, w) in self.facet_weights(i) {
                 let share = area * w.max(0.0);
-                sums[node][0] += share * trace[0];
-                sums[node][1] += share * trace[1];
-                sums[node][2] += share;
+                sums[node][0] += share * trace;
+                sums[node][1] += share;
             }
         }
         let all = &mut self.history.traces;
         all.resize(self.nodes.len(), [0.0; 2]);
-        for (t, [dissipated, rubbed, share]) in all.iter_mut().zip(sums) {
+        for (t, [dissipated, share]) in all.iter_mut().zip(sums) {
             if share > 0.0 {
                 t[0] += dissipated / share;
-                t[1] += rubbed / share;
             }
         }
     }
 
     /// Depth and volume of wear so far; `None` where it is not followed.
     pub fn wear(&self) -> Option<WearReport> {
-        let wear = self.laws.wear?;
-        let secondary = self.history.points.iter().map(|h| h.rubbed);
+        if !self.laws.wear.as_dyn().active() {
+            return None;
+        }
+        let secondary = self.history.points.iter().map(|h| h.worn);
         let primary = self.history.traces.iter().map(|t| t[1]);
-        let k = [wear.coefficient, wear.primary_coefficient];
-        let total = self.history.rubbed;
         let mut report = WearReport {
-            depth: [
-                k[0] * secondary.fold(0.0, f64::max),
-                k[1] * primary.fold(0.0, f64::max),
-            ],
-            volume: [k[0] * total, k[1] * total],
+            depth: [secondary.fold(0.0, f64::max), primary.fold(0.0, f64::max)],
+            volume: self.history.worn,
         };
         if self.exchanged {
             report.depth.reverse();

@@ -60,7 +60,6 @@ impl Interface {
     }
 
     fn rows(&self, u: &[f64]) -> Vec<Row> {
-        let wear = self.laws.wear.map_or(0.0, |w| w.coefficient);
         let now = self.coordinates(u);
         let points = self.points.iter().zip(&self.history.points);
         points
@@ -73,7 +72,7 @@ impl Interface {
                     moved: sub(p.place(&now), x),
                     values: self.values(i),
                     dissipated: h.dissipated,
-                    worn: wear * h.rubbed,
+                    worn: h.worn,
                 }
             })
             .collect()

@@ -88,6 +88,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         neighbours: Vec::new(),
         skin: Vec::new(),
         primary: Primary::Facets(facets),
+        hollows: Default::default(),
         share: 1.0,
         exchanged: false,
         laws: Laws {

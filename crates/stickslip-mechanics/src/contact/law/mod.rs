@@ -8,6 +8,4 @@ pub mod friction;
 pub mod normal;
 pub mod slip;
 pub mod user;
-mod wear;
-
-pub use wear::Wear;
+pub mod wear;

@@ -16,6 +16,8 @@ pub struct LawInput {
     pub slip: Sliding,
     /// Gap from which springs count `[m]`; zero but for springs that took over from multipliers.
     pub rest: f64,
+    /// By how much sliding over the increment wears the surfaces away per pressure `[m/Pa]`: the gap opens by that.
+    pub worn: f64,
     /// Closing velocity over the increment `[m/s]`.
     pub closing: f64,
     /// Whether the point did not slide at the last accepted state.

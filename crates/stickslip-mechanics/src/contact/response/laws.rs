@@ -1,12 +1,12 @@
 //! The laws that act together at an interface.
 
 use crate::contact::enforcement::{EnforcementModel, Multipliers};
-use crate::contact::law::Wear;
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::{FrictionLaw, FrictionModel};
 use crate::contact::law::normal::{NormalLaw, NormalModel};
 use crate::contact::law::slip::SlipModel;
 use crate::contact::law::user::UserLaws;
+use crate::contact::law::wear::{Feedback, WearModel};
 
 /// The laws of an interface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -23,8 +23,10 @@ pub struct Laws {
     pub enforcement: EnforcementModel,
     /// The surfaces are glued: neither gap nor slip changes, and the laws have no meaning.
     pub tied: bool,
-    /// What sliding wears off, if that is followed.
-    pub wear: Option<Wear>,
+    /// What sliding wears off.
+    pub wear: WearModel,
+    /// Whether contact feels that.
+    pub feedback: Feedback,
     /// Laws of the program that take the place of `normal` and `friction`.
     pub user: UserLaws,
 }
@@ -70,6 +72,11 @@ impl Laws {
     /// Whether the normal law has no pressure of its own at a gap. A law of the program is not asked: it has one.
     pub fn set_valued(&self) -> bool {
         self.user.normal.is_none() && self.normal.as_dyn().pressure(0.0).is_none()
+    }
+
+    /// Whether something wears, and contact feels it.
+    pub fn wears_away(&self) -> bool {
+        self.wear.as_dyn().active() && self.feedback != Feedback::None
     }
 
     /// Whether the multipliers are unknowns of Newton's iteration.

@@ -64,6 +64,48 @@ fn under_load(law: &dyn NormalLaw, gap: f64, body: f64) -> Slope {
     }
 }
 
+/// A pressure that falls along a straight line with a gap that itself opens by `worn` times the pressure.
+fn in_series(p: Slope, worn: f64) -> Slope {
+    let part = 1.0 / (1.0 - p.slope * worn);
+    Slope {
+        value: part * p.value,
+        slope: part * p.slope,
+    }
+}
+
+/// Solves `p = P(gap + worn p)`: what is worn off over the increment is a compliance in series with the law `P`.
+fn yielding(law: impl Fn(f64) -> Slope, gap: f64, worn: f64) -> Slope {
+    let first = law(gap);
+    if worn == 0.0 || first.value <= 0.0 {
+        return first;
+    }
+    // p - P(gap + worn p) rises with p.
+    let (mut low, mut high, mut p) = (0.0, first.value, first.value);
+    let mut found = first;
+    for _ in 0..100 {
+        found = law(gap + worn * p);
+        let rest = p - found.value;
+        match rest > 0.0 {
+            true => high = p,
+            false => low = p,
+        }
+        let newton = p - rest / (1.0 - found.slope * worn);
+        let next = match newton > low && newton < high {
+            true => newton,
+            false => 0.5 * (low + high),
+        };
+        let settled = (next - p).abs() <= 1e-15 * p;
+        p = next;
+        if settled {
+            break;
+        }
+    }
+    Slope {
+        value: p,
+        slope: found.slope / (1.0 - found.slope * worn),
+    }
+}
+
 impl Laws {
     /// Evaluates the laws at a stencil.
     ///
@@ -110,9 +152,10 @@ impl Laws {
             let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
                 - at.stiffness.weight * gap;
             if p > 0.0 || at.pressed {
-                response.traction[0] = p;
-                response.d_gap[0][0] = -at.stiffness.weight;
-                response.d_multiplier[0][0] = keep;
+                let part = 1.0 / (1.0 + at.stiffness.weight * at.worn);
+                response.traction[0] = part * p;
+                response.d_gap[0][0] = -part * at.stiffness.weight;
+                response.d_multiplier[0][0] = part * keep;
             }
             return response;
         }
@@ -121,8 +164,15 @@ impl Laws {
             response.d_gap[0][0] = -at.stiffness.normal;
             return response;
         }
-        let asked = || pressure(normal, gap, at.stiffness.normal);
-        let p = at.answers.pressure.unwrap_or_else(asked);
+        let p = match at.answers.pressure {
+            // It was asked once, at the gap before anything is worn off.
+            Some(p) => in_series(p, at.worn),
+            None => yielding(
+                |gap| pressure(normal, gap, at.stiffness.normal),
+                gap,
+                at.worn,
+            ),
+        };
         let loose = -p.slope < HARDLY * at.stiffness.weight;
         let p = match at.pressed && loose {
             true => under_load(normal, gap, at.stiffness.weight),
@@ -174,7 +224,8 @@ impl Laws {
 
 #[cfg(test)]
 mod tests {
-    use super::under_load;
+    use super::{under_load, yielding};
+    use crate::contact::enforcement::pressure;
     use crate::contact::law::normal::NormalModel;
     use crate::registry::Family;
 
@@ -203,6 +254,37 @@ mod tests {
             let touched = law.pressure(gap.expect("a gap")).expect("a pressure");
             let stiff = -touched.slope / -slope;
             assert!((0.3..3.0).contains(&stiff), "{model:?}: {stiff}");
+        }
+    }
+
+    #[test]
+    fn what_is_worn_off_opens_the_gap_under_every_law() {
+        for model in NormalModel::samples() {
+            let law = model.as_dyn();
+            let Some(scale) = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5]
+                .into_iter()
+                .find(|&d| pressure(law, -d, 1e14).value > 1e5)
+            else {
+                panic!("{model:?} carries nothing");
+            };
+            for gap in [-scale, -0.3 * scale] {
+                for worn in [1e-18, 1e-14, 1e-11] {
+                    let at = |gap: f64| yielding(|g| pressure(law, g, 1e14), gap, worn);
+                    let p = at(gap);
+                    let opened = pressure(law, gap + worn * p.value, 1e14);
+                    assert!(
+                        (opened.value - p.value).abs() <= 1e-8 * p.value,
+                        "{model:?} {worn}: {p:?} {opened:?}"
+                    );
+                    let d = 1e-5 * scale;
+                    let slope = (at(gap + d).value - at(gap - d).value) / (2.0 * d);
+                    assert!(
+                        (p.slope - slope).abs() <= 1e-4 * slope.abs(),
+                        "{model:?} {worn}: {} {slope}",
+                        p.slope
+                    );
+                }
+            }
         }
     }
 }

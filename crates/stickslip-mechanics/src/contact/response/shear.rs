@@ -45,7 +45,7 @@ impl Laws {
     ) -> FrictionPoint {
         FrictionPoint {
             pressure: pressure.max(0.0),
-            penetration: (-stencil.gap).max(0.0),
+            penetration: (-stencil.gap - at.worn * pressure).max(0.0),
             speed: path / at.dt,
             sticking: at.sticking,
         }
@@ -82,8 +82,8 @@ impl Laws {
             response.status = Status::Slip;
         }
         // penetration = -gap where closed
-        let d_penetration = if stencil.gap < 0.0 {
-            limit.d_penetration
+        let d_penetration = if stencil.gap + at.worn * response.traction[0] < 0.0 {
+            limit.d_penetration * (1.0 + at.worn * response.d_gap[0][0])
         } else {
             0.0
         };

@@ -9,7 +9,7 @@ use super::surfaces::{Numbering, Surfaces};
 use crate::body::Space;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Attempt, Cache, Directives, History, Initial, Interface, Primary, Start, neighbours,
+    Attempt, Cache, Directives, History, Hollows, Initial, Interface, Primary, Start, neighbours,
 };
 use crate::contact::mortar::Mortar;
 use crate::contact::response::Laws;
@@ -75,9 +75,6 @@ const COARSER: f64 = 1.25;
 fn exchanged(mut interface: Interface) -> Interface {
     interface.exchanged = true;
     reverse(&mut interface.belt);
-    if let Some(wear) = &mut interface.laws.wear {
-        std::mem::swap(&mut wear.coefficient, &mut wear.primary_coefficient);
-    }
     interface
 }
 
@@ -233,6 +230,16 @@ impl Make<'_> {
         (points, mortar)
     }
 
+    /// How what is worn off the primary is divided among its nodes, where something wears.
+    fn hollows(&self, opposite: &Primary, x: &[Vec3]) -> Hollows {
+        match opposite {
+            Primary::Facets(facets) if self.table.wear.as_dyn().active() => {
+                Hollows::new(facets, x, |at| self.surfaces.space.extent(at))
+            }
+            _ => Hollows::default(),
+        }
+    }
+
     /// An interface between two surfaces, given with the keys that name them, which carries `share` of the pressure.
     fn interface(
         &self,
@@ -279,12 +286,13 @@ impl Make<'_> {
                 None => skin(beneath, &points, own.as_deref()),
             },
             origin,
-            reference,
             nodes,
             primary_nodes,
             points,
             mortar,
+            hollows: self.hollows(&opposite, &reference),
             primary: opposite,
+            reference,
             share,
             exchanged: false,
             laws: chosen(table),
@@ -315,7 +323,8 @@ fn chosen(table: &Table) -> Laws {
         slip: table.slip.clone(),
         enforcement: table.enforcement.clone(),
         tied: table.tied,
-        wear: table.wear,
+        wear: table.wear.clone(),
+        feedback: table.wear_feedback,
         user: Default::default(),
     }
 }

@@ -10,6 +10,7 @@ use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
+use crate::contact::law::wear::{Feedback, WearModel, WearRate};
 use crate::math::{Mat3, determinant, normalize};
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError, Component};
@@ -50,6 +51,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     for (name, interface) in &problem.interface {
         laws(findings, &["interface", name], interface);
         roughness(problem, findings, name, interface);
+        wear(problem, findings, &["interface", name], interface);
         velocity(problem, findings, name, interface);
     }
     changes(problem, findings);
@@ -418,6 +420,7 @@ fn parameters(findings: &mut Findings, table: &[&str], interface: &Interface) {
         of(&i.damping, i.damping.as_dyn().faults()),
         of(&i.friction, i.friction.as_dyn().faults()),
         of(&i.slip, i.slip.as_dyn().faults()),
+        of(&i.wear, i.wear.as_dyn().faults()),
         of(&i.enforcement, i.enforcement.as_dyn().faults()),
     ];
     let said = said
@@ -448,7 +451,7 @@ fn tied(findings: &mut Findings, table: &[&str], interface: &Interface) {
         damping: DampingModel::default(),
         friction: FrictionModel::default(),
         slip: SlipModel::default(),
-        wear: None,
+        wear: WearModel::default(),
         primary_velocity: None,
         primary_velocity_table: None,
         ..interface.clone()
@@ -469,8 +472,40 @@ fn tied(findings: &mut Findings, table: &[&str], interface: &Interface) {
             "remove normal, damping, friction, slip and primary-velocity, or `tied`",
         );
     }
-    if let Some(wear) = &interface.wear {
-        findings.faults(&[table, &["wear"]].concat(), wear.faults());
+}
+
+/// Where what is worn off cannot open the gap.
+fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &Interface) {
+    if !interface.wear.as_dyn().active() || interface.wear_feedback == Feedback::None {
+        return;
+    }
+    let mut add = |message: &str, help: &str| {
+        findings.add(&[table, &["wear"]].concat(), message, help);
+    };
+    let [_, primary] = interface.wear.as_dyn().rates(0.0);
+    let other = primary != WearRate::default();
+    let belt = interface.primary_velocity.is_some() || interface.primary_velocity_table.is_some();
+    let only = "write wear-feedback = \"none\", which follows the depth and leaves the surfaces as they are";
+    if interface.discretisation().as_dyn().two_sided() {
+        add(
+            "two-sided contact has a depth for each half of the pressure, of which the other half knows nothing",
+            "choose another discretisation, or write wear-feedback = \"none\"",
+        );
+    }
+    if other && problem.obstacle.contains_key(&interface.primary) {
+        add(
+            "what is worn off an obstacle cannot open the gap: an obstacle has no surface to keep it on",
+            "let the secondary alone wear, make the obstacle a body, or write wear-feedback = \"none\"",
+        );
+    }
+    if other && belt {
+        add(
+            "what is worn off a primary with `primary-velocity` cannot open the gap: it would have to go along with the material",
+            "let the secondary alone wear, or move the body",
+        );
+    }
+    if problem.step.iter().any(|s| s.dynamic.is_some()) {
+        add("what is worn off opens the gap in quasi-static steps only", only);
     }
 }
 

@@ -1,0 +1,167 @@
+//! What sliding has worn off both surfaces, each in its own coordinates, and by how much that opens the gap.
+//!
+//! The secondary has a depth at each contact point. With dual functions as weights, the mean gap of a point sees the depth of that point and of no other, so that
+//! the depth of a point times its area is volume lost. The primary has a depth at its nodes, linear in between: what a point takes from it is divided among the
+//! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
+//! weights. What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
+//!
+//! Within an increment the depth of both is in proportion to the pressure of the point at its end: a compliance in series with the contact
+//! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that of the iterate, and its derivative is left out of the tangent: the
+//! solution does not depend on that, and the tangent stays as symmetric as it was.
+
+use super::definition::Interface;
+use super::evaluation::Evaluation;
+use super::history::PointHistory;
+use crate::contact::law::wear::{Feedback, Sliding, WearRate};
+use crate::contact::mortar::positive_areas;
+use crate::contact::surface::{Facet, edges};
+use crate::math::Vec3;
+
+/// How the depth of the primary is divided among its nodes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Hollows {
+    /// Area of each node `[m²]`, zero of those between corners; empty where nothing wears.
+    area: Vec<f64>,
+    /// The two corners whose mean a node has: twice itself of a corner.
+    ends: Vec<[usize; 2]>,
+}
+
+impl Hollows {
+    /// Of facets with their nodes at `x`; `extent` is that out of the plane, thickness or `2πr`.
+    pub fn new(facets: &[Facet], x: &[Vec3], extent: impl Fn(Vec3) -> f64 + Copy) -> Self {
+        let mut out = Hollows {
+            area: vec![0.0; x.len()],
+            ends: (0..x.len()).map(|n| [n, n]).collect(),
+        };
+        for facet in facets {
+            let corners = facet.kind.corner_count();
+            let places: Vec<Vec3> = facet.nodes[..corners].iter().map(|&n| x[n]).collect();
+            let areas = positive_areas(facet.kind.linear(), &places, extent);
+            for (&n, area) in facet.nodes.iter().zip(areas) {
+                out.area[n] += area;
+            }
+            let between = &facet.nodes[corners..];
+            let all = [0, 1];
+            let lines = edges(facet.kind).iter().map(|edge| match edge.len() {
+                // Of a line both ends are one edge.
+                1 => all.as_slice(),
+                _ => edge,
+            });
+            for (&n, edge) in between.iter().zip(lines) {
+                out.ends[n] = [facet.nodes[edge[0]], facet.nodes[edge[1]]];
+            }
+        }
+        out
+    }
+
+    /// Whether there are any.
+    pub fn is_empty(&self) -> bool {
+        self.area.is_empty()
+    }
+}
+
+impl Interface {
+    /// How fast the side with the points and the other one wear at a point.
+    fn wear_rates(&self, h: &PointHistory) -> [WearRate; 2] {
+        let mut rates = self.laws.wear.as_dyn().rates(h.path);
+        if self.exchanged {
+            rates.reverse();
+        }
+        rates
+    }
+
+    /// How many times wear counts what slides.
+    fn cycles(&self) -> f64 {
+        1.0 + self.directives.skipped
+    }
+
+    /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
+    pub(super) fn hollow(&self, i: usize, sides: &[(usize, f64)]) -> f64 {
+        if !self.laws.wears_away() {
+            return 0.0;
+        }
+        let traces = &self.history.traces;
+        let theirs = sides.iter().filter(|(n, _)| *n < self.primary_nodes);
+        let theirs = theirs.map(|&(n, w)| -w * traces.get(n).map_or(0.0, |t| t[1]));
+        self.history.points[i].worn + theirs.sum::<f64>()
+    }
+
+    /// By how much a point that slides a `path` wears both sides away per pressure `[m/Pa]`.
+    pub(super) fn softness(&self, i: usize, path: f64) -> f64 {
+        let laws = &self.laws;
+        if !laws.wears_away() || laws.feedback != Feedback::Implicit || self.directives.all_stick {
+            return 0.0;
+        }
+        let h = &self.history.points[i];
+        // The part of the pressure that the shear was at the last accepted state.
+        let shear = match h.pressure > 0.0 {
+            true => h.limit / h.pressure,
+            false => 0.0,
+        };
+        let [own, other] = self.wear_rates(h).map(|r| r.per_path(shear));
+        (own + other) * self.cycles() * path
+    }
+
+    /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
+    /// trapezoidal rule.
+    pub(super) fn wears_off(
+        &self,
+        h: &PointHistory,
+        e: &Evaluation,
+        (pressed, dissipated): (f64, f64),
+    ) -> [f64; 2] {
+        let frictional = self.laws.friction_law().frictional();
+        let pressed = match self.laws.feedback {
+            Feedback::None => pressed,
+            // That is what the gap was opened by.
+            _ => e.response.traction[0].max(0.0) * e.path(frictional),
+        };
+        let slid = Sliding {
+            pressed,
+            dissipated,
+        };
+        self.wear_rates(h).map(|r| self.cycles() * r.depth(slid))
+    }
+
+    /// Adds volumes that points take from the primary to the depths of its corners.
+    pub(super) fn hollow_out(&mut self, volumes: &[f64]) {
+        if self.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
+            return;
+        }
+        let mut lost = vec![0.0; self.nodes.len()];
+        for (i, volume) in volumes.iter().enumerate() {
+            for (node, w) in self.facet_weights(i) {
+                for end in self.hollows.ends[node] {
+                    lost[end] += 0.5 * w * volume;
+                }
+            }
+        }
+        let traces = &mut self.history.traces;
+        traces.resize(self.nodes.len(), [0.0; 2]);
+        let areas = self.hollows.area.iter().zip(&lost);
+        for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
+            if *area > 0.0 {
+                trace[1] += lost / area;
+            }
+        }
+        for node in 0..self.hollows.ends.len() {
+            let [a, b] = self.hollows.ends[node];
+            if a != b {
+                traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
+            }
+        }
+    }
+
+    /// Volume that the depths of both sides make up, that with the points first `[m³]`: what the laws say has been lost, to rounding.
+    pub fn hollowed(&self) -> [f64; 2] {
+        let points = self.history.points.iter().zip(&self.points);
+        let own = points.map(|(h, p)| h.worn * p.area * self.share).sum();
+        let depths = self.history.traces.iter().zip(&self.hollows.area);
+        [own, depths.map(|(t, area)| t[1] * area).sum()]
+    }
+
+    /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.
+    pub fn skip(&mut self, cycles: f64) {
+        self.directives.skipped = cycles;
+    }
+}
