@@ -18,7 +18,7 @@ pub(crate) mod unheld;
 pub use contact::Contact;
 pub use course::Course;
 pub use definition::{
-    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
+    Body, ContactAt, ContactMass, Cycling, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
     Reference, Rigid, Solution, Step, Support,
 };
 pub use frame::{Frame, Motion};

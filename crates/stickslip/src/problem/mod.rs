@@ -78,7 +78,7 @@ pub use schema::derived as derived_schema;
 pub use schema::schema;
 pub use set::{BallRegion, BoxRegion, PlaneRegion, Select, Set};
 pub use solver::{Linear, Solver};
-pub use step::{Increments, Step};
+pub use step::{Cycles, Increments, Step};
 pub use support::{Component, Support};
 pub use temperature::Temperature;
 

@@ -14,7 +14,7 @@ pub struct Step {
     /// A name for messages and results; `step 1`, `step 2` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// How long it lasts `[time]`.
+    /// How long it lasts, or where it has `cycles` each of them `[time]`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default = "one")]
     pub duration: f64,
@@ -41,12 +41,41 @@ pub struct Step {
     /// Laws that change from this step on, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub change: BTreeMap<String, Change>,
-    /// How the step is divided.
+    /// Goes through the step again and again, for fretting and wear: amplitude tables give one cycle, which has to end as it begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<Cycles>,
+    /// How the step is divided, or where it has `cycles` each of them.
     #[serde(default)]
     pub increments: Increments,
     /// Makes the step dynamic; quasi-static if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<Dynamic>,
+}
+
+/// How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed; amplitude tables, and what follows in them, count
+/// one cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Cycles {
+    /// How many cycles there are.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    pub count: usize,
+    /// How many of them each cycle that is computed stands for: what slides in it wears as often. Default: 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    #[serde(default = "once")]
+    pub jump: usize,
+}
+
+impl Cycles {
+    /// How many cycles are computed.
+    pub fn blocks(self) -> usize {
+        self.count.div_ceil(self.jump.max(1)).max(1)
+    }
+}
+
+fn once() -> usize {
+    1
 }
 
 fn one() -> f64 {

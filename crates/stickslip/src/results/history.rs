@@ -57,6 +57,9 @@ pub(crate) fn row(
     row.push("ITRS", effort.iterations as f64);
     row.push("TIME", trial.to);
     row.push("DT", trial.to - trial.from);
+    if view.model.steps.iter().any(|s| s.cycles.is_some()) {
+        row.push("CYCLES", cycles(view, trial.to));
+    }
     row.push("AUGMENTATIONS", effort.rounds as f64);
     row.push("RESIDUAL", effort.residual);
     row.push("OPEN", effort.tally.open as f64);
@@ -103,6 +106,13 @@ pub(crate) fn row(
     }
     push_probes(&mut row, view, around);
     row
+}
+
+/// Cycles that are over at a time, those of steps before included.
+fn cycles(view: &View, t: f64) -> f64 {
+    let steps = &view.model.steps[..=view.step_index()];
+    let of = steps.iter().filter_map(|s| Some((s, s.cycles?)));
+    of.map(|(s, c)| c.done(t.min(s.end) - s.start)).sum()
 }
 
 fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {

@@ -274,6 +274,7 @@ impl Simulation {
         let Some(trial) = running.stepper.next() else {
             return Ok(None);
         };
+        self.count_cycles(trial);
         if self.step().dynamic.is_none() {
             self.prepare_floating(trial, observers)?;
         }
@@ -339,6 +340,16 @@ impl Simulation {
             }
         }
         Ok(Some(running))
+    }
+
+    /// Tells interfaces for how many cycles beside its own an increment stands.
+    fn count_cycles(&mut self, trial: Trial) {
+        let step = self.step();
+        let cycles = step.cycles.map(|c| c.stands_for(trial.from - step.start));
+        let skipped = cycles.map_or(0.0, |n| n as f64 - 1.0);
+        for interface in &mut self.contact.interfaces {
+            interface.skip(skipped);
+        }
     }
 
     /// Makes one attempt, and tells what happened in it.

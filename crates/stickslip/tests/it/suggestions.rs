@@ -193,7 +193,10 @@ const SAYS: &[(&str, &str)] = &[
         "write `friction.coulomb.mu = 0.3`",
     ),
     ("interface.a.mu = 0.3", "write `friction.coulomb.mu = 0.3`"),
-    ("interface.a.wear = 1e-9", "write `wear.archard.coefficient = 1e-9`"),
+    (
+        "interface.a.wear = 1e-9",
+        "write `wear.archard.coefficient = 1e-9`",
+    ),
     (
         "interface.a.gap = 0.1",
         "the gap is the one that the meshes leave",

@@ -3,7 +3,7 @@
 use super::super::{Problem, Tension};
 use super::cuts::BuiltCut;
 use super::fault::problem_error;
-use super::schedules::{Timeline, table};
+use super::schedules::Timeline;
 use crate::body::couplings::{Coupling, Course, Draw, Pretension, Tie};
 use crate::body::{Space, area_vectors};
 use crate::error::{Diagnostic, Error};
@@ -54,17 +54,17 @@ fn steps(problem: &Problem, name: &str, timeline: &Timeline) -> Vec<(f64, f64, D
     spans
         .map(|(&(start, end), step)| {
             if let Some(tension) = step.pretension.get(name) {
-                draw = drawn(problem, tension);
+                draw = drawn(problem, tension, timeline);
             }
             (start, end, draw.clone())
         })
         .collect()
 }
 
-fn drawn(problem: &Problem, tension: &Tension) -> Draw {
+fn drawn(problem: &Problem, tension: &Tension, timeline: &Timeline) -> Draw {
     let course = |value: f64| Course {
         value,
-        table: table(problem, tension.amplitude.as_deref()),
+        table: timeline.table(problem, tension.amplitude.as_deref()),
     };
     match (tension.force, tension.shortening) {
         (Some(force), _) => Draw::Force(course(force)),

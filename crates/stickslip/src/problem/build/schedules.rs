@@ -1,13 +1,21 @@
 //! When what acts, and with which factor.
 
-use super::super::Problem;
-use crate::model::{Dynamic, Step};
+use super::super::{Cycles, Problem};
+use crate::model::{Cycling, Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
 
 /// Starts and ends of the steps.
 pub(super) struct Timeline {
     pub spans: Vec<(f64, f64)>,
+    repeats: Vec<Repeat>,
+}
+
+/// A step with cycles, in the time of amplitude tables, in which there is one of them.
+struct Repeat {
+    start: f64,
+    period: f64,
+    blocks: usize,
 }
 
 /// Whether `name` is active in a step whose list is `list`: in all steps that have no list.
@@ -17,17 +25,62 @@ fn listed(list: Option<&Vec<String>>, name: &str) -> bool {
 
 impl Timeline {
     pub fn new(problem: &Problem) -> Self {
-        let mut t = 0.0;
-        let spans = problem
-            .step
-            .iter()
-            .map(|step| {
-                let start = t;
-                t += step.duration;
-                (start, t)
-            })
-            .collect();
-        Timeline { spans }
+        let (mut t, mut told) = (0.0, 0.0);
+        let (mut spans, mut repeats) = (Vec::new(), Vec::new());
+        for step in &problem.step {
+            let (start, period) = (t, step.duration);
+            let blocks = step.cycles.map_or(1, Cycles::blocks);
+            t = block_end(start, period, blocks);
+            spans.push((start, t));
+            if blocks > 1 {
+                repeats.push(Repeat {
+                    start: told,
+                    period,
+                    blocks,
+                });
+            }
+            told += period;
+        }
+        Timeline { spans, repeats }
+    }
+
+    /// Amplitudes over the time of the analysis.
+    pub fn table(&self, problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {
+        let rows = &problem.amplitude.get(amplitude?)?.table;
+        Amplitude::new(self.unroll(rows)).ok()
+    }
+
+    /// Rows of a table in which cycles are told once, over the time in which they are computed.
+    fn unroll(&self, rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut rows = rows.to_vec();
+        // From the last to the first: what comes before is told as it was.
+        for repeat in self.repeats.iter().rev() {
+            let &Repeat {
+                start,
+                period,
+                blocks,
+            } = repeat;
+            let end = start + period;
+            let Ok(amplitude) = Amplitude::new(rows.clone()) else {
+                return rows;
+            };
+            let of = |keep: &dyn Fn(f64) -> bool| -> Vec<[f64; 2]> {
+                rows.iter().copied().filter(|r| keep(r[0])).collect()
+            };
+            let mut out = of(&|t| t < start);
+            out.push([start, amplitude.at(start)]);
+            let inside = of(&|t| t > start && t < end);
+            for block in 0..blocks {
+                let begins = block_end(start, period, block);
+                out.extend(inside.iter().map(|&[t, v]| [begins + (t - start), v]));
+                out.push([block_end(start, period, block + 1), amplitude.at(end)]);
+            }
+            let shift = (blocks - 1) as f64 * period;
+            let after = of(&|t| t > end);
+            out.extend(after.into_iter().map(|[t, v]| [t + shift, v]));
+            rows = out;
+        }
+        rows
     }
 
     /// One piece a step, its course given whether the item is on and what its factor was before.
@@ -60,7 +113,7 @@ impl Timeline {
             .iter()
             .map(|s| listed(s.loads.as_ref(), name))
             .collect();
-        let table = table(problem, amplitude);
+        let table = self.table(problem, amplitude);
         let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
         self.schedule(&active, |on, factor, _| match (on, &table) {
             (on, table) if sudden.next().unwrap_or(false) => match (on, table) {
@@ -89,7 +142,7 @@ impl Timeline {
             .map(|s| listed(s.temperatures.as_ref(), name))
             .collect();
         let sudden: Vec<bool> = steps.map(|s| s.dynamic.is_some()).collect();
-        let table = table(problem, amplitude);
+        let table = self.table(problem, amplitude);
         let whole = table.as_ref().map(|_| Course::Ramp(1.0, 1.0));
         [table.map(Course::Table), whole].map(|given| {
             let mut step = 0;
@@ -113,7 +166,7 @@ impl Timeline {
             .iter()
             .map(|s| listed(s.supports.as_ref(), name))
             .collect();
-        let table = table(problem, amplitude);
+        let table = self.table(problem, amplitude);
         self.schedule(&active, |on, _, was| match (on, &table) {
             (false, _) => Course::Off,
             (true, Some(table)) => Course::Table(table.clone()),
@@ -123,7 +176,7 @@ impl Timeline {
 
     /// Equations begin and end like supports.
     pub fn equation(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
-        let table = table(problem, amplitude);
+        let table = self.table(problem, amplitude);
         let active = coupled(problem, name);
         self.schedule(&active, |on, _, was| match (on, &table) {
             (false, _) => Course::Off,
@@ -134,7 +187,7 @@ impl Timeline {
 
     /// Springs that are there in the first step are there from the beginning; later they come and go like loads.
     pub fn spring(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
-        let table = table(problem, amplitude);
+        let table = self.table(problem, amplitude);
         let active = coupled(problem, name);
         let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
         let mut first = true;
@@ -168,7 +221,8 @@ impl Timeline {
     pub fn steps(&self, problem: &Problem) -> Vec<Step> {
         let mut times: Vec<f64> = problem.output.times.clone();
         for amplitude in problem.amplitude.values() {
-            times.extend(amplitude.table.iter().map(|row| row[0]));
+            let rows = self.unroll(&amplitude.table);
+            times.extend(rows.iter().map(|row| row[0]));
         }
         for motion in problem.obstacle.values().filter_map(|o| o.motion.as_ref()) {
             times.extend(motion.translation.iter().filter_map(|row| row.first()));
@@ -189,7 +243,7 @@ impl Timeline {
             .zip(&self.spans)
             .enumerate()
             .map(|(i, (step, &(start, end)))| {
-                let part = |fraction: f64| fraction * (end - start);
+                let part = |fraction: f64| fraction * step.duration;
                 let inc = &step.increments;
                 let increments = match inc.fixed {
                     Some(n) => {
@@ -211,6 +265,8 @@ impl Timeline {
                     .copied()
                     .filter(|&t| t > start && t < end)
                     .collect();
+                let blocks = step.cycles.map_or(1, Cycles::blocks);
+                milestones.extend((1..blocks).map(|n| block_end(start, step.duration, n)));
                 milestones.push(end);
                 Step {
                     name: step
@@ -222,6 +278,11 @@ impl Timeline {
                     increments,
                     milestones,
                     fixed: inc.fixed.is_some(),
+                    cycles: step.cycles.map(|c| Cycling {
+                        period: step.duration,
+                        count: c.count,
+                        jump: c.jump,
+                    }),
                     changes: (step.change.iter())
                         .map(|(name, change)| (name.clone(), change.clone()))
                         .collect(),
@@ -245,7 +306,7 @@ fn coupled(problem: &Problem, name: &str) -> Vec<bool> {
     steps.map(|s| listed(s.couplings.as_ref(), name)).collect()
 }
 
-pub(super) fn table(problem: &Problem, amplitude: Option<&str>) -> Option<Amplitude> {
-    let rows = problem.amplitude.get(amplitude?)?.table.clone();
-    Amplitude::new(rows).ok()
+/// When the cycle of this number ends.
+fn block_end(start: f64, period: f64, number: usize) -> f64 {
+    start + number as f64 * period
 }

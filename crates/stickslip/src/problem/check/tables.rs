@@ -505,7 +505,10 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
         );
     }
     if problem.step.iter().any(|s| s.dynamic.is_some()) {
-        add("what is worn off opens the gap in quasi-static steps only", only);
+        add(
+            "what is worn off opens the gap in quasi-static steps only",
+            only,
+        );
     }
 }
 

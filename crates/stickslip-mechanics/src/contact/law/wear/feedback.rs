@@ -9,8 +9,8 @@ pub enum Feedback {
     /// the contact, and is stable whatever the increments.
     #[default]
     Implicit,
-    /// The worn depth of both surfaces opens the gap from the next increment on: cheaper by nothing, and stable only where the path of an increment is below the limit
-    /// that `stickslip check` prints. For comparison.
+    /// The worn depth of both surfaces opens the gap from the next increment on: at no less cost, and stable only as long as the path of an increment, times the cycles
+    /// that it stands for, is below about `4 dx / (π k E*)`, with the spacing `dx` of the nodes, the wear rates `k` and the plane moduli `E*` of both sides. For comparison.
     Explicit,
     /// The depth is reported, and the surfaces stay as they are.
     None,
