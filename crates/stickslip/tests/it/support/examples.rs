@@ -9,6 +9,7 @@ macro_rules! every_example {
             hertz_sphere = "hertz-sphere",
             mindlin_sphere = "mindlin-sphere",
             fretting_sphere = "fretting-sphere",
+            fretting_wear = "fretting-wear",
             belt_block = "belt-block",
             belt_mass = "belt-mass",
             block_limits = "block-limits",
