@@ -117,6 +117,7 @@ fn shortened(name: &str) -> &'static [&'static str] {
     match name {
         // The ways back and forth are the way out again, twice as long.
         "fretting-sphere" => &["step.2.increments.fixed=8", "step.3.increments.fixed=8"],
+        "fretting-wear" => &["step.2.cycles.count=200"],
         "press-and-slide" => &[
             "body.lower.generate.box.cells=[8,8,8]",
             "body.upper.generate.box.cells=[7,7,7]",

@@ -13,52 +13,6 @@ use super::definition::Interface;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
 use crate::contact::law::wear::{Feedback, Sliding, WearRate};
-use crate::contact::mortar::positive_areas;
-use crate::contact::surface::{Facet, edges};
-use crate::math::Vec3;
-
-/// How the depth of the primary is divided among its nodes.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Hollows {
-    /// Area of each node `[m²]`, zero of those between corners; empty where nothing wears.
-    area: Vec<f64>,
-    /// The two corners whose mean a node has: twice itself of a corner.
-    ends: Vec<[usize; 2]>,
-}
-
-impl Hollows {
-    /// Of facets with their nodes at `x`; `extent` is that out of the plane, thickness or `2πr`.
-    pub fn new(facets: &[Facet], x: &[Vec3], extent: impl Fn(Vec3) -> f64 + Copy) -> Self {
-        let mut out = Hollows {
-            area: vec![0.0; x.len()],
-            ends: (0..x.len()).map(|n| [n, n]).collect(),
-        };
-        for facet in facets {
-            let corners = facet.kind.corner_count();
-            let places: Vec<Vec3> = facet.nodes[..corners].iter().map(|&n| x[n]).collect();
-            let areas = positive_areas(facet.kind.linear(), &places, extent);
-            for (&n, area) in facet.nodes.iter().zip(areas) {
-                out.area[n] += area;
-            }
-            let between = &facet.nodes[corners..];
-            let all = [0, 1];
-            let lines = edges(facet.kind).iter().map(|edge| match edge.len() {
-                // Of a line both ends are one edge.
-                1 => all.as_slice(),
-                _ => edge,
-            });
-            for (&n, edge) in between.iter().zip(lines) {
-                out.ends[n] = [facet.nodes[edge[0]], facet.nodes[edge[1]]];
-            }
-        }
-        out
-    }
-
-    /// Whether there are any.
-    pub fn is_empty(&self) -> bool {
-        self.area.is_empty()
-    }
-}
 
 impl Interface {
     /// How fast the side with the points and the other one wear at a point.

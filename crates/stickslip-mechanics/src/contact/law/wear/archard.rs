@@ -1,7 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::law::{WearLaw, WearRate};
-use super::{is_zero, rate_fault};
+use super::law::{WearLaw, WearRate, is_zero, rate_fault};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 

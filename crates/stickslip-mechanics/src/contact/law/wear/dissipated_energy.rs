@@ -1,7 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::law::{WearLaw, WearRate};
-use super::{is_zero, rate_fault};
+use super::law::{WearLaw, WearRate, is_zero, rate_fault};
 use crate::registry::Samples;
 
 /// Wear in proportion to the energy that friction dissipates ([Fouvry et al. 2003](stickslip_base::references::fouvry_2003)): a surface

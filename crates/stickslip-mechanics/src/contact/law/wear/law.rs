@@ -1,5 +1,7 @@
 //! What a wear law says.
 
+use crate::contact::law::normal::not_negative;
+
 /// What has slid over a point, per area.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sliding {
@@ -45,4 +47,14 @@ pub trait WearLaw: Send + Sync {
 
     /// What is wrong with the parameters, as `(key, message)`; empty if nothing.
     fn faults(&self) -> Vec<(&'static str, String)>;
+}
+
+/// A finding if `value` is neither zero nor positive and finite.
+pub(super) fn rate_fault(key: &'static str, value: f64) -> Option<(&'static str, String)> {
+    not_negative(key, value)
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // what serde asks for
+pub(super) fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }

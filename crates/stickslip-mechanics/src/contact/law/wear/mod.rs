@@ -37,16 +37,6 @@ impl WearModel {
     }
 }
 
-/// A finding if `value` is not zero, and not positive and finite.
-fn rate_fault(key: &'static str, value: f64) -> Option<(&'static str, String)> {
-    super::normal::not_negative(key, value)
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // what serde asks for
-fn is_zero(x: &f64) -> bool {
-    *x == 0.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
