@@ -153,6 +153,7 @@ fn interface(
         primary_nodes: 0,
         points,
         mortar: None,
+        hollows: Default::default(),
         share: 1.0,
         exchanged: false,
         primary: Primary::Facets(facets),
