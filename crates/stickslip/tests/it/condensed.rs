@@ -103,7 +103,7 @@ fn demanded(name: &str) -> (f64, bool) {
         // Followed bodies are at rest when their anchors carry less than 1e-8 of the load.
         "closing-gaps" => (1e-7, false),
         // What is in balance to the default tolerance agrees to that.
-        "shear-lag" | "lug" => (1e-8, false),
+        "shear-lag" | "lug" | "fretting-wear" => (1e-8, false),
         _ => (1e-9, false),
     }
 }
