@@ -7,6 +7,7 @@
 mod block_csr;
 mod compliance;
 mod digest;
+mod eigen;
 mod engine;
 mod error;
 mod factor;
@@ -24,6 +25,10 @@ mod testing;
 pub use block_csr::BlockCsr;
 pub use compliance::Compliance;
 pub use digest::Digest;
+pub use eigen::{
+    Complex, DenseLu, Found, Krylov, Nearest, Pencil, RealModes, Wanted, arnoldi, general, lanczos,
+    symmetric,
+};
 pub use engine::{
     Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions, Ordered,
     Split,

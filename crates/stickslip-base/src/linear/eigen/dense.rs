@@ -1,0 +1,113 @@
+//! Dense eigenvalues and systems, by faer.
+
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Mat, Side};
+
+/// Real and imaginary part.
+pub type Complex = [f64; 2];
+
+/// Eigenvalues, ascending, and vectors, one after the other, of a symmetric matrix given row by row; `None` where it is not finite.
+///
+/// # Panics
+/// If `a` has not `n²` entries.
+pub fn symmetric(n: usize, a: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    assert_eq!(a.len(), n * n, "entries of a square matrix");
+    if n == 0 {
+        return Some((Vec::new(), Vec::new()));
+    }
+    if !a.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let matrix = Mat::from_fn(n, n, |i, j| 0.5 * (a[i * n + j] + a[j * n + i]));
+    let both = matrix.self_adjoint_eigen(Side::Lower).ok()?;
+    let values = (0..n).map(|k| both.S()[k]).collect();
+    let vectors = (0..n).map(|k| (0..n).map(|i| both.U()[(i, k)]).collect());
+    Some((values, vectors.collect()))
+}
+
+/// Eigenvalues and vectors of a matrix without symmetry, given row by row; `None` where it is not finite.
+///
+/// # Panics
+/// If `a` has not `n²` entries.
+pub fn general(n: usize, a: &[f64]) -> Option<(Vec<Complex>, Vec<Vec<Complex>>)> {
+    assert_eq!(a.len(), n * n, "entries of a square matrix");
+    if n == 0 {
+        return Some((Vec::new(), Vec::new()));
+    }
+    if !a.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let both = Mat::from_fn(n, n, |i, j| a[i * n + j]).eigen().ok()?;
+    let (values, vectors) = (both.S(), both.U());
+    let values = (0..n).map(|k| [values[k].re, values[k].im]).collect();
+    let column = |k: usize| (0..n).map(move |i| vectors[(i, k)]);
+    let vectors = (0..n).map(|k| column(k).map(|z| [z.re, z.im]).collect());
+    Some((values, vectors.collect()))
+}
+
+/// A dense LU factor with row exchanges.
+pub struct DenseLu {
+    n: usize,
+    lu: Option<PartialPivLu<f64>>,
+}
+
+impl DenseLu {
+    /// Of a matrix given row by row.
+    ///
+    /// # Panics
+    /// If `a` has not `n²` entries.
+    pub fn new(n: usize, a: &[f64]) -> Self {
+        assert_eq!(a.len(), n * n, "entries of a square matrix");
+        let lu = (n > 0).then(|| Mat::from_fn(n, n, |i, j| a[i * n + j]).partial_piv_lu());
+        DenseLu { n, lu }
+    }
+
+    /// Solves in place; what is singular gives numbers that are not finite.
+    ///
+    /// # Panics
+    /// If `b` has not one entry a row.
+    pub fn solve(&self, b: &mut [f64]) {
+        assert_eq!(b.len(), self.n, "length of the right-hand side");
+        if let Some(lu) = &self.lu {
+            let x = lu.solve(Mat::from_fn(self.n, 1, |i, _| b[i]));
+            b.iter_mut().enumerate().for_each(|(i, b)| *b = x[(i, 0)]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_belong_to_their_values() {
+        let n = 12;
+        let mut seed = 3;
+        let a: Vec<f64> = (0..n * n)
+            .map(|_| super::super::vectors::noise(&mut seed))
+            .collect();
+        let (values, vectors) = general(n, &a).unwrap();
+        for (l, x) in values.iter().zip(&vectors) {
+            for i in 0..n {
+                let mut off = [0.0; 2];
+                for j in 0..n {
+                    off[0] += a[i * n + j] * x[j][0];
+                    off[1] += a[i * n + j] * x[j][1];
+                }
+                off[0] -= l[0] * x[i][0] - l[1] * x[i][1];
+                off[1] -= l[0] * x[i][1] + l[1] * x[i][0];
+                assert!(off[0].hypot(off[1]) < 1e-12, "{off:?}");
+            }
+        }
+        assert!(general(1, &[f64::NAN]).is_none());
+    }
+
+    #[test]
+    fn a_dense_system_is_solved() {
+        let lu = DenseLu::new(2, &[0.0, 2.0, 4.0, 1.0]);
+        let mut b = [2.0, 9.0];
+        lu.solve(&mut b);
+        assert_eq!(b, [2.0, 1.0]);
+        DenseLu::new(0, &[]).solve(&mut []);
+    }
+}
