@@ -239,6 +239,26 @@ impl Couplings {
         })
     }
 
+    /// What small motions about the last accepted state meet at time `t`: rows with their stiffness `[N/m]` and damping `[N s/m]`. Equations, and gaps that are
+    /// closed, are springs `firmer` times as stiff as those by which their multipliers are eliminated.
+    pub fn linearise(&self, t: f64, firmer: f64) -> Vec<(&Row, f64, f64)> {
+        let rows = self.rows().filter_map(|(i, coupling, row)| {
+            let gap = matches!(coupling.tie, Tie::Gap { .. });
+            if gap && self.memory.forces[i] >= 0.0 {
+                return None;
+            }
+            let held = firmer * self.hold[i].stiffness;
+            match self.act(i, coupling, t) {
+                Act::Held(_) | Act::Stopped(_) if self.hold[i].idle => None,
+                Act::Held(_) | Act::Stopped(_) => Some((row, held, 0.0)),
+                Act::Sprung(stiffness) => Some((row, stiffness, 0.0)),
+                Act::Damped(coefficient) => Some((row, 0.0, coefficient)),
+                Act::Pulled(_) | Act::Idle => None,
+            }
+        });
+        rows.collect()
+    }
+
     /// What a row does at time `t`.
     pub(super) fn act(&self, i: usize, coupling: &Coupling, t: f64) -> Act {
         if !coupling.schedule.active(t) {

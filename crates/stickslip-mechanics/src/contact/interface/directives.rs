@@ -1,5 +1,18 @@
 //! What the solver has told an interface: it holds until it is told something else, and is no part of what the interface has been through.
 
+use crate::math::Vec3;
+
+/// Sliding that lasts: where the surface of the primary moves by itself, friction sees that motion alone, and points slide all the time.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Steady {
+    /// A place on the axis about which the surface turns, beside the velocity of its belt `[m]`.
+    pub centre: Vec3,
+    /// Its angular velocity `[rad/s]`.
+    pub turning: Vec3,
+}
+
+crate::keep!(Steady { centre, turning });
+
 /// How an interface is to act at present.
 #[derive(Debug, Clone, Default)]
 pub struct Directives {
@@ -15,6 +28,8 @@ pub struct Directives {
     pub(super) all_stick: bool,
     /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
     pub(super) skipped: f64,
+    /// Sliding lasts; `None` where friction sees slips over increments as it does otherwise.
+    pub steady: Option<Steady>,
 }
 
 crate::keep!(Directives {
@@ -23,5 +38,6 @@ crate::keep!(Directives {
     excluded,
     inner,
     all_stick,
-    skipped
+    skipped,
+    steady
 });

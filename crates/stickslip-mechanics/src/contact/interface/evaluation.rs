@@ -113,6 +113,8 @@ pub(super) struct Evaluation {
     pub stranded: bool,
     /// Whether something lies opposite.
     pub over: bool,
+    /// Whether it slides all the time.
+    pub steady: bool,
     /// Area that the point stands for.
     pub area: f64,
     pub normal_stiffness: f64,

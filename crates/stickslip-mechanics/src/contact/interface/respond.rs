@@ -9,7 +9,7 @@ use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
-use crate::math::{Vec3, add_scaled, dot, norm, scale};
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
@@ -18,6 +18,9 @@ const FIRST_SLACK: f64 = 1e-2;
 fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
     norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
 }
+
+/// Part of the velocity of a surface that rounding may leave along it.
+const AT_REST: f64 = 1e-12;
 
 impl Interface {
     /// Laws at the stencil of the batch.
@@ -42,6 +45,7 @@ impl Interface {
                 seen: slid,
                 path: None,
                 sprung: self.history.springs,
+                steady: false,
                 slack: match scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
                     true => FIRST_SLACK,
                     false => 0.0,
@@ -55,6 +59,7 @@ impl Interface {
             answers: scene.answers.get(i).copied().unwrap_or_default(),
         };
         self.see_rate(scene, &slots, batch, &mut at);
+        self.see_steady(i, scene, batch, &mut at);
         let stencil = &batch.stencil;
         if scene.query != LawQuery::Nothing {
             let friction = match scene.query {
@@ -95,6 +100,7 @@ impl Interface {
             multiplier: at.kept.multiplier,
             carried: at.kept.shear,
             over: true,
+            steady: at.slip.steady,
             area: met.area,
             ..Evaluation::default()
         }
@@ -196,6 +202,31 @@ impl Interface {
             return 0.0;
         }
         (before.gap - gap) / dt
+    }
+
+    /// In sliding that lasts friction sees the motion of the primary's surface alone, which no displacement changes.
+    fn see_steady(&self, i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
+        let Some(steady) = self.directives.steady else {
+            return;
+        };
+        let stencil = &batch.stencil;
+        let x = add(self.origin, self.points[i].position(&scene.cache.x));
+        let turned = cross(steady.turning, sub(x, steady.centre));
+        let way = add_scaled(scene.belt_end, scene.dt, turned);
+        let belt = stencil.frame.map(|e| dot(e, way));
+        let across = dot(stencil.normal, way);
+        // What moves along its normal alone does not slide.
+        if norm(add_scaled(way, -across, stencil.normal)) <= AT_REST * norm(way) {
+            return;
+        }
+        at.slip.path = at.slip.path.or(Some(at.slip.seen));
+        at.slip.seen = belt.map(|b| -b);
+        at.slip.steady = true;
+        let n = stencil.n;
+        for row in &mut batch.rated {
+            row.clear();
+            row.resize(n, 0.0);
+        }
     }
 
     /// In motion friction sees the velocity at the end of the increment.

@@ -67,6 +67,8 @@ pub struct Sliding {
     pub path: Option<[f64; 2]>,
     /// Whether the rule acts through a spring, as in explicit increments; see [`SlipRule::sprung`](crate::contact::law::slip::SlipRule::sprung).
     pub sprung: bool,
+    /// Whether the point slides all the time, whatever it would take to stick: a rule that sticks is not asked.
+    pub steady: bool,
     /// Slack of the slip rule, see [`Tangential::slack`](crate::contact::law::slip::Tangential::slack).
     pub slack: f64,
 }

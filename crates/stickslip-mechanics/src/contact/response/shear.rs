@@ -5,7 +5,7 @@ use super::laws::Laws;
 use super::outcome::{Response, Status};
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::friction::{FrictionPoint, Limit};
-use crate::contact::law::slip::{SlipRule, Tangential};
+use crate::contact::law::slip::{SlipRule, SlipState, Tangential};
 
 /// The part of the multiplier that its row keeps; zero where multipliers are no unknowns.
 fn kept(at: &LawInput) -> f64 {
@@ -32,6 +32,30 @@ fn tangential(stencil: &Stencil, at: &LawInput, keep: f64) -> Tangential {
         base,
         skew: stencil.skew,
         slack: at.slip.slack,
+    }
+}
+
+/// The shear of a point that slides all the time, at the limit against its motion: `-limit s/|s|`. How it turns with the motion shows at once, as nothing elastic is
+/// in between.
+fn sliding(limit: f64, motion: &Tangential) -> SlipState {
+    let path = motion.length(motion.slip);
+    if path <= 0.0 {
+        return SlipState::default();
+    }
+    let m = motion.slip.map(|s| -s / path);
+    let slope = motion.length_slope(motion.slip, path);
+    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let turns = |i: usize, j: usize| -limit / path * (unit(i, j) + m[i] * slope[j]);
+    let [a, b] = motion.slip;
+    // d|s|/dskew = s₁ s₂ / |s|
+    let stretch = a * b / path;
+    SlipState {
+        traction: m.map(|m| limit * m),
+        d_slip: [0, 1].map(|i| [0, 1].map(|j| turns(i, j))),
+        d_limit: m,
+        d_skew: m.map(|m| -limit * m * stretch / path),
+        sliding: true,
+        sliding_path: motion.slip,
     }
 }
 
@@ -73,6 +97,7 @@ impl Laws {
         let rule: &dyn SlipRule = self.slip.as_dyn();
         let shear = match (at.pressed, at.slip.sprung) {
             (true, _) => rule.stuck(limit.value, &motion),
+            _ if at.slip.steady && rule.sticks() => sliding(limit.value, &motion),
             (false, true) => rule.sprung(limit.value, &motion),
             (false, false) => rule.traction(limit.value, &motion),
         };
@@ -113,7 +138,7 @@ impl Laws {
             for (j, toward) in toward.iter().enumerate() {
                 response.d_gap[i + 1][j + 1] =
                     shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
-                if keep != 0.0 && rule.sticks() {
+                if keep != 0.0 && rule.sticks() && !at.slip.steady {
                     // the trial traction is keep Σ_t + … - r s
                     response.d_multiplier[i + 1][j + 1] =
                         -keep * shear.d_slip[i][j] / at.stiffness.weight;
