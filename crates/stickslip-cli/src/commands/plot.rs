@@ -63,6 +63,9 @@ pub struct Arguments {
     /// Plot these columns of history.csv instead of the bodies.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "body"])]
     history: Vec<String>,
+    /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
+    #[arg(long, value_name = "FILE", requires = "history")]
+    table: Option<String>,
     /// The column along the horizontal axis.
     #[arg(
         long,
@@ -204,6 +207,10 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
         ));
     }
     let (directory, against) = (&arguments.directory, &arguments.against);
-    let file = plot::columns(directory, output, &columns, against, arguments.size)?;
+    let size = arguments.size;
+    let file = match &arguments.table {
+        Some(name) => plot::table(directory, output, name, &columns, against, size)?,
+        None => plot::columns(directory, output, &columns, against, size)?,
+    };
     Ok((vec![file], Vec::new()))
 }

@@ -1,6 +1,7 @@
-//! Columns of the history as lines.
+//! Columns of the history, or of another table, as lines.
 
 use stickslip::Error;
+use stickslip::io::csv::Table;
 use stickslip::results::compare::near;
 
 use super::chart::Chart;
@@ -13,14 +14,14 @@ use crate::results::{Results, fault};
 /// [`Error::Io`] if there is no history or no such column.
 pub fn draw(
     results: &Results,
+    (table, file): (&Table, &str),
     names: &[String],
     against: &str,
     size: [u32; 2],
     canvas: &mut dyn Canvas,
 ) -> Result<(), Error> {
-    let table = &results.history;
     if table.rows() == 0 {
-        let message = "history.csv has no rows: there is nothing to plot";
+        let message = format!("{file} has no rows: there is nothing to plot");
         return Err(fault(&results.directory, message));
     }
     let find = |name: &str| {
@@ -28,7 +29,7 @@ pub fn draw(
             fault(
                 &results.directory,
                 format!(
-                    "history.csv has no column `{name}`{}",
+                    "{file} has no column `{name}`{}",
                     near(name, table.names.iter().map(String::as_str))
                 ),
             )

@@ -80,7 +80,33 @@ pub fn columns(
     let results = Results::open(directory)?;
     let file = file.map_or_else(|| directory.join("history.png"), Path::to_path_buf);
     let mut canvas = canvas(&file, size)?;
-    history::draw(&results, names, against, size, canvas.as_mut())?;
+    let table = (&results.history, "history.csv");
+    history::draw(&results, table, names, against, size, canvas.as_mut())?;
+    write_atomically(&file, &canvas.finish())?;
+    Ok(file)
+}
+
+/// Draws columns of another table in the folder of results, such as that of a map, against one of its columns; returns the file written.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such table or column, or the file cannot be written.
+pub fn table(
+    directory: &Path,
+    file: Option<&Path>,
+    name: &str,
+    names: &[String],
+    against: &str,
+    size: [u32; 2],
+) -> Result<PathBuf, Error> {
+    let results = Results::open(directory)?;
+    let table = stickslip::io::csv::read(&directory.join(name))?;
+    let file = file.map_or_else(
+        || directory.join(name).with_extension("png"),
+        Path::to_path_buf,
+    );
+    let mut canvas = canvas(&file, size)?;
+    let table = (&table, name);
+    history::draw(&results, table, names, against, size, canvas.as_mut())?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
 }
