@@ -57,6 +57,7 @@ impl Observer for Lines {
                 self.look(analysis, advance.time);
                 return Ok(());
             }
+            Event::Modes(outcome) => json!({ "event": "modes", "modes": outcome }),
             Event::Note(text) => json!({ "event": "note", "text": text }),
             Event::End => json!({ "event": "end", "summary": analysis.summary }),
             _ => return Ok(()),

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use stickslip::Error;
 use stickslip::assess::doctor::{Finding, Severity};
+use stickslip::modal::ModalOutcome;
 use stickslip::newton::Strategy;
 use stickslip::results::{Analysis, Event, Observer, Row};
 
@@ -126,6 +127,24 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// The table of modes.
+    fn modes(&mut self, outcome: &ModalOutcome) {
+        self.line(&format!("  {}", outcome.step));
+        self.line("  mode      frequency         growth  damping ratio   residual");
+        for (k, mode) in outcome.modes.iter().enumerate() {
+            self.line(&format!(
+                "  {:>4} {:>14.6e} {:>14.6e} {:>14.6e} {:>10.1e}",
+                k + 1,
+                mode.frequency,
+                mode.growth,
+                mode.damping_ratio,
+                mode.residual
+            ));
+        }
+    }
+}
+
 impl Observer for Progress {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         if let Event::Accepted(advance) = &event {
@@ -142,6 +161,7 @@ impl Observer for Progress {
                 ));
             }
             Event::Increment(row) => self.increment(analysis, row),
+            Event::Modes(outcome) => self.modes(outcome),
             Event::Iteration(p) if self.verbose => {
                 self.line(&format!(
                     "    {:>2}.{:<3} residual {:>9.2e}  step {:<7} krylov {:>3}  stick {} slip {} open {} changed {}{}",

@@ -247,6 +247,7 @@ impl Doing {
             Work::Recovering(count) => {
                 self.beside = format!("finding the interiors of {count} increments");
             }
+            Work::Modes => self.beside.push_str("looking for modes"),
             Work::Following => self.beside.push_str("moving loose bodies until they touch"),
         }
     }

@@ -25,6 +25,8 @@ mod solve;
 
 mod integrate;
 
+pub mod modal;
+
 pub mod assess;
 
 pub mod results;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::heat::Heat;
 use super::limits::Limits;
+use super::modal::{Modal, SteadyPlan};
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Change;
@@ -309,6 +310,10 @@ pub struct Step {
     pub fixed: bool,
     /// How motion is integrated; `None` in a quasi-static step.
     pub dynamic: Option<Dynamic>,
+    /// Sliding that lasts; `None` where friction follows slips.
+    pub steady: Option<SteadyPlan>,
+    /// What is looked for in a step without increments.
+    pub modal: Option<Modal>,
     /// Interfaces, by name, whose laws change at its start.
     pub changes: Vec<(String, Change)>,
     /// How often it is gone through.

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Dynamic, Tension};
+use super::{ComplexModes, Dynamic, Modes, SteadySliding, Tension};
 use crate::contact::interface::Change;
 
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
@@ -44,6 +44,17 @@ pub struct Step {
     /// Goes through the step again and again, for fretting and wear: amplitude tables give one cycle, which has to end as it begins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<Cycles>,
+    /// Sliding that lasts: `steady = {}`. Where the surface of a primary moves by itself (`primary-velocity`, or `turning` here), points that touch slide along
+    /// that motion from the first increment on, whatever their displacements, as after a long way; others stick and slip as ever.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadySliding>,
+    /// Real modes about the state that the step before has reached: frequencies, shapes and participation, without friction. The step has no increments: time passes, and
+    /// nothing moves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<Modes>,
+    /// Modes of steady sliding about that state: frequencies and growth rates, with friction and damping. No increments either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub complex_modes: Option<ComplexModes>,
     /// How the step is divided, or where it has `cycles` each of them.
     #[serde(default)]
     pub increments: Increments,
@@ -76,6 +87,14 @@ impl Cycles {
 
 fn once() -> usize {
     1
+}
+
+impl Step {
+    /// What is looked for in a step without increments.
+    pub(super) fn modal(&self) -> Option<crate::model::Modal> {
+        let real = self.modes.as_ref().map(Modes::plan);
+        real.or_else(|| self.complex_modes.as_ref().map(ComplexModes::plan))
+    }
 }
 
 fn one() -> f64 {

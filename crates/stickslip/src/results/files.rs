@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use super::analysis::Analysis;
 use super::folder::{Claim, Folder, FolderClaim, INTERFACES, SURFACES, surface_name};
 use super::frd;
+use super::modes;
 use super::observer::{Event, Observer, Snapshot};
 use super::saved::{self, Positions, Saved, Source};
 use super::summary::Summary;
@@ -139,13 +140,18 @@ impl ResultFiles {
         self.unsaved.as_ref().map(|(why, _)| why.as_str())
     }
 
+    /// What all files of fields share.
+    fn mesh(&mut self, view: &View) -> Arc<vtu::PackedMesh> {
+        let mesh = || Arc::new(vtu::PackedMesh::new(&view.model.mesh, Some(&owners(view))));
+        Arc::clone(self.mesh.get_or_insert_with(mesh))
+    }
+
     /// Hands fields and tables of the interfaces to a thread that writes them while the run goes on.
     fn output(&mut self, view: &View) -> Result<(), Error> {
         self.written()?;
         let name = format!("fields_{:05}.vtu", self.count);
         self.count += 1;
-        let mesh = || Arc::new(vtu::PackedMesh::new(&view.model.mesh, Some(&owners(view))));
-        let mesh = Arc::clone(self.mesh.get_or_insert_with(mesh));
+        let mesh = self.mesh(view);
         let fields = fields(view);
         let interfaces = view.contact.interfaces.iter();
         let (u, time) = (&view.frame.state.u, view.frame.state.t);
@@ -354,7 +360,10 @@ impl Observer for ResultFiles {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         // A run that was stopped may go on.
         self.folder.resume()?;
-        if matches!(event, Event::Output | Event::Checkpoint(_) | Event::End) {
+        if matches!(
+            event,
+            Event::Output | Event::Modes(_) | Event::Checkpoint(_) | Event::End
+        ) {
             self.folder.check()?;
         }
         let done = self.writing.as_ref().map(|w| w.thread.is_finished());
@@ -373,6 +382,10 @@ impl Observer for ResultFiles {
                 }
             }
             Event::Output => self.output(analysis)?,
+            Event::Modes(outcome) => {
+                let mesh = self.mesh(analysis);
+                modes::write(&self.folder.directory, analysis, &mesh, outcome)?;
+            }
             // Hours of work are not given up because they cannot be kept twice.
             Event::Checkpoint(snapshot) => {
                 if let Err(e) = self.save(snapshot) {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::frd::{self, FrdPlan};
 use super::lock::{self, Lock, Refused};
+use super::modes::is_of_modes;
 use super::saved::{self, Source};
 use super::summary::Status;
 use crate::error::{Error, IoError};
@@ -273,7 +274,11 @@ const FILES: &[&str] = &[
 fn is_result(name: &str, claim: &Claim) -> bool {
     let kept = saved::number(name).is_some();
     let also = claim.also.iter().chain([&claim.frd.name]);
-    is_field(name) || kept || FILES.contains(&name) || also.into_iter().any(|also| also == name)
+    is_field(name)
+        || is_of_modes(name)
+        || kept
+        || FILES.contains(&name)
+        || also.into_iter().any(|also| also == name)
 }
 
 fn is_checkpoint(path: &Path) -> bool {

@@ -4,6 +4,7 @@ use super::analysis::Analysis;
 use super::history::Row;
 use crate::assess::doctor::Finding;
 use crate::error::Error;
+use crate::modal::ModalOutcome;
 use crate::newton::Progress;
 use crate::system::{StepFailure, Tally};
 use crate::time::Trial;
@@ -22,6 +23,8 @@ pub enum Event<'a> {
     Finding(&'a Finding),
     /// Fields are due at the state of the simulation.
     Output,
+    /// Modes were found about the state of the simulation.
+    Modes(&'a ModalOutcome),
     /// An increment failed and will be tried again, smaller.
     Cutback(&'a Trial, &'a StepFailure),
     /// The state from which the run can go on, as bytes.

@@ -7,6 +7,7 @@ use crate::assess::quality::{Gate, InterfaceSummary};
 use crate::error::Error;
 use crate::linear::EngineReport;
 use crate::machine::{page_faults, peak_memory};
+use crate::modal::ModalOutcome;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::ledger::{EnergyLedger, EnergyQuality};
@@ -88,6 +89,8 @@ pub struct Summary {
     pub quality: Gate,
     /// Interfaces at the end.
     pub interfaces: Vec<InterfaceSummary>,
+    /// Modes, by step that looked for them.
+    pub modes: Vec<ModalOutcome>,
     /// Last row of the history.
     pub last: BTreeMap<String, f64>,
 }
@@ -311,6 +314,7 @@ crate::keep!(Summary {
     version: env!("CARGO_PKG_VERSION"),
     threads: rayon::current_num_threads(),
     interfaces: Vec::new(),
+    modes: Vec::new(),
 });
 crate::keep!(Status[Running, Done, Failed, Interrupted]);
 crate::keep!(FallbackSummary {

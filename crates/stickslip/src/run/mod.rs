@@ -4,6 +4,7 @@ mod book;
 mod checkpoint;
 mod failures;
 mod fallback;
+mod modes;
 mod pending;
 mod position;
 mod queue;

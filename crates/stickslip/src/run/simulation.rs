@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::friction::FrictionProblem;
 use crate::integrate::integration::Integration;
 use crate::integrate::quasi_static::QuasiStatic;
+use crate::modal::ModalOutcome;
 use crate::model::Setup;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -37,6 +38,8 @@ pub struct Simulation {
     pub frame: Frame,
     /// Counts, energies and findings so far.
     pub summary: Summary,
+    /// What steps without increments have found, in this process.
+    pub modes: Vec<ModalOutcome>,
     pub(crate) solver: Solver,
     pub(crate) integration: Integration,
     pub(crate) steps: Steps,
@@ -113,6 +116,7 @@ impl Simulation {
             watches: vec![Watch::default(); contact.interfaces.len()],
             integration: Integration::QuasiStatic(QuasiStatic),
             steps: Steps::default(),
+            modes: Vec::new(),
             pending: Vec::new(),
             recovered: None,
             taken_back: None,

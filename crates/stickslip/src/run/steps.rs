@@ -106,6 +106,10 @@ impl Simulation {
                 self.steps.next += 1;
                 self.begin_step(step)?;
                 self.tell_notes(observers)?;
+                if self.model.steps[step].modal.is_some() {
+                    self.find_modes(observers)?;
+                    return Ok(true);
+                }
                 Increments::of(&self.model.steps[step])
             }
             None => return Ok(false),
@@ -171,6 +175,7 @@ impl Simulation {
 
     /// Begins a step.
     fn begin_step(&mut self, step: usize) -> Result<(), Error> {
+        self.begin_sliding(step);
         let Simulation {
             model,
             contact,
@@ -182,6 +187,9 @@ impl Simulation {
         frame.step = step;
         frame.begin_step(model, contact);
         contact.begin_acting(&model.steps[step], &frame.state);
+        if model.steps[step].modal.is_some() {
+            return Ok(());
+        }
         let Some(dynamic) = model.steps[step].dynamic else {
             return self.begin_rest();
         };

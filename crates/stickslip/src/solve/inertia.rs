@@ -129,6 +129,17 @@ impl Inertia {
         }
     }
 
+    /// That of modes: all points have their masses.
+    pub fn of_modes(scene: (&Model, &Contact), stiffness: &BlockCsr, kind: MassKind) -> Self {
+        let none = vec![false; scene.1.interfaces.len()];
+        Inertia::of(scene, stiffness, (kind, none), 0)
+    }
+
+    /// Mass and damping.
+    pub fn into_matrices(self) -> (BlockCsr, Option<BlockCsr>) {
+        (self.mass, self.damping)
+    }
+
     /// The mass that a push on a point of the mesh meets `[kg]`; of a rigid body all of it, turned as it is by the push.
     pub fn at_points(&self, model: &Model) -> Vec<f64> {
         let size = model.dofs.dim * model.dofs.dim;

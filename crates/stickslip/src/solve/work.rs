@@ -26,6 +26,8 @@ pub enum Work<'a> {
     Waiting,
     /// The interiors of so many increments are found.
     Recovering(usize),
+    /// Modes are looked for.
+    Modes,
     /// Bodies that nothing holds are moved until they touch.
     Following,
 }

@@ -301,7 +301,7 @@ fn somebody_who_waits_hears_of_iterations_and_ways_while_they_go_on() {
             Work::Increment { attempt, .. } => listener.hear(format!("attempt {attempt}")),
             Work::Condensing => listener.hear("condensing".into()),
             Work::Recovering(_) => listener.hear("recovering".into()),
-            Work::Waiting | Work::Following => {}
+            Work::Waiting | Work::Following | Work::Modes => {}
         }));
         simulation.run(&mut [&mut heard.clone()]).unwrap();
         let heard = heard.0.lock().expect("one thread").clone();

@@ -22,6 +22,7 @@ mod library;
 mod loose;
 mod malformed;
 mod mirrors;
+mod modes;
 mod mortar;
 mod multigrid;
 mod pairing;

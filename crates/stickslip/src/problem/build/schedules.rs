@@ -1,6 +1,6 @@
 //! When what acts, and with which factor.
 
-use super::super::{Cycles, Problem};
+use super::super::{Cycles, Problem, SteadySliding};
 use crate::model::{Cycling, Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
@@ -114,17 +114,19 @@ impl Timeline {
             .map(|s| listed(s.loads.as_ref(), name))
             .collect();
         let table = self.table(problem, amplitude);
-        let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
-        self.schedule(&active, |on, factor, _| match (on, &table) {
-            (on, table) if sudden.next().unwrap_or(false) => match (on, table) {
+        let mut steps = problem.step.iter();
+        self.schedule(&active, |on, factor, _| match (on, &table, steps.next()) {
+            // Nothing moves, so nothing grows.
+            (_, None, Some(step)) if step.modal().is_some() => Course::Ramp(factor, factor),
+            (on, table, Some(step)) if step.dynamic.is_some() => match (on, table) {
                 (true, Some(table)) => Course::Table(table.clone()),
                 (true, None) => Course::Ramp(1.0, 1.0),
                 (false, _) => Course::Off,
             },
-            (true, Some(table)) => Course::Table(table.clone()),
-            (true, None) => Course::Ramp(factor, 1.0),
-            (false, _) if factor != 0.0 => Course::Ramp(factor, 0.0),
-            (false, _) => Course::Off,
+            (true, Some(table), _) => Course::Table(table.clone()),
+            (true, None, _) => Course::Ramp(factor, 1.0),
+            (false, ..) if factor != 0.0 => Course::Ramp(factor, 0.0),
+            (false, ..) => Course::Off,
         })
     }
 
@@ -141,15 +143,18 @@ impl Timeline {
         let active: Vec<bool> = (steps.clone())
             .map(|s| listed(s.temperatures.as_ref(), name))
             .collect();
-        let sudden: Vec<bool> = steps.map(|s| s.dynamic.is_some()).collect();
+        let sudden: Vec<bool> = steps.clone().map(|s| s.dynamic.is_some()).collect();
+        let still: Vec<bool> = steps.map(|s| s.modal().is_some()).collect();
         let table = self.table(problem, amplitude);
         let whole = table.as_ref().map(|_| Course::Ramp(1.0, 1.0));
         [table.map(Course::Table), whole].map(|given| {
             let mut step = 0;
             self.schedule(&active, |on, factor, _| {
                 let at_once = sudden[step] || !on && taken[step];
+                let still = still[step];
                 step += 1;
                 match (on, &given) {
+                    (_, None) if still => Course::Ramp(factor, factor),
                     (true, Some(course)) => course.clone(),
                     (true, None) => Course::Ramp(if at_once { 1.0 } else { factor }, 1.0),
                     (false, _) if factor != 0.0 && !at_once => Course::Ramp(factor, 0.0),
@@ -283,6 +288,8 @@ impl Timeline {
                         count: c.count,
                         jump: c.jump,
                     }),
+                    steady: step.steady.as_ref().map(SteadySliding::plan),
+                    modal: step.modal(),
                     changes: (step.change.iter())
                         .map(|(name, change)| (name.clone(), change.clone()))
                         .collect(),

@@ -33,7 +33,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         listed(findings, &at("interfaces"), &step.interfaces, &p.interface);
         listed(findings, &at("couplings"), &step.couplings, &p.coupling);
         // Free flight is a motion as well.
-        if step.dynamic.is_none() && idle(problem, step) {
+        if step.dynamic.is_none() && step.modal().is_none() && idle(problem, step) {
             findings.add(
                 &["step", &i],
                 "nothing acts in this step: no support, no load, no temperature, no interface, no coupling",
@@ -56,8 +56,96 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
                 [start - step.duration, start],
             );
         }
+        modal(findings, &i, step);
+        sliding(findings, &i, (problem, step));
     }
     output(problem, findings);
+}
+
+/// Rules of steps without increments.
+fn modal(findings: &mut Findings, i: &str, step: &Step) {
+    let key = match (&step.modes, &step.complex_modes) {
+        (Some(_), Some(_)) => {
+            let message = "a step looks for real modes or for complex ones, not for both";
+            let help = "give each a step of its own: they follow each other at the same state";
+            return findings.add(&["step", i, "complex-modes"], message, help);
+        }
+        (Some(_), None) => "modes",
+        (None, Some(_)) => "complex-modes",
+        (None, None) => return,
+    };
+    let of_motion = [
+        ("dynamic", step.dynamic.is_some()),
+        ("steady", step.steady.is_some()),
+        ("increments", step.increments != Increments::default()),
+        ("pretension", !step.pretension.is_empty()),
+        ("change", !step.change.is_empty()),
+    ];
+    for (other, _) in of_motion.iter().filter(|(_, given)| *given) {
+        let message =
+            format!("nothing moves in a step with `{key}`: `{other}` has no meaning in it");
+        let help = format!("give `{other}` to a step before");
+        findings.add(&["step", i, other], message, help);
+    }
+    if let Some(modes) = &step.modes
+        && let (Some(from), Some(to)) = (modes.from, modes.to)
+        && from >= to
+    {
+        let message = format!("`from` ({from}) is not below `to` ({to})");
+        findings.add(&["step", i, key, "from"], message, "");
+    }
+    if let Some(map) = step.complex_modes.as_ref().and_then(|m| m.map.as_ref())
+        && map.from >= map.to
+    {
+        let message = format!("`from` ({}) is not below `to` ({})", map.from, map.to);
+        findings.add(&["step", i, key, "map", "from"], message, "");
+    }
+}
+
+/// Rules of sliding that lasts.
+fn sliding(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+    let Some(steady) = &step.steady else {
+        return;
+    };
+    if step.dynamic.is_some() {
+        let message = "in motion surfaces slide as they move: `steady` is for quasi-static steps";
+        findings.add(&["step", i, "steady"], message, "leave it out");
+    }
+    let dim = problem.model.space.dim();
+    for (name, turning) in &steady.turning {
+        let at = |last| ["step", i, "steady", "turning", name.as_str(), last];
+        if !problem.interface.contains_key(name) {
+            let names: Vec<&str> = problem.interface.keys().map(String::as_str).collect();
+            let message = format!("`{name}` is not among the interfaces");
+            let help = suggest(name, "interfaces", &names);
+            findings.add(&at("")[..5], message, help);
+        }
+        if !turning.centre.is_empty() && turning.centre.len() != dim {
+            let message = format!("a place has {dim} coordinates here");
+            findings.add(&at("centre"), message, "");
+        }
+        match (dim, turning.axis.len()) {
+            (2, 0) => {}
+            (2, _) => findings.add(
+                &at("axis"),
+                "in 2D the axis is across the plane",
+                "leave it out",
+            ),
+            (_, 3) if turning.axis.iter().any(|a| *a != 0.0) => {}
+            _ => findings.add(
+                &at("axis"),
+                "an axis has three components, not all zero",
+                "`axis = [0, 0, 1]`",
+            ),
+        }
+        if turning.speed == 0.0 || !turning.speed.is_finite() {
+            findings.add(
+                &at("speed"),
+                "a speed that is not zero is needed: its sign says which way the surface slides",
+                "",
+            );
+        }
+    }
 }
 
 fn listed<T>(

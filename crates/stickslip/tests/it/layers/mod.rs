@@ -48,7 +48,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
             &["roughness"],
             &["model"],
             &["solve"],
-            &["integrate"],
+            &["integrate", "modal"],
             &["assess"],
             &["results"],
             &["run"],

@@ -106,6 +106,7 @@ impl Observer for Record {
             | Event::Finding(_)
             | Event::Output
             | Event::Checkpoint(_)
+            | Event::Modes(_)
             | Event::End => {}
         }
         Ok(())

@@ -21,7 +21,14 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         let points = i.points.iter().zip(&m.gaps);
         points.into_iter().any(|(p, g)| *g < -1e-6 * p.size)
     });
-    if travel(view) == 0.0 && !forced(view) && !belts && !overlaps && model.initials.is_empty() {
+    let moves = model.steps.iter().any(|step| step.modal.is_none());
+    if moves
+        && travel(view) == 0.0
+        && !forced(view)
+        && !belts
+        && !overlaps
+        && model.initials.is_empty()
+    {
         out.push(
             Finding::new(
                 DoctorCause::NothingActs,

@@ -1,0 +1,248 @@
+//! Modes of steady sliding: `(λ² M + λ C + K) x = 0` with the unsymmetric matrices of friction.
+
+use std::f64::consts::TAU;
+
+use super::linear::{Linear, Pair, add_pairs};
+use super::outcome::{Export, ModalOutcome, Mode};
+use super::quadratic::{Eigen, residual, solve};
+use super::shifted::{Root, Shifted};
+use super::{map, sensitivity};
+use crate::error::RunError;
+use crate::linear::{BlockCsr, Complex};
+use crate::math::vector::dot;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::modal::ComplexPlan;
+
+/// Residual of the equations of motion above which a note says so.
+const DOUBTFUL: f64 = 1e-6;
+
+/// The modes that a step asks for.
+pub(crate) fn modes(
+    model: &Model,
+    frame: &Frame,
+    linear: &Linear,
+    plan: &ComplexPlan,
+) -> Result<ModalOutcome, RunError> {
+    let shifted = Shifted::new(linear, frame, true)?;
+    let mut root = Root::new(&shifted, frame)?;
+    let mut solves = 0;
+    let asked = (plan.count, plan.to);
+    let found = solve(&shifted, &root, asked, false, &mut solves);
+    let mut out = ModalOutcome {
+        step: model.steps[frame.step].name.clone(),
+        complex: true,
+        sliding: linear.sliding.clone(),
+        points: linear.points,
+        shapes: plan.shapes,
+        notes: notes(linear),
+        ..ModalOutcome::default()
+    };
+    for eigen in &found {
+        let mut mode = mode(linear, eigen);
+        mode.shape.iter_mut().for_each(|x| model.links.impose(x));
+        out.modes.push(mode);
+    }
+    let worst = out.modes.iter().fold(0.0, |w: f64, m| w.max(m.residual));
+    if worst > DOUBTFUL {
+        out.notes.push(format!(
+            "the equations of motion are left open by {worst:.1e} in the worst mode: ask for fewer modes"
+        ));
+    }
+    if plan.sensitivity {
+        out.sensitivities = sensitivity::all(model, &shifted, &mut root, &found, &mut solves);
+    }
+    if let Some(plan_of_map) = &plan.map {
+        let map = map::friction(&shifted, &mut root, plan_of_map, asked, &mut solves);
+        out.notes.extend(map::notes(&map));
+        out.map = Some(map);
+    }
+    if plan.export {
+        out.export = matrices(&shifted);
+    }
+    out.solves = solves;
+    Ok(out)
+}
+
+/// `xᴴ y` of complex vectors.
+fn hermitian(x: &[Vec<f64>; 2], y: &[Vec<f64>; 2]) -> Complex {
+    [
+        dot(&x[0], &y[0]) + dot(&x[1], &y[1]),
+        dot(&x[0], &y[1]) - dot(&x[1], &y[0]),
+    ]
+}
+
+/// A mode with its figures.
+fn mode(linear: &Linear, eigen: &Eigen) -> Mode {
+    let [growth, omega] = eigen.value;
+    let mut shape = eigen.vector.clone();
+    let largest =
+        (0..linear.size())
+            .map(|i| [shape[0][i], shape[1][i]])
+            .fold([0.0, 0.0], |m: Complex, z| {
+                if z[0].hypot(z[1]) > m[0].hypot(m[1]) {
+                    z
+                } else {
+                    m
+                }
+            });
+    let [re, im] = [0, 1].map(|k| shape[k].clone());
+    let mass = hermitian(
+        &shape,
+        &[0, 1].map(|k| linear.times(&linear.mass, &shape[k])),
+    )[0];
+    // A mode has neither size nor phase: mass one, and the largest displacement is real.
+    let scale = 1.0 / (largest[0].hypot(largest[1]) * mass.max(f64::MIN_POSITIVE).sqrt());
+    let turn = [scale * largest[0], -scale * largest[1]];
+    for i in 0..linear.size() {
+        shape[0][i] = turn[0] * re[i] - turn[1] * im[i];
+        shape[1][i] = turn[0] * im[i] + turn[1] * re[i];
+    }
+    let size = growth.hypot(omega);
+    Mode {
+        frequency: omega / TAU,
+        growth,
+        damping_ratio: if size > 0.0 { -growth / size } else { 0.0 },
+        residual: residual(linear, eigen, 1.0),
+        feed: feed(linear, &shape, omega),
+        shape,
+        ..Mode::default()
+    }
+}
+
+/// The parts of the growth by interface, and that of damping: `(Im xᴴ K x + ω Re xᴴ C x) / (-2 ω xᴴ M x)`, whose sum is the growth.
+fn feed(linear: &Linear, shape: &[Vec<f64>; 2], omega: f64) -> Vec<f64> {
+    let mass = hermitian(
+        shape,
+        &[0, 1].map(|k| linear.times(&linear.mass, &shape[k])),
+    )[0];
+    let of = |k: &[&Pair], c: &[&Pair]| -> f64 {
+        let forces = |pairs: &[&Pair]| {
+            [0, 1].map(|q| {
+                let mut out = vec![0.0; linear.size()];
+                add_pairs(pairs.iter().copied(), 1.0, &shape[q], &mut out);
+                out
+            })
+        };
+        let stiffness = hermitian(shape, &forces(k))[1];
+        let damping = hermitian(shape, &forces(c))[0];
+        let divisor = -2.0 * mass;
+        if omega == 0.0 {
+            return damping / divisor;
+        }
+        (stiffness / omega + damping) / divisor
+    };
+    let mut all: Vec<f64> = (0..linear.sliding.len())
+        .map(|i| {
+            let own = |pairs: &'_ [Pair]| -> Vec<usize> {
+                let all = pairs.iter().enumerate();
+                all.filter(|(_, p)| p.interface == i)
+                    .map(|(k, _)| k)
+                    .collect()
+            };
+            let k: Vec<&Pair> = own(&linear.friction)
+                .into_iter()
+                .map(|k| &linear.friction[k])
+                .collect();
+            let c: Vec<&Pair> = own(&linear.drag)
+                .into_iter()
+                .map(|k| &linear.drag[k])
+                .collect();
+            of(&k, &c)
+        })
+        .collect();
+    let damped = [0, 1].map(|k| linear.damped(&shape[k]));
+    all.push(-hermitian(shape, &damped)[0] / (2.0 * mass));
+    all
+}
+
+fn notes(linear: &Linear) -> Vec<String> {
+    let mut notes = Vec::new();
+    let [stick, steady, others] = linear.points;
+    if steady == 0 {
+        notes.push("nothing slides all the time: give an interface a `primary-velocity`, or `steady.turning`, and press its surfaces in a step with `steady` before".into());
+    }
+    if others > 0 {
+        notes.push(format!(
+            "{others} points slide without a direction that lasts: they have no stiffness along the surface, and no friction"
+        ));
+    }
+    if stick > 0 && steady > 0 {
+        notes.push(format!(
+            "{stick} points stick: they have all of their stiffness along the surface"
+        ));
+    }
+    if linear.damping.is_none() {
+        notes.push("no body has damping: how many modes are unstable depends on the mesh, as finer ones have more of them; their growth rates converge".into());
+    }
+    notes
+}
+
+/// The matrices for other programs, over the unknowns.
+fn matrices(shifted: &Shifted) -> Vec<Export> {
+    let linear = shifted.linear;
+    let free: Vec<usize> = (0..linear.size()).filter(|&i| !linear.fixed[i]).collect();
+    let mut number = vec![usize::MAX; linear.size()];
+    for (k, &dof) in free.iter().enumerate() {
+        number[dof] = k;
+    }
+    let n = free.len();
+    let damping = linear.damping.as_ref().map(|c| ("damping", c));
+    let both = [("stiffness", &linear.stiffness), ("mass", &linear.mass)];
+    let symmetric = both
+        .into_iter()
+        .chain(damping)
+        .map(|(name, matrix)| Export {
+            name: name.into(),
+            shape: [n, n],
+            symmetric: true,
+            entries: lower(matrix, &free, &number),
+        });
+    let mut out: Vec<Export> = symmetric.collect();
+    let sides = [("friction", &linear.friction), ("drag", &linear.drag)];
+    for (name, pairs) in sides {
+        for (side, left) in [("left", true), ("right", false)] {
+            let rows = pairs.iter().map(|p| if left { &p.left } else { &p.right });
+            let entries = rows.enumerate().flat_map(|(k, row)| {
+                let number = &number;
+                row.iter().map(move |&(dof, v)| (number[dof], k, v))
+            });
+            out.push(Export {
+                name: format!("{name}-{side}"),
+                shape: [n, pairs.len()],
+                symmetric: false,
+                entries: entries.collect(),
+            });
+        }
+    }
+    let unknowns = free.iter().enumerate().map(|(k, &dof)| (k, 0, dof as f64));
+    out.push(Export {
+        name: "dofs".into(),
+        shape: [n, 1],
+        symmetric: false,
+        entries: unknowns.collect(),
+    });
+    out
+}
+
+/// The lower triangle of a symmetric matrix over the unknowns.
+fn lower(matrix: &BlockCsr, free: &[usize], number: &[usize]) -> Vec<(usize, usize, f64)> {
+    let b = matrix.block_size();
+    let mut entries = Vec::new();
+    for (i, &row) in free.iter().enumerate() {
+        for &point in matrix.neighbours(row / b) {
+            let first = point as usize * b;
+            for (k, &j) in number[first..first + b].iter().enumerate() {
+                let value = if j <= i {
+                    matrix.entry(row, first + k)
+                } else {
+                    0.0
+                };
+                if value != 0.0 {
+                    entries.push((i, j, value));
+                }
+            }
+        }
+    }
+    entries
+}

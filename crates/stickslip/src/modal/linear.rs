@@ -1,0 +1,357 @@
+//! The model linearised about the state that it has reached.
+
+use std::collections::BTreeSet;
+
+use crate::body::MassKind;
+use crate::contact::interface::LinearPoint;
+use crate::contact::response::Status;
+use crate::error::RunError;
+use crate::linear::BlockCsr;
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::solve::inertia::Inertia;
+use crate::solve::solver::Solver;
+use crate::system::{ContactBlock, Links, Stage};
+
+/// By how much stiffer equations between displacements are taken than Newton's method takes them.
+const FIRMER: f64 = 10.0;
+
+/// Part of a step after which what acts in it acts.
+const SOON: f64 = 1e-3;
+
+/// A row over dofs.
+pub(crate) type Sparse = Vec<(usize, f64)>;
+
+/// A matrix of rank one, `left rightᵀ`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pair {
+    pub left: Sparse,
+    pub right: Sparse,
+    /// Index of the interface in [`Linear::sliding`].
+    pub interface: usize,
+}
+
+/// Matrices of small motions: `M ẍ + (C + f Σ drag) ẋ + (K + f Σ friction) x = 0` with the friction `f` relative to that of the state.
+pub(crate) struct Linear {
+    /// Bodies, springs, couplings and closed contacts, symmetric.
+    pub stiffness: BlockCsr,
+    /// Masses.
+    pub mass: BlockCsr,
+    /// Bodies, dashpots and the approach of surfaces, symmetric.
+    pub damping: Option<BlockCsr>,
+    /// What friction adds to the stiffness: shear that follows the pressure.
+    pub friction: Vec<Pair>,
+    /// What friction adds to the damping: shear that turns with the sliding, and follows its speed.
+    pub drag: Vec<Pair>,
+    /// Dofs that are no unknowns.
+    pub fixed: Vec<bool>,
+    /// Interfaces that slide all the time.
+    pub sliding: Vec<String>,
+    /// Points that stick, slide all the time, and slide otherwise.
+    pub points: [usize; 3],
+    /// Mean coefficient of friction where sliding lasts.
+    pub mu: f64,
+}
+
+impl Linear {
+    pub fn new(
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &Solver,
+    ) -> Result<Self, RunError> {
+        let step = &model.steps[frame.step];
+        let t = step.start + SOON * (step.end - step.start);
+        let fixed = frame.constraints(model, t).fixed;
+        (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
+        let mut parts = Parts::default();
+        for (row, stiffness, damping) in contact.couplings.linearise(t, FIRMER) {
+            let block = ContactBlock {
+                dofs: row.dofs.clone(),
+                rows: row.factors.clone(),
+                ..ContactBlock::default()
+            };
+            parts.couple(&model.links, block, (stiffness, damping));
+        }
+        let lines = points(frame, contact, t, step.end - step.start);
+        let mut linear = Linear {
+            stiffness: BlockCsr::empty(model.dofs.dim),
+            mass: BlockCsr::empty(model.dofs.dim),
+            damping: None,
+            friction: Vec::new(),
+            drag: Vec::new(),
+            fixed,
+            sliding: Vec::new(),
+            points: [0; 3],
+            mu: 0.0,
+        };
+        linear.add_all(model, &lines, &mut parts);
+        parts.assemble(model, contact, solver, &mut linear);
+        match linear.stiffness.first_not_finite() {
+            None => Ok(linear),
+            Some(_) => Err(fault(frame, "the linearised stiffness is not finite")),
+        }
+    }
+
+    /// Adds the points of all interfaces.
+    fn add_all(&mut self, model: &Model, lines: &[(String, Vec<LinearPoint>)], parts: &mut Parts) {
+        let (mut limit, mut pressure) = (0.0, 0.0);
+        for (name, points) in lines {
+            if points.iter().any(|p| p.steady) {
+                self.sliding.push(name.clone());
+            }
+            for point in points {
+                self.count(point);
+                if point.steady {
+                    limit += point.area * point.limit;
+                    pressure += point.area * point.pressure;
+                }
+                self.add(model, point, parts);
+            }
+        }
+        self.mu = if pressure > 0.0 {
+            limit / pressure
+        } else {
+            0.0
+        };
+    }
+
+    fn count(&mut self, point: &LinearPoint) {
+        let which = match (point.status, point.steady) {
+            (Status::Stick, _) => 0,
+            (_, true) => 1,
+            _ => 2,
+        };
+        self.points[which] += 1;
+    }
+
+    /// Adds a contact point.
+    fn add(&mut self, model: &Model, point: &LinearPoint, parts: &mut Parts) {
+        let n = point.dofs.len();
+        let block = ContactBlock {
+            dofs: point.dofs.clone(),
+            rows: point.rows.clone(),
+            change: vec![0.0; 3 * n],
+            ..ContactBlock::default()
+        };
+        let block = model.links.transform(&block).unwrap_or(block);
+        let n = block.dofs.len();
+        let row = |q: usize| &block.rows[q * n..(q + 1) * n];
+        // Against the gap, and against slip where it sticks; all of it is symmetric.
+        for (q, own) in point.stiffness.iter().enumerate() {
+            for (j, k) in own.iter().enumerate() {
+                let shear = q > 0 && j > 0 && !point.steady;
+                let mean = 0.5 * (k + point.stiffness[j][q]);
+                if (q + j == 0 || shear) && mean != 0.0 {
+                    parts.dense(&block.dofs, (row(q), row(j)), mean, false);
+                }
+            }
+        }
+        let approach = point.damping[0][0];
+        if approach != 0.0 {
+            parts.dense(&block.dofs, (row(0), row(0)), approach, true);
+        }
+        if point.steady {
+            self.add_friction(point, &block);
+        }
+    }
+
+    /// Adds what friction does at a point that slides all the time.
+    fn add_friction(&mut self, point: &LinearPoint, block: &ContactBlock) {
+        let n = block.dofs.len();
+        let (k, c) = (point.stiffness, point.damping);
+        let interface = self.sliding.len() - 1;
+        let sum = |factors: [f64; 3]| -> Sparse {
+            let rows = block.rows.chunks_exact(n).zip(factors);
+            let mut sum = vec![0.0; n];
+            for (row, factor) in rows {
+                sum.iter_mut().zip(row).for_each(|(s, r)| *s += factor * r);
+            }
+            let entries = block.dofs.iter().copied().zip(sum);
+            let kept = entries.filter(|(dof, v)| !self.fixed[*dof] && *v != 0.0);
+            kept.collect()
+        };
+        let unit = |q: usize| std::array::from_fn(|i| if i == q { 1.0 } else { 0.0 });
+        let pair = |left: [f64; 3], right: [f64; 3]| Pair {
+            left: sum(left),
+            right: sum(right),
+            interface,
+        };
+        let friction = pair([0.0, k[1][0], k[2][0]], unit(0));
+        let drags = [
+            pair([0.0, c[1][0], c[2][0]], unit(0)),
+            pair(unit(1), [0.0, c[1][1], c[1][2]]),
+            pair(unit(2), [0.0, c[2][1], c[2][2]]),
+        ];
+        let acts = |p: &Pair| !p.left.is_empty() && !p.right.is_empty();
+        self.friction.extend(Some(friction).filter(acts));
+        self.drag.extend(drags.into_iter().filter(acts));
+    }
+
+    /// Entries of a vector.
+    pub fn size(&self) -> usize {
+        self.fixed.len()
+    }
+
+    /// How many unknowns there are.
+    pub fn free(&self) -> usize {
+        self.fixed.iter().filter(|f| !**f).count()
+    }
+
+    /// `out = A x` without the rows of what is fixed.
+    pub fn times(&self, matrix: &BlockCsr, x: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; x.len()];
+        matrix.mul(x, &mut out);
+        for (o, &fixed) in out.iter_mut().zip(&self.fixed) {
+            if fixed {
+                *o = 0.0;
+            }
+        }
+        out
+    }
+
+    /// `C x` of what has a symmetric damping.
+    pub fn damped(&self, x: &[f64]) -> Vec<f64> {
+        match &self.damping {
+            Some(damping) => self.times(damping, x),
+            None => vec![0.0; x.len()],
+        }
+    }
+}
+
+/// `out += factor Σ left (rightᵀ x)`.
+pub(crate) fn add_pairs<'a>(
+    pairs: impl IntoIterator<Item = &'a Pair>,
+    factor: f64,
+    x: &[f64],
+    out: &mut [f64],
+) {
+    for pair in pairs {
+        let along = factor * product(&pair.right, x);
+        pair.left.iter().for_each(|&(dof, v)| out[dof] += along * v);
+    }
+}
+
+/// `rowᵀ x`.
+pub(crate) fn product(row: &Sparse, x: &[f64]) -> f64 {
+    row.iter().map(|&(dof, v)| v * x[dof]).sum()
+}
+
+/// An error at the time of the state.
+pub(crate) fn fault(frame: &Frame, message: impl Into<String>) -> RunError {
+    RunError {
+        message: message.into(),
+        time: frame.state.t,
+        culprits: Vec::new(),
+        help: None,
+    }
+}
+
+/// Contact points by interface, at the state that was reached.
+fn points(
+    frame: &Frame,
+    contact: &mut Contact,
+    t: f64,
+    dt: f64,
+) -> Vec<(String, Vec<LinearPoint>)> {
+    let from = &frame.state;
+    let mut at = from.clone();
+    at.t = t;
+    let stage = Stage {
+        from,
+        at: &at,
+        dt,
+        rate: None,
+    };
+    let interfaces = contact.interfaces.iter_mut();
+    let lines = interfaces.map(|i| (i.name.clone(), i.linearise(&stage)));
+    lines.collect()
+}
+
+/// Dense symmetric blocks between points.
+#[derive(Default)]
+struct Parts {
+    stiffness: Vec<(Vec<usize>, Vec<f64>)>,
+    damping: Vec<(Vec<usize>, Vec<f64>)>,
+}
+
+impl Parts {
+    /// Adds a row of a coupling with its stiffness and damping.
+    fn couple(&mut self, links: &Links, block: ContactBlock, values: (f64, f64)) {
+        let mut block = block;
+        let n = block.dofs.len();
+        block.rows.resize(3 * n, 0.0);
+        block.change = vec![0.0; 3 * n];
+        let block = links.transform(&block).unwrap_or(block);
+        let row = &block.rows[..block.dofs.len()];
+        for (value, damping) in [(values.0, false), (values.1, true)] {
+            if value != 0.0 {
+                self.dense(&block.dofs, (row, row), value, damping);
+            }
+        }
+    }
+
+    /// Adds `value a bᵀ`, by dofs as they come.
+    fn dense(&mut self, dofs: &[usize], (a, b): (&[f64], &[f64]), value: f64, damping: bool) {
+        let n = dofs.len();
+        let values = (0..n * n).map(|k| value * a[k / n] * b[k % n]).collect();
+        let to = if damping {
+            &mut self.damping
+        } else {
+            &mut self.stiffness
+        };
+        match to.last_mut() {
+            Some((known, sum)) if known == dofs => {
+                let values: Vec<f64> = values;
+                sum.iter_mut().zip(values).for_each(|(s, v)| *s += v);
+            }
+            _ => to.push((dofs.to_vec(), values)),
+        }
+    }
+
+    /// Puts bodies and blocks together.
+    fn assemble(self, model: &Model, contact: &Contact, solver: &Solver, linear: &mut Linear) {
+        let dim = model.dofs.dim;
+        let stiffness: Vec<_> = self.stiffness.iter().map(|b| by_points(b, dim)).collect();
+        let damping: Vec<_> = self.damping.iter().map(|b| by_points(b, dim)).collect();
+        let mut all = stiffness.clone();
+        // One pattern for all matrices.
+        all.extend(damping.iter().map(|(p, d)| (p.clone(), vec![0.0; d.len()])));
+        linear.stiffness = match all.is_empty() {
+            true => (*solver.stiffness).clone(),
+            false => solver.stiffness.with_groups(&all),
+        };
+        let kind = MassKind::default();
+        let inertia = Inertia::of_modes((model, contact), &linear.stiffness, kind);
+        let (mass, rayleigh) = inertia.into_matrices();
+        linear.mass = mass;
+        linear.damping = rayleigh;
+        if !damping.is_empty() {
+            let matrix = linear
+                .damping
+                .get_or_insert_with(|| linear.mass.zeros_like());
+            for (points, dense) in &damping {
+                matrix.add_group(points, dense);
+            }
+        }
+    }
+}
+
+/// A block by dofs as one over all dofs of its points.
+fn by_points((dofs, dense): &(Vec<usize>, Vec<f64>), dim: usize) -> (Vec<usize>, Vec<f64>) {
+    let points: BTreeSet<usize> = dofs.iter().map(|d| d / dim).collect();
+    let points: Vec<usize> = points.into_iter().collect();
+    let width = points.len() * dim;
+    let place = |dof: usize| -> usize {
+        let at = points.binary_search(&(dof / dim)).unwrap_or_default();
+        at * dim + dof % dim
+    };
+    let mut out = vec![0.0; width * width];
+    for (row, &i) in dense.chunks_exact(dofs.len()).zip(dofs) {
+        for (value, &j) in row.iter().zip(dofs) {
+            out[place(i) * width + place(j)] += value;
+        }
+    }
+    (points, out)
+}

@@ -1,0 +1,348 @@
+//! Growth over friction: many coefficients at the price of few solutions.
+//!
+//! The space is that of the lowest real modes and of the displacements that their friction causes at rest, `A⁻¹ L Rᵀ φ`, which is all that first-order
+//! perturbation of a mode needs; modes alone would leave the local give of the surfaces out, by which normal motion and friction meet. Images of images follow
+//! while residuals ask for them. In that space a coefficient of friction costs a dense eigenvalue problem.
+
+use std::f64::consts::TAU;
+
+use super::linear::{Pair, add_pairs, product};
+use super::outcome::{FrictionMap, MapRow};
+use super::quadratic::{Eigen, UNSTABLE, residual};
+use super::real::lowest;
+use super::shifted::{Root, Shifted};
+use crate::linear::{Complex, DenseLu, general};
+use crate::math::vector::{dot, norm};
+use crate::model::modal::MapPlan;
+
+/// Rounds of images at most.
+const ROUNDS: usize = 3;
+
+/// Residual of modes in the equations of all dofs that is good enough.
+const GOOD: f64 = 1e-6;
+
+/// Part of a vector that has to be left after orthogonalisation.
+const DEPENDENT: f64 = 1e-9;
+
+/// How far from a critical factor its slope is looked for, relative to the largest.
+const NEAR: f64 = 1e-6;
+
+/// Width to which a critical factor is known, relative to the largest.
+const WIDTH: f64 = 1e-13;
+
+/// The model in a space of few displacements, orthonormal in the product of the factored matrix.
+struct Reduced {
+    basis: Vec<Vec<f64>>,
+    stiffness: Vec<f64>,
+    mass: Vec<f64>,
+    damping: Vec<f64>,
+    friction: Vec<f64>,
+    drag: Vec<f64>,
+    sigma: f64,
+    /// By what velocities are divided.
+    pace: f64,
+}
+
+/// A map over friction of the modes of least frequency.
+pub(crate) fn friction(
+    shifted: &Shifted,
+    root: &mut Root,
+    plan: &MapPlan,
+    (count, to): (usize, f64),
+    solves: &mut usize,
+) -> FrictionMap {
+    let linear = shifted.linear;
+    let asked = (2 * count + 8).min(linear.free());
+    let modes = lowest(shifted, asked, f64::INFINITY);
+    *solves += modes.solves;
+    let pace = modes.values.get(count / 2).map_or(1.0, |v| v.abs().sqrt());
+    let pace = if pace > 0.0 { pace } else { 1.0 };
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut block = extend(shifted, &mut basis, modes.vectors);
+    let mut reduced = Reduced::new(shifted, basis, pace);
+    let largest = plan.range[1].abs().max(plan.range[0].abs());
+    for _ in 0..ROUNDS {
+        let images = images(shifted, &block, pace, solves);
+        let mut basis = std::mem::take(&mut reduced.basis);
+        block = extend(shifted, &mut basis, images);
+        reduced = Reduced::new(shifted, basis, pace);
+        let worst = reduced.modes(largest, (count, to), true);
+        let worst = worst.iter().map(|(_, y)| residual(linear, y, largest));
+        if block.is_empty() || worst.fold(0.0, f64::max) <= GOOD {
+            break;
+        }
+    }
+    root.set(1.0, false);
+    let mut map = FrictionMap {
+        mu: linear.mu,
+        dimension: reduced.basis.len(),
+        ..FrictionMap::default()
+    };
+    let [from, last] = plan.range;
+    let step = (last - from) / (plan.points.max(2) - 1) as f64;
+    for k in 0..plan.points.max(2) {
+        let factor = if k + 1 == plan.points {
+            last
+        } else {
+            from + step * k as f64
+        };
+        let modes = reduced.modes(factor, (count, to), true);
+        for (value, eigen) in &modes {
+            if value[0] > UNSTABLE * value[0].hypot(value[1]) {
+                map.residual = map.residual.max(residual(linear, eigen, factor));
+            }
+        }
+        let modes = modes.iter().map(|(v, _)| [v[1] / TAU, v[0]]).collect();
+        map.rows.push(MapRow { factor, modes });
+    }
+    map.critical = reduced.critical(&map.rows, (count, to));
+    if linear.damping.is_some() && !map.critical.is_empty() {
+        reduced.damping.fill(0.0);
+        let rows = map.rows.iter().map(|row| MapRow {
+            factor: row.factor,
+            modes: Vec::new(),
+        });
+        let undamped = reduced.critical(&rows.collect::<Vec<_>>(), (count, to));
+        map.undamped = undamped.first().map(|c| c[0]);
+    }
+    map
+}
+
+/// What there is to be said of a map.
+pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
+    let mut notes = Vec::new();
+    match map.critical.first() {
+        Some([factor, frequency]) => notes.push(format!(
+            "sliding becomes unstable at {factor:.6} times the friction of the step (mu {:.6}), with the frequency {frequency:.6e}",
+            factor * map.mu
+        )),
+        None => notes.push("no change of stability in the range of the map".into()),
+    }
+    if let (Some(undamped), Some([factor, _])) = (map.undamped, map.critical.first())
+        && *factor < undamped * (1.0 - 1e-6)
+    {
+        notes.push(format!(
+            "damping makes it unstable earlier: without it the factor is {undamped:.6}. Where two modes couple, unequal damping of them does that"
+        ));
+    }
+    if map.residual > GOOD {
+        notes.push(format!(
+            "unstable modes of the map leave the equations of all dofs open by {:.1e}: ask for more modes",
+            map.residual
+        ));
+    }
+    notes
+}
+
+/// Displacements at rest under the friction of others.
+fn images(shifted: &Shifted, block: &[Vec<f64>], pace: f64, solves: &mut usize) -> Vec<Vec<f64>> {
+    let linear = shifted.linear;
+    let n = linear.size();
+    let mut columns = Vec::new();
+    for x in block {
+        for (pairs, factor) in [(&linear.friction, 1.0), (&linear.drag, pace)] {
+            if pairs.is_empty() {
+                continue;
+            }
+            let mut column = vec![0.0; n];
+            add_pairs(pairs, factor, x, &mut column);
+            columns.push(column);
+        }
+        if linear.damping.is_some() {
+            columns.push(linear.damped(x).iter().map(|c| pace * c).collect());
+        }
+    }
+    let count = columns.len();
+    let mut columns = columns.concat();
+    shifted.factor.solve_columns(&mut columns, count);
+    *solves += count;
+    columns.chunks_exact(n).map(<[f64]>::to_vec).collect()
+}
+
+/// Adds vectors to a basis; returns those parts of them that are new.
+fn extend(shifted: &Shifted, basis: &mut Vec<Vec<f64>>, more: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let linear = shifted.linear;
+    let product = |x: &[f64]| -> Vec<f64> {
+        let mut out = linear.times(&linear.stiffness, x);
+        if shifted.sigma > 0.0 {
+            let mass = linear.times(&linear.mass, x);
+            let damped = linear.damped(x);
+            for ((o, m), c) in out.iter_mut().zip(mass).zip(damped) {
+                *o += shifted.shift() * m + shifted.sigma * c;
+            }
+        }
+        out
+    };
+    let images: Vec<Vec<f64>> = basis.iter().map(|x| product(x)).collect();
+    let mut pairs: Vec<(Vec<f64>, Vec<f64>)> =
+        std::mem::take(basis).into_iter().zip(images).collect();
+    let first = pairs.len();
+    for mut x in more {
+        let before = dot(&x, &product(&x)).max(0.0).sqrt();
+        for _ in 0..2 {
+            for (q, aq) in &pairs {
+                let part = dot(aq, &x);
+                x.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
+            }
+        }
+        let left = dot(&x, &product(&x)).max(0.0).sqrt();
+        if left > DEPENDENT * before && pairs.len() < linear.free() {
+            x.iter_mut().for_each(|v| *v /= left);
+            let image = product(&x);
+            pairs.push((x, image));
+        }
+    }
+    *basis = pairs.into_iter().map(|(x, _)| x).collect();
+    basis[first..].to_vec()
+}
+
+impl Reduced {
+    fn new(shifted: &Shifted, basis: Vec<Vec<f64>>, pace: f64) -> Self {
+        let linear = shifted.linear;
+        let r = basis.len();
+        let symmetric = |image: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<f64> {
+            let images: Vec<Vec<f64>> = basis.iter().map(|x| image(x)).collect();
+            (0..r * r)
+                .map(|k| dot(&basis[k / r], &images[k % r]))
+                .collect()
+        };
+        let of = |pairs: &[Pair]| -> Vec<f64> {
+            let mut out = vec![0.0; r * r];
+            for pair in pairs {
+                let left: Vec<f64> = basis.iter().map(|x| product(&pair.left, x)).collect();
+                let right: Vec<f64> = basis.iter().map(|x| product(&pair.right, x)).collect();
+                for (row, l) in out.chunks_exact_mut(r).zip(left) {
+                    row.iter_mut().zip(&right).for_each(|(o, x)| *o += l * x);
+                }
+            }
+            out
+        };
+        Reduced {
+            stiffness: symmetric(&|x| linear.times(&linear.stiffness, x)),
+            mass: symmetric(&|x| linear.times(&linear.mass, x)),
+            damping: symmetric(&|x| linear.damped(x)),
+            friction: of(&linear.friction),
+            drag: of(&linear.drag),
+            sigma: shifted.sigma,
+            pace,
+            basis,
+        }
+    }
+
+    /// The companion form about the shift, velocities over the pace.
+    fn companion(&self, factor: f64) -> Vec<f64> {
+        let r = self.basis.len();
+        let s = self.sigma;
+        let sum = |k: usize, parts: [f64; 5]| {
+            parts[0] * self.stiffness[k]
+                + parts[1] * self.damping[k]
+                + parts[2] * self.mass[k]
+                + parts[3] * self.friction[k]
+                + parts[4] * self.drag[k]
+        };
+        let p: Vec<f64> = (0..r * r)
+            .map(|k| sum(k, [1.0, s, s * s, factor, s * factor]))
+            .collect();
+        let lu = DenseLu::new(r, &p);
+        let n = 2 * r;
+        let mut out = vec![0.0; n * n];
+        for j in 0..n {
+            let (column, velocity) = (j % r, j >= r);
+            let mut b: Vec<f64> = (0..r)
+                .map(|i| match velocity {
+                    true => -self.pace * self.mass[i * r + column],
+                    false => -sum(i * r + column, [0.0, 1.0, s, 0.0, factor]),
+                })
+                .collect();
+            lu.solve(&mut b);
+            for (i, w) in b.iter().enumerate() {
+                let own = if !velocity && i == column { 1.0 } else { 0.0 };
+                out[i * n + j] = *w;
+                out[(r + i) * n + j] = (own + s * w) / self.pace;
+            }
+        }
+        out
+    }
+
+    /// Modes of least size, by frequency; with their displacements where `shapes` are wanted.
+    fn modes(&self, factor: f64, (count, to): (usize, f64), shapes: bool) -> Vec<(Complex, Eigen)> {
+        let n = 2 * self.basis.len();
+        let Some((values, vectors)) = general(n, &self.companion(factor)) else {
+            return Vec::new();
+        };
+        let size = |z: &Complex| z[0].hypot(z[1]);
+        let largest = values.iter().map(size).fold(0.0, f64::max);
+        let mut all: Vec<(Complex, Vec<Complex>)> = values
+            .into_iter()
+            .zip(vectors)
+            .filter(|(z, _)| z[1] >= 0.0 && size(z) > 1e-13 * largest)
+            .collect();
+        all.sort_by(|a, b| size(&b.0).total_cmp(&size(&a.0)));
+        all.truncate(count);
+        let mut out: Vec<(Complex, Eigen)> = all
+            .into_iter()
+            .map(|(z, y)| {
+                let square = z[0] * z[0] + z[1] * z[1];
+                let value = [self.sigma + z[0] / square, z[1] / square];
+                let part = |k: usize, sign: f64| {
+                    let mut x = vec![0.0; self.basis[0].len()];
+                    for (q, y) in self.basis.iter().zip(&y).take(if shapes { n } else { 0 }) {
+                        x.iter_mut().zip(q).for_each(|(x, q)| *x += sign * y[k] * q);
+                    }
+                    x
+                };
+                let vector = [part(0, 1.0), part(1, -1.0)];
+                (value, Eigen { value, vector })
+            })
+            .filter(|(v, _)| v[1] <= TAU * to)
+            .collect();
+        out.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]).then(a.0[0].total_cmp(&b.0[0])));
+        out
+    }
+
+    /// The mode that grows fastest, relative to its size.
+    fn fastest(&self, factor: f64, asked: (usize, f64)) -> Complex {
+        let modes = self.modes(factor, asked, false);
+        let rate = |v: &Complex| v[0] / v[0].hypot(v[1]).max(f64::MIN_POSITIVE);
+        let values = modes.into_iter().map(|(v, _)| v);
+        let fastest = values.max_by(|a, b| rate(a).total_cmp(&rate(b)));
+        fastest.unwrap_or_default()
+    }
+
+    /// Factors at which stability is lost between rows that are stable and rows that are not, with the frequency there.
+    fn critical(&self, rows: &[MapRow], asked: (usize, f64)) -> Vec<[f64; 2]> {
+        let grows = |v: &Complex, limit: f64| v[0] > limit * v[0].hypot(v[1]);
+        let fastest: Vec<Complex> = rows
+            .iter()
+            .map(|row| self.fastest(row.factor, asked))
+            .collect();
+        let mut out = Vec::new();
+        let largest = norm(&rows.iter().map(|r| r.factor).collect::<Vec<_>>());
+        for k in 1..rows.len() {
+            if grows(&fastest[k - 1], UNSTABLE) || !grows(&fastest[k], UNSTABLE) {
+                continue;
+            }
+            let (mut low, mut high) = (rows[k - 1].factor, rows[k].factor);
+            let mut value = fastest[k];
+            while high - low > WIDTH * largest {
+                let middle = 0.5 * (low + high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                let there = self.fastest(middle, asked);
+                match grows(&there, UNSTABLE) {
+                    true => (high, value) = (middle, there),
+                    false => low = middle,
+                }
+            }
+            // Without damping growth leaves zero with the root, and what is found is as near as rounding lets one see; with damping it goes through zero in
+            // proportion to friction, and the straight line says where.
+            let ahead = high + NEAR * largest;
+            let there = self.fastest(ahead, asked);
+            let slope = (there[0] - value[0]) / (ahead - high);
+            let back = if slope > 0.0 { value[0] / slope } else { 0.0 };
+            out.push([high - back.min(NEAR * largest), value[1] / TAU]);
+        }
+        out
+    }
+}

@@ -1,0 +1,132 @@
+//! What comes of a step without increments, as plain data.
+
+use serde::Serialize;
+
+/// Modes about a state.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct ModalOutcome {
+    /// Name of the step.
+    pub step: String,
+    /// Whether friction and damping have a part in them.
+    pub complex: bool,
+    /// The modes, by frequency.
+    pub modes: Vec<Mode>,
+    /// Directions of participation: `x`, `rotation-z`, ….
+    pub directions: Vec<String>,
+    /// Mass, or moment of inertia about the origin, by direction.
+    pub masses: Vec<f64>,
+    /// Interfaces that slide, of which modes say what they feed.
+    pub sliding: Vec<String>,
+    /// Contact points that stick, that slide all the time, and that slid without a direction that lasts.
+    pub points: [usize; 3],
+    /// Right-hand sides that were solved for.
+    pub solves: usize,
+    /// Whether shapes are wanted as fields.
+    pub shapes: bool,
+    /// Growth for other friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<FrictionMap>,
+    /// How eigenvalues change.
+    pub sensitivities: Vec<Sensitivity>,
+    /// Matrices by name, to be written.
+    #[serde(skip)]
+    pub export: Vec<Export>,
+    /// What a user should know.
+    #[serde(skip)]
+    pub notes: Vec<String>,
+}
+
+impl ModalOutcome {
+    /// The same without shapes and matrices.
+    pub(crate) fn figures(&self) -> Self {
+        let modes = self.modes.iter().map(|mode| Mode {
+            shape: [Vec::new(), Vec::new()],
+            ..mode.clone()
+        });
+        ModalOutcome {
+            modes: modes.collect(),
+            export: Vec::new(),
+            ..self.clone()
+        }
+    }
+}
+
+/// A mode: displacements go with `e^(λ t)`, `λ` = growth + 2π i frequency.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Mode {
+    /// Cycles per unit of time.
+    pub frequency: f64,
+    /// Rate at which it grows `[1/time]`; below zero it decays.
+    pub growth: f64,
+    /// Damping relative to the critical one: less than zero where it grows.
+    pub damping_ratio: f64,
+    /// What is left of the equations of motion, relative to the forces in them.
+    pub residual: f64,
+    /// By direction: `φᵀ M r` of the mode with `φᵀ M φ = 1`. Of real modes alone.
+    pub participation: Vec<f64>,
+    /// Its square: the mass that moves along.
+    pub effective_mass: Vec<f64>,
+    /// By interface that slides: the part of the growth that comes from it `[1/time]`; the last is that of damping.
+    pub feed: Vec<f64>,
+    /// Displacements by dof, real and imaginary part; the latter empty in a real mode.
+    #[serde(skip)]
+    pub shape: [Vec<f64>; 2],
+}
+
+/// Frequencies and growth over the friction relative to that of the step.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct FrictionMap {
+    /// Mean coefficient of friction of the step: limit over pressure, weighted by pressure.
+    pub mu: f64,
+    /// Dimension of the space in which the map was made.
+    pub dimension: usize,
+    /// Rows by factor.
+    pub rows: Vec<MapRow>,
+    /// Factors at which the largest growth rate comes up through zero, with the frequency there.
+    pub critical: Vec<[f64; 2]>,
+    /// The largest residual of unstable modes in the equations of motion of all dofs.
+    pub residual: f64,
+    /// Critical factor without the damping of bodies, where there is one and with damping the factor is less.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undamped: Option<f64>,
+}
+
+/// The modes of one factor.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct MapRow {
+    /// Friction relative to that of the step.
+    pub factor: f64,
+    /// Frequency and growth by mode.
+    pub modes: Vec<[f64; 2]>,
+}
+
+/// How the eigenvalue of a mode changes with a quantity, per relative change of it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Sensitivity {
+    /// Number of the mode, from 1.
+    pub mode: usize,
+    /// The quantity: `friction.pad`, `modulus.disc`, `density.disc`.
+    pub of: String,
+    /// Change of the growth rate `[1/time]`.
+    pub growth: f64,
+    /// Change of the frequency `[1/time]`.
+    pub frequency: f64,
+}
+
+/// A matrix as it is exported: entries by row and column, from 0.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Export {
+    /// Name of its file.
+    pub name: String,
+    /// Rows and columns.
+    pub shape: [usize; 2],
+    /// Whether it is symmetric: entries above the diagonal are left out.
+    pub symmetric: bool,
+    /// Row, column, value.
+    pub entries: Vec<(usize, usize, f64)>,
+}

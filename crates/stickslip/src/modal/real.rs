@@ -1,0 +1,150 @@
+//! Real modes: `K x = ω² M x` of bodies, couplings and closed contacts.
+
+use std::f64::consts::TAU;
+
+use super::linear::{Linear, fault};
+use super::outcome::{ModalOutcome, Mode};
+use super::participation::directions;
+use super::shifted::Shifted;
+use crate::error::RunError;
+use crate::linear::{Pencil, RealModes, Wanted, lanczos};
+use crate::math::vector::{dot, norm};
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::modal::RealPlan;
+
+/// Residual of the inverse problem at which a mode counts as found.
+const TOLERANCE: f64 = 1e-10;
+
+/// Squared frequencies below this part of the shift are those of motions without stiffness.
+const NOTHING: f64 = 1e-6;
+
+/// The modes that a step asks for.
+pub(crate) fn modes(
+    model: &Model,
+    frame: &Frame,
+    linear: &Linear,
+    plan: &RealPlan,
+) -> Result<ModalOutcome, RunError> {
+    let shifted = Shifted::new(linear, frame, false)?;
+    let [from, to] = plan.range;
+    let count = match from > 0.0 {
+        // Those below have to be found as well.
+        true => plan.count.saturating_add(linear.free()),
+        false => plan.count,
+    };
+    let count = count.min(linear.free());
+    let found = match from > 0.0 && to.is_infinite() {
+        true => above(&shifted, from, plan.count),
+        false => lowest(&shifted, count, (TAU * to).powi(2)),
+    };
+    if found.values.is_empty() && linear.mass.diagonal().iter().all(|m| *m == 0.0) {
+        let mut error = fault(frame, "nothing has a mass, so nothing vibrates");
+        error.help = Some("give the materials a density".into());
+        return Err(error);
+    }
+    let directions = directions(model, linear);
+    let mut out = ModalOutcome {
+        step: model.steps[frame.step].name.clone(),
+        directions: directions.iter().map(|d| d.name.into()).collect(),
+        masses: directions.iter().map(|d| d.total).collect(),
+        points: linear.points,
+        solves: found.solves,
+        shapes: plan.shapes,
+        notes: notes(linear, &found, &shifted),
+        ..ModalOutcome::default()
+    };
+    for (value, x) in found.values.iter().zip(found.vectors) {
+        let frequency = frequency(*value, shifted.shift());
+        if frequency < from || out.modes.len() == plan.count {
+            continue;
+        }
+        let participation: Vec<f64> = directions.iter().map(|d| dot(&d.mass, &x)).collect();
+        let mut shape = x;
+        let residual = residual(linear, *value, shifted.shift(), &shape);
+        model.links.impose(&mut shape);
+        out.modes.push(Mode {
+            frequency,
+            // Something buckles: it grows without a vibration.
+            growth: match *value < -NOTHING * shifted.shift() {
+                true => (-value).sqrt(),
+                false => 0.0,
+            },
+            residual,
+            effective_mass: participation.iter().map(|p| p * p).collect(),
+            participation,
+            shape: [shape, Vec::new()],
+            ..Mode::default()
+        });
+    }
+    Ok(out)
+}
+
+/// The lowest modes, up to `ω²`.
+pub(crate) fn lowest(shifted: &Shifted, count: usize, below: f64) -> RealModes {
+    let linear = shifted.linear;
+    let mass = |x: &[f64], y: &mut [f64]| y.copy_from_slice(&linear.times(&linear.mass, x));
+    let solve = |b: &mut [f64], columns: usize| shifted.factor.solve_columns(b, columns);
+    let pencil = Pencil {
+        size: linear.size(),
+        free: linear.free(),
+        mass: &mass,
+        solve: &solve,
+        shift: shifted.shift(),
+    };
+    let wanted = Wanted {
+        count,
+        below,
+        tolerance: TOLERANCE,
+    };
+    lanczos(&pencil, wanted)
+}
+
+/// So many modes above a frequency: as many from below as that takes.
+fn above(shifted: &Shifted, from: f64, count: usize) -> RealModes {
+    let mut wanted = 2 * count;
+    loop {
+        let found = lowest(shifted, wanted, f64::INFINITY);
+        let least = (TAU * from).powi(2);
+        let met = found.values.iter().filter(|v| **v >= least).count();
+        if met >= count || found.values.len() < wanted {
+            return found;
+        }
+        wanted *= 2;
+    }
+}
+
+/// Cycles per unit of time of `ω²`; zero of what has no stiffness.
+fn frequency(value: f64, shift: f64) -> f64 {
+    match value > NOTHING * shift {
+        true => value.sqrt() / TAU,
+        false => 0.0,
+    }
+}
+
+/// What is left of `K x - ω² M x`, relative to both.
+pub(crate) fn residual(linear: &Linear, value: f64, shift: f64, x: &[f64]) -> f64 {
+    let k = linear.times(&linear.stiffness, x);
+    let m = linear.times(&linear.mass, x);
+    let rest: Vec<f64> = k.iter().zip(&m).map(|(k, m)| k - value * m).collect();
+    let scale = norm(&k) + (value.abs() + shift) * norm(&m);
+    norm(&rest) / scale.max(f64::MIN_POSITIVE)
+}
+
+fn notes(linear: &Linear, found: &RealModes, shifted: &Shifted) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !found.complete {
+        notes.push("not all modes that were asked for have converged: those in the table have, others may be missing among them".into());
+    }
+    if shifted.sigma > 0.0 {
+        notes.push("something can move without strain: its modes have the frequency 0".into());
+    }
+    let [_, steady, others] = linear.points;
+    if steady + others > 0 {
+        notes.push(format!(
+            "{} points slide: they have no stiffness along the surface, and real modes know nothing of their friction",
+            steady + others
+        ));
+    }
+    notes
+}

@@ -1,0 +1,201 @@
+//! Solutions with the linearised matrices at a shift: one factor of the symmetric part, a dense matrix for what friction adds.
+
+use std::sync::Arc;
+
+use super::linear::{Linear, Pair, add_pairs, fault, product};
+use crate::error::RunError;
+use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic};
+use crate::model::frame::Frame;
+
+/// Most rows of the dense matrix of friction.
+const MOST_ROWS: usize = 8000;
+
+/// Columns that are solved for together.
+const COLUMNS: usize = 32;
+
+/// Shift where the stiffness alone is singular, relative to the largest squared frequency that the diagonals tell of.
+const SMALL: f64 = 1e-7;
+
+/// The factor of `A = K + σ C + σ² M`.
+pub(crate) struct Shifted<'a> {
+    pub linear: &'a Linear,
+    pub factor: Factor,
+    /// `σ ≥ 0` `[1/s]`.
+    pub sigma: f64,
+}
+
+impl<'a> Shifted<'a> {
+    /// Without a shift where the stiffness holds everything, with a small one where it does not. `damped`: with the damping of bodies.
+    pub fn new(linear: &'a Linear, frame: &Frame, damped: bool) -> Result<Self, RunError> {
+        let fixed = &linear.fixed;
+        let symbolic = Symbolic::analyze(&linear.stiffness, fixed, &[]);
+        let symbolic = Arc::new(symbolic.map_err(|e| fault(frame, e.to_string()))?);
+        let mut shift = 0.0;
+        for _ in 0..7 {
+            let sigma = f64::sqrt(shift);
+            let matrix = matrix(linear, sigma, damped);
+            match Factor::new(&symbolic, &matrix, &[]) {
+                Ok(factor) => {
+                    return Ok(Shifted {
+                        linear,
+                        factor,
+                        sigma,
+                    });
+                }
+                Err(LinearError::NotPositive { .. } | LinearError::Singular { .. }) => {
+                    let first = SMALL * highest(linear);
+                    shift = if shift == 0.0 { first } else { 30.0 * shift };
+                }
+                Err(e) => return Err(fault(frame, e.to_string())),
+            }
+            if !(shift > 0.0 && shift.is_finite()) {
+                break;
+            }
+        }
+        let mut error = fault(
+            frame,
+            "the linearised stiffness with masses cannot be factored: something moves that has neither stiffness nor mass",
+        );
+        error.help =
+            Some("give every material a density, and hold or weigh reference points".into());
+        Err(error)
+    }
+
+    /// The shift `σ²` `[1/s²]`.
+    pub fn shift(&self) -> f64 {
+        self.sigma * self.sigma
+    }
+}
+
+fn matrix(linear: &Linear, sigma: f64, damped: bool) -> BlockCsr {
+    let mut matrix = linear.stiffness.clone();
+    if sigma > 0.0 {
+        matrix.add_scaled(sigma * sigma, &linear.mass);
+        if let (true, Some(damping)) = (damped, &linear.damping) {
+            matrix.add_scaled(sigma, damping);
+        }
+    }
+    matrix
+}
+
+/// The largest ratio of stiffness to mass on the diagonals of what is free.
+pub(crate) fn highest(linear: &Linear) -> f64 {
+    let (k, m) = (linear.stiffness.diagonal(), linear.mass.diagonal());
+    let all = k.iter().zip(&m).zip(&linear.fixed);
+    let ratios = all.filter(|((_, m), fixed)| !**fixed && **m > 0.0);
+    ratios.map(|((k, m), _)| k / m).fold(0.0, f64::max)
+}
+
+/// Friction at the shift: `P = A + f L Rᵀ`, and the dense matrix `Rᵀ A⁻¹ L`.
+pub(crate) struct Root {
+    /// Pairs of stiffness and, times the shift, of damping.
+    pub pairs: Vec<Pair>,
+    /// `Rᵀ A⁻¹ L`, row by row.
+    w: Vec<f64>,
+    lu: DenseLu,
+    factor: f64,
+    /// Whether left and right rows have changed places: the transposed problem.
+    transposed: bool,
+}
+
+impl Root {
+    pub fn new(shifted: &Shifted, frame: &Frame) -> Result<Self, RunError> {
+        let linear = shifted.linear;
+        let mut pairs = linear.friction.clone();
+        if shifted.sigma > 0.0 {
+            pairs.extend(linear.drag.iter().map(|p| {
+                Pair {
+                    left: p
+                        .left
+                        .iter()
+                        .map(|(d, v)| (*d, shifted.sigma * v))
+                        .collect(),
+                    ..p.clone()
+                }
+            }));
+        }
+        let q = pairs.len();
+        if q > MOST_ROWS {
+            let mut error = fault(
+                frame,
+                format!(
+                    "{q} rows of friction are too many for the dense matrix of sliding points (at most {MOST_ROWS})"
+                ),
+            );
+            error.help = Some("mesh the sliding surface more coarsely".into());
+            return Err(error);
+        }
+        let n = linear.size();
+        let mut w = vec![0.0; q * q];
+        for (block, chunk) in pairs.chunks(COLUMNS).enumerate() {
+            let mut columns = vec![0.0; n * chunk.len()];
+            for (column, pair) in columns.chunks_exact_mut(n).zip(chunk) {
+                pair.left.iter().for_each(|&(dof, v)| column[dof] += v);
+            }
+            shifted.factor.solve_columns(&mut columns, chunk.len());
+            for (k, column) in columns.chunks_exact(n).enumerate() {
+                for (i, pair) in pairs.iter().enumerate() {
+                    w[i * q + block * COLUMNS + k] = product(&pair.right, column);
+                }
+            }
+        }
+        let mut root = Root {
+            pairs,
+            w,
+            lu: DenseLu::new(0, &[]),
+            factor: 0.0,
+            transposed: false,
+        };
+        root.set(1.0, false);
+        Ok(root)
+    }
+
+    /// Chooses the friction relative to that of the state, and whether the transposed problem is meant.
+    pub fn set(&mut self, factor: f64, transposed: bool) {
+        let q = self.pairs.len();
+        let entry = |k: usize| {
+            let (i, j) = (k / q, k % q);
+            let w = match transposed {
+                true => self.w[j * q + i],
+                false => self.w[k],
+            };
+            factor * w + if i == j { 1.0 } else { 0.0 }
+        };
+        let dense: Vec<f64> = (0..q * q).map(entry).collect();
+        self.lu = DenseLu::new(q, &dense);
+        (self.factor, self.transposed) = (factor, transposed);
+    }
+
+    /// `P⁻¹ b` in place; of the transposed problem `P⁻ᵀ b`.
+    pub fn solve(&self, shifted: &Shifted, b: &mut [f64]) {
+        shifted.factor.solve(b);
+        if self.pairs.is_empty() || self.factor == 0.0 {
+            return;
+        }
+        let mut z: Vec<f64> = self
+            .pairs
+            .iter()
+            .map(|p| product(if self.transposed { &p.left } else { &p.right }, b))
+            .collect();
+        self.lu.solve(&mut z);
+        let mut y = vec![0.0; b.len()];
+        for (z, p) in z.iter().zip(&self.pairs) {
+            let side = if self.transposed { &p.right } else { &p.left };
+            side.iter()
+                .for_each(|&(dof, v)| y[dof] += self.factor * z * v);
+        }
+        shifted.factor.solve(&mut y);
+        b.iter_mut().zip(y).for_each(|(b, y)| *b -= y);
+    }
+}
+
+impl Linear {
+    /// Forces of stiffness, damping and mass of a displacement, with friction.
+    pub fn forces(&self, x: &[f64], factor: f64) -> [Vec<f64>; 3] {
+        let mut k = self.times(&self.stiffness, x);
+        add_pairs(&self.friction, factor, x, &mut k);
+        let mut c = self.damped(x);
+        add_pairs(&self.drag, factor, x, &mut c);
+        [k, c, self.times(&self.mass, x)]
+    }
+}

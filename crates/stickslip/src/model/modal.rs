@@ -1,0 +1,65 @@
+//! Steps in which nothing moves: which vibrations are looked for about the state that is reached.
+
+use crate::contact::interface::Steady;
+
+/// What is looked for in a step without increments.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Modal {
+    /// Modes without friction and damping.
+    Real(RealPlan),
+    /// Modes of steady sliding.
+    Complex(ComplexPlan),
+}
+
+/// Which modes, in cycles per unit of time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RealPlan {
+    /// At most so many.
+    pub count: usize,
+    /// Lowest and highest frequency `[1/s]`.
+    pub range: [f64; 2],
+    /// Whether shapes are written.
+    pub shapes: bool,
+}
+
+/// Which modes of steady sliding, and what else is asked about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComplexPlan {
+    /// At most so many.
+    pub count: usize,
+    /// Highest frequency `[1/s]`.
+    pub to: f64,
+    /// Whether shapes are written.
+    pub shapes: bool,
+    /// Growth rates for other friction.
+    pub map: Option<MapPlan>,
+    /// Whether matrices are written.
+    pub export: bool,
+    /// Whether it is asked how growth rates change with friction, moduli and densities.
+    pub sensitivity: bool,
+}
+
+/// Friction relative to that of the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapPlan {
+    /// Smallest and largest factor.
+    pub range: [f64; 2],
+    /// How many factors.
+    pub points: usize,
+}
+
+/// Sliding that lasts, by interface.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SteadyPlan {
+    /// How surfaces turn beside their belts.
+    pub turning: Vec<(String, Steady)>,
+}
+
+impl SteadyPlan {
+    /// How an interface is told.
+    pub fn of(&self, interface: &str) -> Steady {
+        let mut all = self.turning.iter();
+        all.find(|(name, _)| name == interface)
+            .map_or(Steady::default(), |(_, steady)| *steady)
+    }
+}

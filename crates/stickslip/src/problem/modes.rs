@@ -1,0 +1,182 @@
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::interface::Steady;
+use crate::math::{Vec3, norm};
+use crate::model::{ComplexPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+
+/// `modes` of a step: real modes, the lowest first. An empty table takes the defaults.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Modes {
+    /// At most so many modes.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    pub count: usize,
+    /// Lowest frequency `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Highest frequency `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// Whether shapes are written as fields.
+    pub shapes: bool,
+}
+
+impl Default for Modes {
+    fn default() -> Self {
+        Modes {
+            count: 10,
+            from: None,
+            to: None,
+            shapes: true,
+        }
+    }
+}
+
+impl Modes {
+    /// What is looked for.
+    pub(super) fn plan(&self) -> Modal {
+        Modal::Real(RealPlan {
+            count: self.count,
+            range: [self.from.unwrap_or(0.0), self.to.unwrap_or(f64::INFINITY)],
+            shapes: self.shapes,
+        })
+    }
+}
+
+/// `complex-modes` of a step: modes of steady sliding, those of least frequency first. An empty table takes the defaults.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct ComplexModes {
+    /// At most so many modes, pairs counted once.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    pub count: usize,
+    /// Highest frequency `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// Whether shapes are written as fields, real and imaginary parts.
+    pub shapes: bool,
+    /// Frequencies and growth for other friction: the contact state is kept, and what friction adds to the equations is multiplied.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<FrictionRange>,
+    /// Whether eigenvalues are differentiated by friction, moduli and densities, the contact state kept.
+    pub sensitivity: bool,
+    /// Whether the matrices are written for other programs, as MatrixMarket files.
+    pub export: bool,
+}
+
+impl Default for ComplexModes {
+    fn default() -> Self {
+        ComplexModes {
+            count: 20,
+            to: None,
+            shapes: true,
+            map: None,
+            sensitivity: false,
+            export: false,
+        }
+    }
+}
+
+impl ComplexModes {
+    /// What is looked for.
+    pub(super) fn plan(&self) -> Modal {
+        Modal::Complex(ComplexPlan {
+            count: self.count,
+            to: self.to.unwrap_or(f64::INFINITY),
+            shapes: self.shapes,
+            map: self.map.as_ref().map(|m| MapPlan {
+                range: [m.from, m.to],
+                points: m.points,
+            }),
+            export: self.export,
+            sensitivity: self.sensitivity,
+        })
+    }
+}
+
+/// Friction relative to that of the step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct FrictionRange {
+    /// Smallest factor `[-]`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
+    pub from: f64,
+    /// Largest factor `[-]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub to: f64,
+    /// How many factors, ends counted.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2)))]
+    pub points: usize,
+}
+
+impl Default for FrictionRange {
+    fn default() -> Self {
+        FrictionRange {
+            from: 0.0,
+            to: 2.0,
+            points: 51,
+        }
+    }
+}
+
+/// `steady` of a step: sliding that lasts.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct SteadySliding {
+    /// Surfaces of primaries that turn, by interface, as a disc under pads: `turning.pad = { axis = [0, 0, 1], speed = 6 }`. Bodies stay where they are; what turns does so
+    /// slowly, without centrifugal and gyroscopic forces.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub turning: BTreeMap<String, Turning>,
+}
+
+/// How a surface turns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Turning {
+    /// A place on the axis; the origin if not given `[length]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub centre: Vec<f64>,
+    /// Direction of the axis in 3D; in 2D it is across the plane.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub axis: Vec<f64>,
+    /// Angular velocity about it `[rad/time]`.
+    pub speed: f64,
+}
+
+impl SteadySliding {
+    /// How interfaces are told.
+    pub(super) fn plan(&self) -> SteadyPlan {
+        let turning = self.turning.iter();
+        SteadyPlan {
+            turning: turning
+                .map(|(name, t)| (name.clone(), t.steady()))
+                .collect(),
+        }
+    }
+}
+
+impl Turning {
+    fn steady(&self) -> Steady {
+        let vector =
+            |v: &[f64]| -> Vec3 { std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0)) };
+        let axis = match self.axis.is_empty() {
+            true => [0.0, 0.0, 1.0],
+            false => vector(&self.axis),
+        };
+        let scale = self.speed / norm(axis).max(f64::MIN_POSITIVE);
+        Steady {
+            centre: vector(&self.centre),
+            turning: axis.map(|a| scale * a),
+        }
+    }
+}

@@ -1,0 +1,638 @@
+//! Modes: real ones against closed forms and dense solutions of the same matrices, those of steady sliding against models of a few degrees of freedom and an exact continuum.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::support;
+use stickslip::linear::{DenseLu, general};
+use stickslip::modal::{Export, ModalOutcome};
+use support::{build, complaint, problem};
+
+/// What the last step without increments of a problem has found.
+fn modes(text: &str) -> ModalOutcome {
+    let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    simulation
+        .run(&mut [])
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
+    simulation.modes.pop().expect("modes")
+}
+
+fn near(found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found:.12} is not {expected:.12}: {:e} apart",
+        found - expected
+    );
+}
+
+/// An exported matrix written out.
+fn dense(outcome: &ModalOutcome, name: &str) -> (usize, Vec<f64>) {
+    let matrix = outcome.export.iter().find(|e| e.name == name);
+    let Export {
+        shape: [rows, columns],
+        symmetric,
+        ref entries,
+        ..
+    } = *matrix.unwrap_or_else(|| panic!("no matrix {name}"));
+    let mut out = vec![0.0; rows * columns];
+    for &(i, j, v) in entries {
+        out[i * columns + j] += v;
+        if symmetric && i != j {
+            out[j * columns + i] += v;
+        }
+    }
+    (rows, out)
+}
+
+/// `K`, `C` and `M` with friction, written out, from exported parts.
+fn matrices(outcome: &ModalOutcome) -> (usize, [Vec<f64>; 3]) {
+    let (n, mut k) = dense(outcome, "stiffness");
+    let (_, m) = dense(outcome, "mass");
+    let has = outcome.export.iter().any(|e| e.name == "damping");
+    let mut c = if has {
+        dense(outcome, "damping").1
+    } else {
+        vec![0.0; n * n]
+    };
+    for (name, to) in [("friction", &mut k), ("drag", &mut c)] {
+        let (_, left) = dense(outcome, &format!("{name}-left"));
+        let (_, right) = dense(outcome, &format!("{name}-right"));
+        let q = left.len() / n;
+        for i in 0..n {
+            for j in 0..n {
+                let pairs = (0..q).map(|p| left[i * q + p] * right[j * q + p]);
+                to[i * n + j] += pairs.sum::<f64>();
+            }
+        }
+    }
+    (n, [k, c, m])
+}
+
+/// `A⁻¹ B` with `columns` columns, by rows.
+fn solved(n: usize, a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
+    let lu = DenseLu::new(n, a);
+    let mut out = vec![0.0; n * columns];
+    for j in 0..columns {
+        let mut x: Vec<f64> = (0..n).map(|i| b[i * columns + j]).collect();
+        lu.solve(&mut x);
+        x.iter()
+            .enumerate()
+            .for_each(|(i, x)| out[i * columns + j] = *x);
+    }
+    out
+}
+
+/// All eigenvalues of `λ² M + λ C + K` that do not lie below the real axis, by dense matrices alone.
+fn companion(outcome: &ModalOutcome) -> Vec<[f64; 2]> {
+    let (n, [k, c, m]) = matrices(outcome);
+    let (k, c) = (solved(n, &m, &k, n), solved(n, &m, &c, n));
+    let mut a = vec![0.0; 4 * n * n];
+    for i in 0..n {
+        a[i * 2 * n + n + i] = 1.0;
+        for j in 0..n {
+            a[(n + i) * 2 * n + j] = -k[i * n + j];
+            a[(n + i) * 2 * n + n + j] = -c[i * n + j];
+        }
+    }
+    let mut all = general(2 * n, &a).unwrap().0;
+    all.retain(|z| z[1] >= 0.0);
+    all.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
+    all
+}
+
+/// A rod that only stretches, held at one end.
+fn rod(cells: usize) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-stress"
+body.rod = {{ generate.rectangle = {{ to = [2, 0.1], cells = [{cells}, 1] }}, material = "m" }}
+material.m.isotropic = {{ young = 4.0, poisson = 0.0, density = 1.0 }}
+support.wall = {{ set = "rod.left", x = 0 }}
+support.guide = {{ set = "rod", y = 0 }}
+[[step]]
+modes = {{ count = 3 }}
+"#
+    )
+}
+
+#[test]
+fn a_rod_vibrates_as_waves_run_to_and_fro() {
+    let errors = [20, 40].map(|cells| {
+        let outcome = modes(&rod(cells));
+        assert_eq!(outcome.modes.len(), 3);
+        // c/(4 L), and odd multiples of it.
+        let exact = |k: usize| (2 * k + 1) as f64 * 2.0 / 8.0;
+        for (k, mode) in outcome.modes.iter().enumerate() {
+            assert!(mode.frequency > exact(k), "a consistent mass is too fast");
+            assert!(mode.residual < 1e-9, "{:e}", mode.residual);
+            // 8 / ((2 k + 1)² π²) of the mass moves along.
+            let odd = (2 * k + 1) as f64;
+            let part = mode.effective_mass[0] / outcome.masses[0];
+            near(part, 8.0 / (odd * PI).powi(2), 2e-2);
+        }
+        near(outcome.masses[0], 0.2, 1e-12);
+        outcome.modes[0].frequency / exact(0) - 1.0
+    });
+    // (π h / 4 L)² / 6 of the frequency, of the second order.
+    near(
+        errors[0],
+        (PI / 4.0 * 0.1 / 2.0_f64).powi(2) * 4.0 / 24.0,
+        2e-6,
+    );
+    near(errors[0] / errors[1], 4.0, 2e-2);
+}
+
+const BRICK: &str = r#"
+format = 1
+model.space = "solid"
+body.brick = { generate.box = { to = [3, 1.1, 0.7], cells = [5, 2, 2] }, material = "m" }
+material.m.isotropic = { young = 2e3, poisson = 0.3, density = 5.0 }
+"#;
+
+#[test]
+fn a_free_body_has_six_modes_without_strain() {
+    let outcome = modes(&format!("{BRICK}\n[[step]]\nmodes = {{ count = 9 }}\n"));
+    assert_eq!(outcome.modes.len(), 9);
+    for mode in &outcome.modes[..6] {
+        assert_eq!(mode.frequency, 0.0);
+    }
+    assert!(outcome.modes[6].frequency > 0.1);
+    // They take along all of the mass, the others none.
+    for (i, &mass) in outcome.masses.iter().enumerate() {
+        let of = |modes: &[stickslip::modal::Mode]| {
+            modes.iter().map(|m| m.effective_mass[i]).sum::<f64>()
+        };
+        near(of(&outcome.modes[..6]) / mass, 1.0, 1e-7);
+        near(of(&outcome.modes[6..]) / mass, 0.0, 1e-7);
+    }
+    near(outcome.masses[0], 5.0 * 3.0 * 1.1 * 0.7, 1e-10);
+    assert!(outcome.notes.iter().any(|n| n.contains("without strain")));
+}
+
+#[test]
+fn real_modes_are_those_of_the_dense_matrices() {
+    let held = "support.left = { set = \"brick.left\", x = 0, y = 0, z = 0 }";
+    let asked = "[[step]]\ncomplex-modes = { count = 1, export = true }\n[[step]]\nmodes = { count = 25 }\n";
+    let mut simulation = build(&problem(&format!("{BRICK}{held}\n{asked}"))).unwrap();
+    simulation.run(&mut []).unwrap();
+    let (n, [k, _, m]) = matrices(&simulation.modes[0]);
+    let of_inverse = general(n, &solved(n, &m, &k, n)).unwrap().0;
+    let mut dense: Vec<f64> = of_inverse.iter().map(|z| z[0]).collect();
+    dense.sort_by(f64::total_cmp);
+    assert_eq!(dense.len(), n);
+    let ours = &simulation.modes[1].modes;
+    assert_eq!(ours.len(), 25);
+    for (mode, value) in ours.iter().zip(&dense) {
+        near(mode.frequency, value.sqrt() / TAU, 1e-9 * mode.frequency);
+        assert!(mode.residual < 1e-8, "{:e}", mode.residual);
+    }
+    // A range is the part of the list that lies in it.
+    let (a, b) = (ours[4].frequency * 0.999, ours[11].frequency * 1.001);
+    let range = format!("[[step]]\nmodes = {{ count = 100, from = {a:?}, to = {b:?} }}\n");
+    let some = modes(&format!("{BRICK}{held}\n{range}"));
+    assert_eq!(some.modes.len(), 8);
+    for (mode, all) in some.modes.iter().zip(&ours[4..]) {
+        near(mode.frequency, all.frequency, 1e-9 * all.frequency);
+    }
+    let above = format!("[[step]]\nmodes = {{ count = 5, from = {a:?} }}\n");
+    let above = modes(&format!("{BRICK}{held}\n{above}"));
+    near(
+        above.modes[4].frequency,
+        ours[8].frequency,
+        1e-9 * ours[8].frequency,
+    );
+}
+
+/// Two halves of the rod above, one on the other.
+fn halves(join: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-stress"
+body.a = {{ generate.rectangle = {{ to = [1, 0.1], cells = [20, 1] }}, material = "m" }}
+body.b = {{ generate.rectangle = {{ from = [1, 0], to = [2, 0.1], cells = [20, 1] }}, material = "m" }}
+material.m.isotropic = {{ young = 4.0, poisson = 0.0, density = 1.0 }}
+support.wall = {{ set = "a.left", x = 0 }}
+support.guide-a = {{ set = "a", y = 0 }}
+support.guide-b = {{ set = "b", y = 0 }}
+{join}
+"#
+    )
+}
+
+#[test]
+fn ties_equations_and_closed_contacts_join_as_one_mesh_does() {
+    let whole = modes(&rod(40));
+    let tied = r#"interface.join = { secondary = "b.left", primary = "a.right", tied = true }
+[[step]]
+modes = { count = 3 }"#;
+    let equation = r#"coupling.join.equation = { terms = [{ set = "a.right", component = "x" }, { set = "b.left", component = "x", factor = -1 }] }
+[[step]]
+modes = { count = 3 }"#;
+    let pressed = r#"interface.join = { secondary = "b.left", primary = "a.right", friction.coulomb = { mu = 0.3 } }
+load.press = { set = "b.right", traction = { value = [-0.01, 0] } }
+[[step]]
+[[step]]
+modes = { count = 3 }"#;
+    for (join, tolerance) in [(tied, 1e-5), (equation, 1e-6), (pressed, 1e-5)] {
+        let outcome = modes(&halves(join));
+        for (a, b) in outcome.modes.iter().zip(&whole.modes) {
+            near(a.frequency / b.frequency, 1.0, tolerance);
+        }
+    }
+    let open = modes(&halves("[[step]]\nmodes = { count = 3 }"));
+    assert_eq!(open.modes[0].frequency, 0.0, "nothing joins them");
+}
+
+/// A flat rigid block of mass 1 on a belt, pressed by `load`, with its own friction and springs.
+fn block(belt: &str, law: &str, more: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ rigid = true, generate.rectangle = {{ from = [-0.5, 0], to = [0.5, 0.1], cells = [2, 2] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0.0, density = 10.0 }}
+set.centre = {{ of = "block", point = [0, 0.05] }}
+obstacle.belt.plane = {{ point = [0, 0], normal = [0, 1] }}
+output.every = 0
+interface.rub = {{ secondary = "block.bottom", primary = "belt", {law}, primary-velocity = [{belt}, 0] }}
+{more}
+"#
+    )
+}
+
+/// [Hoffmann et al. 2002]: two springs that couple what friction drives.
+fn hoffmann(mu: f64, dashpots: [f64; 2], steps: &str) -> String {
+    let springs: String = [(11.0, 150.0_f64), (20.0, 30.0)]
+        .iter()
+        .enumerate()
+        .map(|(i, (k, degrees))| {
+            let (s, c) = degrees.to_radians().sin_cos();
+            format!("coupling.k{i}.spring = {{ stiffness = {k:?}, terms = [{{ set = \"centre\", component = \"x\", factor = {c:?} }}, {{ set = \"centre\", component = \"y\", factor = {s:?} }}] }}\n")
+        })
+        .collect();
+    let dashpots: String = ["x", "y"]
+        .iter()
+        .zip(dashpots)
+        .filter(|(_, c)| *c > 0.0)
+        .map(|(axis, c)| format!("coupling.d{axis}.dashpot = {{ coefficient = {c:?}, terms = [{{ set = \"centre\", component = \"{axis}\" }}] }}\n"))
+        .collect();
+    let law = format!("normal.linear = {{ c = 11.0 }}, friction.coulomb = {{ mu = {mu:?} }}");
+    let more = format!(
+        "{springs}{dashpots}load.press = {{ set = \"centre\", nodal-force = {{ value = [0, -1e-3] }} }}\n[[step]]\nsteady = {{}}\n{steps}"
+    );
+    block("-1", &law, &more)
+}
+
+const COMPLEX: &str = "[[step]]\ncomplex-modes = { count = 3 }\n";
+
+/// The fastest growth, with its angular frequency.
+fn worst(outcome: &ModalOutcome) -> [f64; 2] {
+    let all = outcome.modes.iter();
+    let worst = all.max_by(|a, b| a.growth.total_cmp(&b.growth));
+    let worst = worst.expect("a mode");
+    [worst.growth, TAU * worst.frequency]
+}
+
+#[test]
+fn two_degrees_of_freedom_flutter_as_their_characteristic_equation_says() {
+    for (mu, growth, omega) in [
+        (0.8, 0.407292624, 4.600639877),
+        (1.0, 0.515653192, 4.611496310),
+    ] {
+        let outcome = modes(&hoffmann(mu, [0.0; 2], COMPLEX));
+        let [g, w] = worst(&outcome);
+        near(g, growth, 1e-9);
+        near(w, omega, 1e-9);
+        for mode in &outcome.modes {
+            assert!(mode.residual < 1e-11, "{:e}", mode.residual);
+            near(mode.feed.iter().sum(), mode.growth, 1e-9);
+        }
+        assert_eq!(outcome.sliding, ["rub"]);
+    }
+    // Stable below.
+    let [g, _] = worst(&modes(&hoffmann(0.47, [0.0; 2], COMPLEX)));
+    near(g, 0.0, 1e-9);
+}
+
+/// The map over the friction of 0.5.
+fn hoffmann_map(dashpots: [f64; 2]) -> ModalOutcome {
+    let map = "[[step]]\ncomplex-modes = { count = 3, map = { to = 2, points = 21 } }\n";
+    modes(&hoffmann(0.5, dashpots, map))
+}
+
+#[test]
+fn a_map_finds_where_stability_is_lost_and_what_damping_does_to_it() {
+    let outcome = hoffmann_map([0.0; 2]);
+    assert_eq!(outcome.points[1], 3, "points that slide");
+    let map = outcome.map.as_ref().unwrap();
+    near(map.mu, 0.5, 1e-12);
+    assert_eq!(map.rows.len(), 21);
+    assert_eq!(map.critical.len(), 1);
+    let [factor, frequency] = map.critical[0];
+    near(0.5 * factor, 0.472377493, 1e-9);
+    near(TAU * frequency, 4.582575695, 1e-5);
+    assert!(map.residual < 1e-10, "{:e}", map.residual);
+    // The last row is twice the friction.
+    let last = &map.rows[20].modes;
+    let growth = last.iter().fold(0.0, |m: f64, v| m.max(v[1]));
+    near(growth, 0.515653192, 1e-9);
+    // Damping of both stabilises, damping of one more than of the other does the opposite.
+    let equal = hoffmann_map([0.1, 0.1]);
+    near(
+        0.5 * equal.map.as_ref().unwrap().critical[0][0],
+        0.477276223,
+        1e-9,
+    );
+    assert!(!equal.notes.iter().any(|n| n.contains("earlier")));
+    let unequal = hoffmann_map([0.02, 0.2]);
+    let map = unequal.map.as_ref().unwrap();
+    assert!(0.5 * map.critical[0][0] < 0.4723, "{:?}", map.critical);
+    near(0.5 * map.undamped.unwrap(), 0.472377493, 1e-9);
+    assert!(unequal.notes.iter().any(|n| n.contains("earlier")));
+}
+
+/// VERIFICATION F2, and the form of Hultén: matrices with a unit mass, by springs along and across, and friction.
+#[test]
+fn mode_coupling_begins_at_the_closed_form() {
+    // K = [[2, 0.3 - 2 μ], [0.3, 1.5]]: what couples is a spring along the diagonal.
+    let (a, b, c, kc) = (2.0, 1.5, 0.3, 2.0);
+    // Contact has more than the whole of the stiffness across: springs take from it what is too much.
+    let springs = format!(
+        "coupling.x.spring = {{ stiffness = {:?}, terms = [{{ set = \"centre\", component = \"x\" }}] }}\n\
+         coupling.d.spring = {{ stiffness = {c:?}, terms = [{{ set = \"centre\", component = \"x\" }}, {{ set = \"centre\", component = \"y\" }}] }}\n",
+        a - c
+    );
+    // With a contact stiffness of what is left across.
+    let across = b - c;
+    let mu_of = |mu: f64| mu * kc / across;
+    let law = |mu: f64| {
+        format!(
+            "normal.linear = {{ c = {across:?} }}, friction.coulomb = {{ mu = {:?} }}",
+            mu_of(mu)
+        )
+    };
+    let steps = "load.press = { set = \"centre\", nodal-force = { value = [0, -1e-3] } }\n[[step]]\nsteady = {}\n[[step]]\ncomplex-modes = { count = 3, map = { to = 1, points = 11 } }\n";
+    let outcome = modes(&block("-1", &law(0.5), &format!("{springs}{steps}")));
+    near(worst(&outcome)[0], 0.144304, 5e-7);
+    let map = outcome.map.unwrap();
+    near(0.5 * map.critical[0][0], 0.2541666667, 1e-9);
+    near(TAU * map.critical[0][1], 1.3228757, 1e-5);
+}
+
+#[test]
+fn a_mass_on_a_belt_loses_stability_at_the_speed_of_hopf() {
+    let at = |speed: f64| {
+        let law = "friction.exponential-decay = { static = 0.5, kinetic = 0.3, decay = 10 }";
+        let more = r#"
+load.press = { set = "centre", nodal-force = { value = [0, -10] } }
+coupling.k.spring = { stiffness = 100.0, terms = [{ set = "centre", component = "x" }] }
+coupling.d.dashpot = { coefficient = 2.0, terms = [{ set = "centre", component = "x" }] }
+support.guide = { set = "block", hold = ["y"] }
+[[step]]
+supports = []
+steady = {}
+[[step]]
+complex-modes = { count = 1 }
+"#;
+        worst(&modes(&block(&format!("{speed:?}"), law, more)))
+    };
+    for (speed, growth, omega) in [
+        (0.05, 5.065306597, 8.622219498),
+        (0.1, 2.678794412, 9.634524404),
+        (0.2, 0.353352832, 9.993755139),
+    ] {
+        let [g, w] = at(speed);
+        near(g, growth, 1e-9);
+        near(w, omega, 1e-9);
+    }
+    let hopf = 0.1 * 10.0_f64.ln();
+    near(at(hopf)[0], 0.0, 1e-9);
+    assert!(at(hopf * 1.001)[0] < 0.0);
+}
+
+/// A pad that a belt drags along, of which friction falls with speed, and one that sticks to a wall.
+fn pad([mu, fall]: [f64; 2], [young, press]: [f64; 2], asked: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.pad = {{ generate.rectangle = {{ from = [0, 0], to = [1, 0.4], cells = [6, 3] }}, material = "m", rayleigh = {{ mass = 0.01, stiffness = 1e-4 }} }}
+body.back = {{ generate.rectangle = {{ from = [0, 0.4], to = [1, 0.6], cells = [5, 1] }}, material = "n" }}
+material.m.isotropic = {{ young = {young:?}, poisson = 0.3, density = 1.0 }}
+material.n.isotropic = {{ young = 300.0, poisson = 0.2, density = 2.0 }}
+obstacle.belt.plane = {{ point = [0, 0], normal = [0, 1] }}
+output.every = 0
+interface.rub = {{ secondary = "pad.bottom", primary = "belt", normal.linear = {{ c = 500.0 }}, friction.exponential-decay = {{ static = {}, kinetic = {mu:?}, decay = 0.5 }}, primary-velocity = [1, 0] }}
+interface.stick = {{ secondary = "pad.top", primary = "back.bottom", normal.linear = {{ c = 2000.0 }}, friction.coulomb = {{ mu = 5.0 }}, enforcement.penalty = {{ stiffness = 3000.0 }} }}
+support.back = {{ set = "back.top", x = 0, y = {:?} }}
+[[step]]
+steady = {{}}
+{asked}
+"#,
+        mu + fall,
+        -press
+    )
+}
+
+#[test]
+fn modes_of_a_sliding_pad_are_those_of_the_dense_matrices() {
+    let asked = "[[step]]\ncomplex-modes = { count = 24, export = true }\n";
+    let outcome = modes(&pad([0.6, 0.2], [100.0, 1e-2], asked));
+    let [stick, slide, _] = outcome.points;
+    assert_eq!(slide, 7);
+    assert!(stick > 4, "{stick}");
+    let dense = companion(&outcome);
+    assert_eq!(outcome.modes.len(), 24);
+    for mode in &outcome.modes {
+        let ours = [mode.growth, TAU * mode.frequency];
+        let away = |z: &[f64; 2]| (z[0] - ours[0]).hypot(z[1] - ours[1]);
+        let off = dense.iter().map(away).fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-8 * ours[0].hypot(ours[1]), "{ours:?}: {off:e}");
+        assert!(mode.residual < 1e-9, "{:e}", mode.residual);
+        near(
+            mode.feed.iter().sum(),
+            mode.growth,
+            1e-7 * ours[0].hypot(ours[1]),
+        );
+    }
+    // None of the lowest is missing.
+    let size = |m: &stickslip::modal::Mode| m.growth.hypot(TAU * m.frequency);
+    let largest = outcome.modes.iter().map(size).fold(0.0, f64::max);
+    let below = dense
+        .iter()
+        .filter(|z| z[0].hypot(z[1]) <= largest * (1.0 + 1e-9));
+    assert_eq!(below.count(), 24);
+    assert!(
+        outcome.modes.iter().any(|m| m.growth > 1e-3),
+        "none is unstable"
+    );
+}
+
+#[test]
+fn a_map_by_projection_has_the_modes_of_all_dofs() {
+    let asked = "[[step]]\ncomplex-modes = { count = 12, map = { to = 2, points = 5 } }\n";
+    let outcome = modes(&pad([0.6, 0.2], [100.0, 1e-2], asked));
+    let map = outcome.map.unwrap();
+    assert!(map.residual < 1e-6, "{:e}", map.residual);
+    let row = &map.rows[2];
+    assert_eq!(row.factor, 1.0);
+    for (mode, [frequency, growth]) in outcome.modes.iter().zip(&row.modes) {
+        let size = mode.growth.hypot(TAU * mode.frequency);
+        near(*growth, mode.growth, 1e-8 * size);
+        near(TAU * frequency, TAU * mode.frequency, 1e-8 * size);
+    }
+}
+
+#[test]
+fn sensitivities_are_what_differences_say() {
+    let asked = "[[step]]\ncomplex-modes = { count = 8, sensitivity = true }\n";
+    // Friction that does not depend on the speed, and next to no strain: pressure and areas change with the modulus as well, and the contact state is kept.
+    let at = |young: f64| modes(&pad([0.6, 0.0], [young, 1e-6], asked));
+    let outcome = at(100.0);
+    let h = 1e-4;
+    let [low, high] = [1.0 - h, 1.0 + h].map(|f| at(100.0 * f));
+    let mut compared = 0;
+    for s in outcome
+        .sensitivities
+        .iter()
+        .filter(|s| s.of == "modulus.pad")
+    {
+        let k = s.mode - 1;
+        let [a, b] = [&low.modes[k], &high.modes[k]];
+        let growth = (b.growth - a.growth) / (2.0 * h);
+        let frequency = (b.frequency - a.frequency) / (2.0 * h);
+        let scale = outcome.modes[k].frequency;
+        near(s.growth, growth, 1e-5 * scale);
+        near(s.frequency, frequency, 1e-5 * scale);
+        compared += 1;
+    }
+    assert_eq!(compared, 8);
+    let names: Vec<&str> = outcome.sensitivities[..5]
+        .iter()
+        .map(|s| s.of.as_str())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "friction.rub",
+            "modulus.back",
+            "density.back",
+            "modulus.pad",
+            "density.pad"
+        ]
+    );
+}
+
+/// BENCHMARKS Q1: a layer that slides on a rigid plane, one wave long, periodic.
+fn layer(mu: f64, normal: &str, damping: f64, cells: [usize; 2], count: usize) -> ModalOutcome {
+    let text = format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.layer = {{ generate.rectangle = {{ to = [{TAU:?}, 1], cells = {cells:?}, element = "quad8" }}, material = "m", rayleigh = {{ mass = {damping:?} }} }}
+material.m.isotropic = {{ young = 1.0, poisson = 0.3, density = 1.0 }}
+obstacle.plane.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.rub = {{ secondary = "layer.bottom", primary = "plane", {normal}friction.coulomb = {{ mu = {mu:?} }}, primary-velocity = [1, 0] }}
+support.top = {{ set = "layer.top", x = 0, y = -1e-6 }}
+coupling.x.equation = {{ terms = [{{ set = "layer.left", component = "x" }}, {{ set = "layer.right", component = "x", factor = -1 }}] }}
+coupling.y.equation = {{ terms = [{{ set = "layer.left", component = "y" }}, {{ set = "layer.right", component = "y", factor = -1 }}] }}
+output.every = 0
+[[step]]
+steady = {{}}
+[[step]]
+complex-modes = {{ count = {count}, shapes = false }}
+"#
+    );
+    modes(&text)
+}
+
+/// The mode nearest to an eigenvalue.
+fn nearest(outcome: &ModalOutcome, [growth, omega]: [f64; 2]) -> [f64; 2] {
+    let all = outcome.modes.iter().map(|m| [m.growth, TAU * m.frequency]);
+    let away = |m: &[f64; 2]| (m[0] - growth).hypot(m[1] - omega);
+    all.min_by(|a, b| away(a).total_cmp(&away(b)))
+        .expect("a mode")
+}
+
+#[test]
+fn a_layer_slides_with_the_growth_of_the_continuum() {
+    let compliant = "normal.linear = { c = 10.0 }, ";
+    for (mu, normal, exact) in [
+        (0.3, compliant, [0.028722558, 1.459434395]),
+        (0.3, compliant, [0.138716364, 2.799646502]),
+        (0.3, "", [0.030216147, 1.460764526]),
+        (0.3, "", [0.136675349, 2.919056325]),
+        (0.6, "", [0.059763471, 1.456310908]),
+        (0.6, "", [0.252094065, 2.885957981]),
+    ] {
+        let [coarse, fine] = [[12, 4], [24, 8]].map(|cells| layer(mu, normal, 0.0, cells, 14));
+        // One wave grows, the one that runs the other way decays.
+        for sign in [1.0, -1.0] {
+            let exact = [sign * exact[0], exact[1]];
+            let [a, b] = [nearest(&coarse, exact), nearest(&fine, exact)];
+            let off = |z: [f64; 2]| (z[0] - exact[0]).hypot(z[1] - exact[1]);
+            let order = (off(a) / off(b)).log2();
+            let what = format!("{mu} {normal} {sign}: {a:?} {b:?} order {order}");
+            assert!((3.6..4.4).contains(&order), "{what}");
+            // What the order promises of both together.
+            let limit = [0, 1].map(|q| b[q] + (b[q] - a[q]) / 15.0);
+            assert!(
+                off(limit) < 0.15 * off(b) && off(b) < 1e-4 * exact[1],
+                "{what} {:e}",
+                off(limit)
+            );
+        }
+    }
+}
+
+#[test]
+fn damping_by_mass_stabilises_a_layer_where_the_closed_form_says() {
+    let normal = "normal.linear = { c = 10.0 }, ";
+    let at = |damping: f64| layer(0.3, normal, damping, [12, 3], 14);
+    let [g, w] = nearest(&at(0.0), [0.138716364, 2.799646502]);
+    // λ² + α λ of the damped mode is λ² of the undamped one.
+    let limit = 2.0 * g * w / (w * w - g * g).sqrt();
+    near(limit, 0.28, 0.02);
+    let [below, above] = [0.999, 1.001].map(|f| nearest(&at(f * limit), [0.0, w])[0]);
+    assert!(below > 0.0 && above < 0.0, "{below} {above}");
+    near(below, -above, 0.02 * below);
+}
+
+#[test]
+fn what_has_no_meaning_in_a_step_without_increments_is_refused() {
+    let block = "format = 1\nmodel.space = \"plane-strain\"\nbody.a = { generate.rectangle = { to = [1, 1], cells = [1, 1] }, material = \"m\" }\nmaterial.m.isotropic = { young = 1.0, poisson = 0.3, density = 1.0 }\n";
+    for (step, words) in [
+        ("modes = {}\ncomplex-modes = {}", "not for both"),
+        (
+            "modes = {}\nincrements.fixed = 2",
+            "`increments` has no meaning",
+        ),
+        ("modes = {}\ndynamic = {}", "`dynamic` has no meaning"),
+        ("modes = { from = 2, to = 1 }", "is not below"),
+        (
+            "complex-modes = { map = { from = 2, to = 1 } }",
+            "is not below",
+        ),
+        (
+            "steady = {}\ndynamic = {}",
+            "`steady` is for quasi-static steps",
+        ),
+        (
+            "steady.turning.rub = { speed = 1 }",
+            "is not among the interfaces",
+        ),
+        (
+            "steady.turning.rub = { speed = 0, axis = [0, 0, 1] }",
+            "across the plane",
+        ),
+    ] {
+        let text = complaint(&format!("{block}[[step]]\n{step}\n"));
+        assert!(text.contains(words), "{step}: {text}");
+    }
+    let massless = block.replace(", density = 1.0", "");
+    let text = format!("{massless}[[step]]\nmodes = {{}}\n");
+    let outcome = build(&problem(&text)).map(|mut s| s.run(&mut []));
+    let error = format!("{outcome:?}");
+    assert!(error.contains("density"), "{error}");
+}
