@@ -517,6 +517,8 @@ pub struct Boundary {
 pub struct Step {
     /// `NLGEOM`.
     pub nonlinear: bool,
+    /// `PERTURBATION`.
+    pub perturbation: bool,
     /// Loads without amplitude act in full from the start; `None` is the default of the procedure.
     pub abrupt: Option<bool>,
     /// How it is solved.
@@ -555,6 +557,13 @@ pub enum Procedure {
         explicit: bool,
         /// `ALPHA` of the method of Hilber, Hughes and Taylor.
         alpha: Option<f64>,
+    },
+    /// `*FREQUENCY`.
+    Frequency {
+        /// How many modes.
+        count: usize,
+        /// Lowest and highest frequency, 0 where not given.
+        range: [f64; 2],
     },
 }
 

@@ -71,6 +71,7 @@ const CARDS: &[(&str, Read)] = &[
     ("ENDSTEP", |r, c| r.end_step(c)),
     ("STATIC", |r, c| r.statics(c)),
     ("DYNAMIC", |r, c| r.dynamics(c)),
+    ("FREQUENCY", |r, c| r.frequency(c)),
     ("BOUNDARY", |r, c| r.boundary(c)),
     ("CLOAD", |r, c| r.forces(c)),
     ("TEMPERATURE", |r, c| r.temperature(c)),
@@ -104,7 +105,7 @@ pub(super) const BENEATH: [&str; 7] = [
 ];
 
 /// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
-pub(super) const NAMES: [&str; 22] = [
+pub(super) const NAMES: [&str; 23] = [
     "PART",
     "ENDPART",
     "ASSEMBLY",
@@ -127,10 +128,11 @@ pub(super) const NAMES: [&str; 22] = [
     "STEP",
     "STATIC",
     "DYNAMIC",
+    "FREQUENCY",
 ];
 
 /// Procedures that are refused.
-pub(super) const OTHER_PROCEDURES: [&str; 24] = [
+pub(super) const OTHER_PROCEDURES: [&str; 23] = [
     "ANNEAL",
     "BUCKLE",
     "CFD",
@@ -140,7 +142,6 @@ pub(super) const OTHER_PROCEDURES: [&str; 24] = [
     "DIRECTCYCLIC",
     "ELECTROMAGNETICS",
     "FEASIBLEDIRECTION",
-    "FREQUENCY",
     "GEOSTATIC",
     "GREEN",
     "HCF",

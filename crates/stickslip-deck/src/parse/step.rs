@@ -38,6 +38,7 @@ impl Reader<'_> {
         let before = self.deck.steps.last();
         self.deck.steps.push(Step {
             nonlinear,
+            perturbation: card.has("PERTURBATION"),
             abrupt,
             place: card.place,
             prints: before.map_or_else(Vec::new, |s| s.prints.clone()),
@@ -111,6 +112,17 @@ impl Reader<'_> {
             );
             return;
         }
+        let frequency = matches!(procedure, Procedure::Frequency { .. });
+        if self.deck.steps.last().is_some_and(|s| s.perturbation) && !frequency {
+            self.error(
+                card.place,
+                format!(
+                    "{} in a step with PERTURBATION is not computed",
+                    card.written
+                ),
+                "take PERTURBATION out of *STEP: a step from the deformed state is computed",
+            );
+        }
         if let Some(step) = self.own_step(card) {
             step.procedure = procedure;
             self.procedure = true;
@@ -166,6 +178,35 @@ impl Reader<'_> {
         );
     }
 
+    pub(super) fn frequency(&mut self, card: &Card) {
+        let Some(data) = card.data.first() else {
+            self.error(
+                card.place,
+                "*FREQUENCY does not say how many modes",
+                "write number of modes, lowest frequency, highest frequency",
+            );
+            return self.proceed(card, Procedure::default());
+        };
+        let [from, to] = [1, 2].map(|i| self.number(data, i, 0.0));
+        let asked = self.number(data, 0, if to > 0.0 { 1e4 } else { 0.0 });
+        if !(asked >= 1.0 && from >= 0.0 && (to == 0.0 || to > from)) {
+            self.error(
+                data.place,
+                "the number of modes is at least 1, and their frequencies go from a lower to a higher one",
+                "write number of modes, lowest frequency, highest frequency",
+            );
+        }
+        if self.deck.steps.len() > 1 {
+            self.note(
+                card.place,
+                "*FREQUENCY: vibrations about the state of the step before, with its closed contacts; stress does not stiffen bodies, as strains are small",
+            );
+        }
+        let count = asked.clamp(1.0, 1e6) as usize;
+        let range = [from, to];
+        self.proceed(card, Procedure::Frequency { count, range });
+    }
+
     pub(super) fn act(&mut self, action: Action) {
         if let Some(step) = self.deck.steps.last_mut() {
             step.actions.push(action);
@@ -178,7 +219,7 @@ impl Reader<'_> {
             self.error(
                 place,
                 "the step does not say how it is solved",
-                "write *STATIC or *DYNAMIC in it",
+                "write *STATIC, *DYNAMIC or *FREQUENCY in it",
             );
         }
     }

@@ -21,11 +21,12 @@ pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
         "MEMBRANESECTION" => MEMBRANES,
         "FLUIDSECTION" | "FLUIDSECTIONS" => NETWORKS,
         "CONNECTORSECTION" | "CONNECTORBEHAVIOR" => CONNECTORS,
+        "COMPLEXFREQUENCY" => "modes of steady sliding as decks say them",
         "COHESIVESECTION" => COHESIVE,
         "USERELEMENT" | "UEL" | "USERSECTION" => USER_ELEMENTS,
         _ if help == LAW => "materials that are not linear elastic",
         _ if help == HEAT_HELP => HEAT,
-        _ if help == TIME => "analyses other than *STATIC and *DYNAMIC",
+        _ if help == TIME => "analyses other than *STATIC, *DYNAMIC and *FREQUENCY",
         _ => return None,
     })
 }

@@ -33,10 +33,7 @@ pub(super) const ROWS: &[Row] = &[
             harmless("EXTRAPOLATION", NUMERICS),
             idle("SOLVER", NUMERICS),
             harmless("CONVERTSDI", NUMERICS),
-            refused(
-                "PERTURBATION",
-                "take PERTURBATION out: a static step from the deformed state is computed",
-            ),
+            read("PERTURBATION"),
         ],
     ),
     card("ENDSTEP", Data::Nothing, &[]),
@@ -97,6 +94,22 @@ pub(super) const ROWS: &[Row] = &[
             refused("TOTALTIMEATSTART", ZERO),
             refused("SUBSPACE", "modal dynamics is not computed"),
             refused("ADIABATIC", "temperatures are not computed"),
+        ],
+    ),
+    card(
+        "FREQUENCY",
+        Data::Any,
+        &[
+            idle("SOLVER", NUMERICS),
+            idle("EIGENSOLVER", NUMERICS),
+            idle(
+                "STORAGE",
+                "shapes are written as fields, and matrices on demand",
+            ),
+            idle("NORMALIZATION", "shapes have the mass one"),
+            refused("GLOBAL", "matrices are not written: leave GLOBAL out"),
+            refused("CYCMPC", CYCLIC),
+            refused("ALPHA", CYCLIC),
         ],
     ),
     card(

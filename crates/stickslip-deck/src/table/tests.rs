@@ -120,6 +120,7 @@ fn sample(row: &Row) -> (&'static str, &'static str, &'static str) {
         "ENDSTEP" => ("*STEP\n*STATIC\n", "", ""),
         "STATIC" => ("*STEP\n", "", ".1, 1.\n"),
         "DYNAMIC" => ("*STEP\n", "", ".1, 1.\n"),
+        "FREQUENCY" => ("*STEP\n", "", "3\n"),
         "BOUNDARY" => ("*STEP\n*STATIC\n", "", "N, 1, 1\n"),
         "CLOAD" => ("*STEP\n*STATIC\n", "", "1, 1, 1.\n"),
         "DLOAD" => ("*STEP\n*STATIC\n", "", "E, P1, 1.\n"),
@@ -179,6 +180,7 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
         ("DYNAMIC", "ALPHA") => "=0.",
         ("FRICTION", "ROUGH" | "EXPONENTIALDECAY")
         | (_, "NLGEOM" | "DIRECT" | "EXPLICIT" | "FIXED" | "SMALLSLIDING") => "",
+        ("STEP", "PERTURBATION") => "",
         (_, "FREQUENCY" | "FREQUENCYF") => "=1",
         (_, "REMOVE" | "REMOVEALL") => "",
         _ => "=0.",
@@ -189,6 +191,7 @@ fn value(keyword: &str, parameter: &str) -> &'static str {
 fn sample_with<'a>(row: &Row, more: &str, data: &'a str) -> (&'static str, &'static str, &'a str) {
     let (before, needs, _) = sample(row);
     match (row.keyword, more.split('=').next()) {
+        ("STEP", Some("PERTURBATION")) => (before, needs, "*FREQUENCY\n3\n"),
         ("EQUATION", Some("REMOVE")) => ("*STEP\n*STATIC\n", needs, "1, 1\n"),
         ("EQUATION", Some("REMOVEALL")) => ("*STEP\n*STATIC\n", needs, ""),
         ("NCOPY", Some("REFLECT")) => (before, "OLDSET=N, CHANGENUMBER=100", data),

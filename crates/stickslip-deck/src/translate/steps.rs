@@ -16,7 +16,7 @@ pub(super) fn write(job: &mut Job) {
         job.error(
             Default::default(),
             "the deck has no step",
-            "a deck needs *STEP with *STATIC or *DYNAMIC",
+            "a deck needs *STEP with *STATIC, *DYNAMIC or *FREQUENCY",
         );
         return;
     }
@@ -28,8 +28,13 @@ pub(super) fn write(job: &mut Job) {
         job.out
             .line(&format!("duration = {}", toml::number(length)));
         acting(job, i);
-        let sizes = increments(step).join(", ");
-        job.out.line(&format!("increments = {{ {sizes} }}"));
+        match modes(step) {
+            Some(line) => job.out.line(&line),
+            None => {
+                let sizes = increments(step).join(", ");
+                job.out.line(&format!("increments = {{ {sizes} }}"));
+            }
+        }
         if let Some(line) = motion(step) {
             job.out.line(&line);
         }
@@ -74,6 +79,7 @@ fn increments(step: &Step) -> Vec<String> {
         Procedure::Dynamic {
             direct, explicit, ..
         } => (direct, explicit),
+        Procedure::Frequency { .. } => (false, false),
     };
     let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
     let mut sizes = Vec::new();
@@ -102,6 +108,19 @@ fn increments(step: &Step) -> Vec<String> {
         ));
     }
     sizes
+}
+
+/// Which modes a step looks for, where it does.
+fn modes(step: &Step) -> Option<String> {
+    let Procedure::Frequency { count, range } = step.procedure else {
+        return None;
+    };
+    let ends = ["from", "to"].into_iter().zip(range);
+    let ends = ends.filter(|(_, f)| *f > 0.0);
+    let ends: String = ends
+        .map(|(key, f)| format!(", {key} = {}", toml::number(f)))
+        .collect();
+    Some(format!("modes = {{ count = {count}{ends} }}"))
 }
 
 /// How motion is integrated.

@@ -3,7 +3,9 @@
 use stickslip::Error;
 use stickslip::results::{Analysis, Event, Observer};
 
-use crate::support::{column, cube, near, place, refused, run, run_before, sections, translate};
+use crate::support::{
+    column, cube, near, pair, place, refused, run, run_before, sections, translate,
+};
 
 /// A rod with E A = 1000 and length 1 through these steps; the displacement of its end.
 fn rod(name: &str, steps: &str) -> Vec<(f64, f64)> {
@@ -414,4 +416,75 @@ fn what_is_printed_is_in_the_files_while_the_run_goes_on() {
     let printed = run_before("grows", &text, Some(&mut reader)).course("displacements", 3);
     assert_eq!((reader.increments, reader.outputs), (8, 8));
     assert_eq!(printed.len(), 8);
+}
+
+/// Frequencies that a deck asks for in its last step.
+fn frequencies(text: &str) -> Vec<f64> {
+    let translation = translate(text);
+    let problem = translation.document(Vec::new()).problem();
+    let problem = problem.unwrap_or_else(|e| panic!("{e}"));
+    let setup = problem.build_with(&place(""), &translation.meshes());
+    let setup = setup.unwrap_or_else(|e| panic!("{e}"));
+    let mut simulation = stickslip::run::Simulation::new(setup).expect("a simulation");
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let modes = &simulation.modes.last().expect("modes").modes;
+    modes.iter().map(|m| m.frequency).collect()
+}
+
+/// A cantilever of 6 × 1 × 2 bricks, and what CalculiX 2.20 prints for it.
+const CANTILEVER: &str = include_str!("../jobs/cantilever-modes.inp");
+const CALCULIX: [f64; 6] = [
+    1.119025e3, 1.342705e3, 7.025182e3, 7.498055e3, 8.177559e3, 1.317306e4,
+];
+
+#[test]
+fn a_cantilever_has_the_frequencies_of_calculix() {
+    let ours = frequencies(CANTILEVER);
+    assert_eq!(ours.len(), 6);
+    for (ours, theirs) in ours.iter().zip(CALCULIX) {
+        near(*ours, theirs, 5e-7 * theirs);
+    }
+}
+
+#[test]
+fn frequency_steps_find_modes_about_the_state_before() {
+    let rod = frequencies(&format!("{}*STEP\n*FREQUENCY\n4\n*END STEP\n", column()));
+    // The first is that of one linear element, √(3 E/ρ)/(2 π L).
+    assert_eq!(rod.len(), 4);
+    near(rod[0], 3000.0_f64.sqrt() / std::f64::consts::TAU, 1e-9);
+    let some = format!(
+        "{}*STEP\n*FREQUENCY, SOLVER=SPOOLES\n9, 10., 16.\n*END STEP\n",
+        column()
+    );
+    assert_eq!(frequencies(&some).len(), 2);
+    // Two cubes that are pressed together are one rod of twice the length.
+    let pressed = pair(
+        0.0,
+        "SURFACE TO SURFACE",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n",
+    );
+    let steps = "*BOUNDARY\nA, 1\nB, 1\n*STEP\n*STATIC\n*CLOAD\nBTOP, 3, -.1\n*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n1\n*END STEP\n";
+    let both = frequencies(&format!("{pressed}{steps}"));
+    // Two linear elements: ω² = 6 k/m (1 - c)/(2 + c) with c = cos(π/4).
+    let c = std::f64::consts::FRAC_1_SQRT_2;
+    let omega = (6.0 * 1000.0 * (1.0 - c) / (2.0 + c)).sqrt();
+    near(both[0], omega / std::f64::consts::TAU, 1e-4);
+}
+
+#[test]
+fn what_frequency_steps_cannot_say_is_refused() {
+    for (card, words) in [
+        ("*FREQUENCY\n", "does not say how many modes"),
+        ("*FREQUENCY\n3, 5., 2.\n", "go from a lower to a higher one"),
+        ("*FREQUENCY, GLOBAL=YES\n3\n", "leave GLOBAL out"),
+        ("*FREQUENCY\n3\n*STATIC\n", "a second procedure"),
+    ] {
+        let said = refused(&format!("{}*STEP\n{card}*END STEP\n", column()));
+        assert!(said.contains(words), "{card}: {said}");
+    }
+    let said = refused(&format!(
+        "{}*STEP, PERTURBATION\n*STATIC\n*END STEP\n",
+        column()
+    ));
+    assert!(said.contains("take PERTURBATION out"), "{said}");
 }
