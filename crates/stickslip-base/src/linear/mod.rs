@@ -26,8 +26,8 @@ pub use block_csr::BlockCsr;
 pub use compliance::Compliance;
 pub use digest::Digest;
 pub use eigen::{
-    Complex, DenseLu, Found, Krylov, Nearest, Pencil, RealModes, Wanted, arnoldi, general, lanczos,
-    symmetric,
+    Complex, DenseLu, Found, Krylov, Nearest, Pencil, RealModes, Wanted, arnoldi, eigenvalues,
+    general, lanczos, symmetric,
 };
 pub use engine::{
     Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions, Ordered,

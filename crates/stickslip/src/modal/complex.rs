@@ -103,7 +103,7 @@ fn mode(linear: &Linear, eigen: &Eigen) -> Mode {
         frequency: omega / TAU,
         growth,
         damping_ratio: if size > 0.0 { -growth / size } else { 0.0 },
-        residual: residual(linear, eigen, 1.0),
+        residual: residual(linear, eigen, 1.0).1,
         feed: feed(linear, &shape, omega),
         shape,
         ..Mode::default()

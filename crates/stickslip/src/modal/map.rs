@@ -1,8 +1,8 @@
 //! Growth over friction: many coefficients at the price of few solutions.
 //!
 //! The space is that of the lowest real modes and of the displacements that their friction causes at rest, `A⁻¹ L Rᵀ φ`, which is all that first-order
-//! perturbation of a mode needs; modes alone would leave the local give of the surfaces out, by which normal motion and friction meet. Images of images follow
-//! while residuals ask for them. In that space a coefficient of friction costs a dense eigenvalue problem.
+//! perturbation of a mode needs; modes alone would leave the local give of the surfaces out, by which normal motion and friction meet. What modes leave open in the
+//! equations of all dofs follows, while it is too much. In that space a coefficient of friction costs a dense eigenvalue problem.
 
 use std::f64::consts::TAU;
 
@@ -11,12 +11,15 @@ use super::outcome::{FrictionMap, MapRow};
 use super::quadratic::{Eigen, UNSTABLE, residual};
 use super::real::lowest;
 use super::shifted::{Root, Shifted};
-use crate::linear::{Complex, DenseLu, general};
+use crate::linear::{Complex, DenseLu, eigenvalues, general};
 use crate::math::vector::{dot, norm};
 use crate::model::modal::MapPlan;
 
-/// Rounds of images at most.
-const ROUNDS: usize = 3;
+/// Rounds in which what modes leave open is added, at most.
+const ROUNDS: usize = 5;
+
+/// Columns that are solved for together.
+const COLUMNS: usize = 32;
 
 /// Residual of modes in the equations of all dofs that is good enough.
 const GOOD: f64 = 1e-6;
@@ -58,19 +61,20 @@ pub(crate) fn friction(
     let pace = modes.values.get(count / 2).map_or(1.0, |v| v.abs().sqrt());
     let pace = if pace > 0.0 { pace } else { 1.0 };
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    let mut block = extend(shifted, &mut basis, modes.vectors);
+    let block = extend(shifted, &mut basis, modes.vectors);
+    let images = images(shifted, &block, solves);
+    extend(shifted, &mut basis, images);
     let mut reduced = Reduced::new(shifted, basis, pace);
     let largest = plan.range[1].abs().max(plan.range[0].abs());
     for _ in 0..ROUNDS {
-        let images = images(shifted, &block, pace, solves);
-        let mut basis = std::mem::take(&mut reduced.basis);
-        block = extend(shifted, &mut basis, images);
-        reduced = Reduced::new(shifted, basis, pace);
-        let worst = reduced.modes(largest, (count, to), true);
-        let worst = worst.iter().map(|(_, y)| residual(linear, y, largest));
-        if block.is_empty() || worst.fold(0.0, f64::max) <= GOOD {
+        let modes = reduced.modes(largest, (count, to), true);
+        let rests = rests(shifted, &modes, largest, solves);
+        if rests.is_empty() {
             break;
         }
+        let mut basis = std::mem::take(&mut reduced.basis);
+        extend(shifted, &mut basis, rests);
+        reduced = Reduced::new(shifted, basis, pace);
     }
     root.set(1.0, false);
     let mut map = FrictionMap {
@@ -89,7 +93,7 @@ pub(crate) fn friction(
         let modes = reduced.modes(factor, (count, to), true);
         for (value, eigen) in &modes {
             if value[0] > UNSTABLE * value[0].hypot(value[1]) {
-                map.residual = map.residual.max(residual(linear, eigen, factor));
+                map.residual = map.residual.max(residual(linear, eigen, factor).1);
             }
         }
         let modes = modes.iter().map(|(v, _)| [v[1] / TAU, v[0]]).collect();
@@ -135,28 +139,49 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
 }
 
 /// Displacements at rest under the friction of others.
-fn images(shifted: &Shifted, block: &[Vec<f64>], pace: f64, solves: &mut usize) -> Vec<Vec<f64>> {
+fn images(shifted: &Shifted, block: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<f64>> {
     let linear = shifted.linear;
-    let n = linear.size();
     let mut columns = Vec::new();
     for x in block {
-        for (pairs, factor) in [(&linear.friction, 1.0), (&linear.drag, pace)] {
-            if pairs.is_empty() {
-                continue;
+        for pairs in [&linear.friction, &linear.drag] {
+            if !pairs.is_empty() {
+                let mut column = vec![0.0; linear.size()];
+                add_pairs(pairs, 1.0, x, &mut column);
+                columns.push(column);
             }
-            let mut column = vec![0.0; n];
-            add_pairs(pairs, factor, x, &mut column);
-            columns.push(column);
-        }
-        if linear.damping.is_some() {
-            columns.push(linear.damped(x).iter().map(|c| pace * c).collect());
         }
     }
-    let count = columns.len();
-    let mut columns = columns.concat();
-    shifted.factor.solve_columns(&mut columns, count);
-    *solves += count;
-    columns.chunks_exact(n).map(<[f64]>::to_vec).collect()
+    solved(shifted, &columns, solves)
+}
+
+/// Displacements at rest under what modes leave open in the equations of all dofs, of those that leave too much.
+fn rests(
+    shifted: &Shifted,
+    modes: &[(Complex, Eigen)],
+    factor: f64,
+    solves: &mut usize,
+) -> Vec<Vec<f64>> {
+    let linear = shifted.linear;
+    let mut columns = Vec::new();
+    for (_, eigen) in modes {
+        let (rest, open) = residual(linear, eigen, factor);
+        if open > GOOD {
+            columns.extend(rest);
+        }
+    }
+    solved(shifted, &columns, solves)
+}
+
+fn solved(shifted: &Shifted, columns: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<f64>> {
+    let n = shifted.linear.size();
+    *solves += columns.len();
+    let mut out = Vec::new();
+    for chunk in columns.chunks(COLUMNS) {
+        let mut all = chunk.concat();
+        shifted.factor.solve_columns(&mut all, chunk.len());
+        out.extend(all.chunks_exact(n).map(<[f64]>::to_vec));
+    }
+    out
 }
 
 /// Adds vectors to a basis; returns those parts of them that are new.
@@ -267,7 +292,16 @@ impl Reduced {
     /// Modes of least size, by frequency; with their displacements where `shapes` are wanted.
     fn modes(&self, factor: f64, (count, to): (usize, f64), shapes: bool) -> Vec<(Complex, Eigen)> {
         let n = 2 * self.basis.len();
-        let Some((values, vectors)) = general(n, &self.companion(factor)) else {
+        let companion = self.companion(factor);
+        let found = match shapes {
+            true => general(n, &companion),
+            // Values alone cost a fraction.
+            false => eigenvalues(n, &companion).map(|values| {
+                let none = vec![Vec::new(); values.len()];
+                (values, none)
+            }),
+        };
+        let Some((values, vectors)) = found else {
             return Vec::new();
         };
         let size = |z: &Complex| z[0].hypot(z[1]);

@@ -145,11 +145,12 @@ pub(crate) fn solve(
     all
 }
 
-/// What is left of the equations of motion with all friction times `factor`, relative to the forces in them.
-pub(crate) fn residual(linear: &Linear, eigen: &Eigen, factor: f64) -> f64 {
+/// What is left of the equations of motion with all friction times `factor`, real and imaginary part, and that relative to the forces in them.
+pub(crate) fn residual(linear: &Linear, eigen: &Eigen, factor: f64) -> ([Vec<f64>; 2], f64) {
     let [l, w] = eigen.value;
     let square = [l * l - w * w, 2.0 * l * w];
     let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], factor));
+    let mut open = [0, 1].map(|_| vec![0.0; linear.size()]);
     let (mut rest, mut sizes) = (0.0, [0.0; 3]);
     for i in 0..linear.size() {
         if linear.fixed[i] {
@@ -161,11 +162,13 @@ pub(crate) fn residual(linear: &Linear, eigen: &Eigen, factor: f64) -> f64 {
         };
         let parts = [part(0, [1.0, 0.0]), part(1, [l, w]), part(2, square)];
         let sum = |c: usize| parts.iter().map(|p| p[c]).sum::<f64>();
+        open[0][i] = sum(0);
+        open[1][i] = sum(1);
         rest += sum(0).powi(2) + sum(1).powi(2);
         for (s, p) in sizes.iter_mut().zip(parts) {
             *s += p[0] * p[0] + p[1] * p[1];
         }
     }
     let scale: f64 = sizes.iter().map(|s| s.sqrt()).sum();
-    rest.sqrt() / scale.max(f64::MIN_POSITIVE)
+    (open, rest.sqrt() / scale.max(f64::MIN_POSITIVE))
 }

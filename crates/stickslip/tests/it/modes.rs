@@ -636,3 +636,41 @@ fn what_has_no_meaning_in_a_step_without_increments_is_refused() {
     let error = format!("{outcome:?}");
     assert!(error.contains("density"), "{error}");
 }
+
+/// A rigid block of mass 1 that a surface drags along x while a spring holds it across: only across it may move.
+fn dragged_across(sliding: &str, steady: &str) -> [f64; 2] {
+    let text = format!(
+        r#"
+format = 1
+model.space = "solid"
+body.block = {{ rigid = true, generate.box = {{ from = [-0.5, -0.5, 0], to = [0.5, 0.5, 0.1], cells = [2, 2, 2] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0.0, density = 10.0 }}
+set.centre = {{ of = "block", point = [0, 0, 0] }}
+obstacle.belt.plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}
+output.every = 0
+interface.rub = {{ secondary = "block.bottom", primary = "belt", normal.linear = {{ c = 1e4 }}, friction.coulomb = {{ mu = 0.4 }}{sliding} }}
+coupling.y.spring = {{ stiffness = 100.0, terms = [{{ set = "centre", component = "y" }}] }}
+support.guide = {{ set = "block", x = 0, z = -5e-4 }}
+[[step]]
+steady = {steady}
+[[step]]
+complex-modes = {{ count = 1 }}
+"#
+    );
+    worst(&modes(&text))
+}
+
+#[test]
+fn friction_damps_what_moves_across_the_sliding() {
+    // λ² + λ μ N / v + 100 = 0 with μ N = 2 and v = 0.5.
+    let c: f64 = 0.4 * 5.0 / 0.5;
+    let exact = [-0.5 * c, (100.0 - 0.25 * c * c).sqrt()];
+    let belt = dragged_across(", primary-velocity = [0.5, 0, 0.1]", "{}");
+    // About an axis so far away that all points go the same way.
+    let disc = "{ turning.rub = { centre = [0, -1e6, 0], axis = [0, 0, -2], speed = 5e-7 } }";
+    let disc = dragged_across("", disc);
+    for q in 0..2 {
+        near(belt[q], exact[q], 1e-9);
+        near(disc[q], exact[q], 1e-5);
+    }
+}

@@ -45,6 +45,22 @@ pub fn general(n: usize, a: &[f64]) -> Option<(Vec<Complex>, Vec<Vec<Complex>>)>
     Some((values, vectors.collect()))
 }
 
+/// Eigenvalues alone of a matrix without symmetry, given row by row; `None` where it is not finite.
+///
+/// # Panics
+/// If `a` has not `n²` entries.
+pub fn eigenvalues(n: usize, a: &[f64]) -> Option<Vec<Complex>> {
+    assert_eq!(a.len(), n * n, "entries of a square matrix");
+    if n == 0 {
+        return Some(Vec::new());
+    }
+    if !a.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let values = Mat::from_fn(n, n, |i, j| a[i * n + j]).eigenvalues().ok()?;
+    Some(values.iter().map(|z| [z.re, z.im]).collect())
+}
+
 /// A dense LU factor with row exchanges.
 pub struct DenseLu {
     n: usize,

@@ -2,7 +2,7 @@
 
 use super::definition::{Interface, Primary};
 use crate::contact::obstacle::Pose;
-use crate::math::{Vec3, add, scale};
+use crate::math::{Vec3, add, cross, scale, sub};
 use crate::system::{Amplitude, Stage};
 
 impl Interface {
@@ -15,6 +15,18 @@ impl Interface {
             let table = self.belt.iter().map(|row| [row[0], row[i + 1]]).collect();
             Amplitude::new(table).map_or(0.0, |v| v.at(t))
         })
+    }
+
+    /// Velocity of the surface of the primary at a place, counted from the origin of the interface, in sliding that lasts.
+    pub(super) fn steady_velocity(&self, x: Vec3, t: f64) -> Vec3 {
+        let belt = self.belt_velocity(t);
+        match self.directives.steady {
+            None => belt,
+            Some(steady) => {
+                let arm = sub(add(self.origin, x), steady.centre);
+                add(belt, cross(steady.turning, arm))
+            }
+        }
     }
 
     /// Belt displacement over the increment; exact, as increments land on the rows of its table.

@@ -94,6 +94,12 @@ impl Interface {
     /// what its velocity at the end makes of the increment. What was apart at the start of the increment has swung towards each other as far as the
     /// surfaces have turned on the way, and that was no slip: by less than the gap there was.
     fn moved_over(&self, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
+        let tangential = |v: Vec3| add_scaled(v, -dot(v, e.frames.normal), e.frames.normal);
+        if e.steady {
+            let x = self.points[i].position(&self.cache.x);
+            let way = self.steady_velocity(x, stage.at.t);
+            return (tangential(scale(-stage.dt, way)), 0.0);
+        }
         let dim = self.dofs.dim;
         let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (node, w) in self.weights_of(i) {
@@ -123,9 +129,6 @@ impl Interface {
             // The point has seen other velocities on its way.
             unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
         }
-        (
-            add_scaled(moved, -dot(moved, e.frames.normal), e.frames.normal),
-            unsure,
-        )
+        (tangential(moved), unsure)
     }
 }

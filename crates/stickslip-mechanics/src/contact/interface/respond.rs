@@ -9,7 +9,7 @@ use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
-use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+use crate::math::{Vec3, add_scaled, dot, norm, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
@@ -206,13 +206,12 @@ impl Interface {
 
     /// In sliding that lasts friction sees the motion of the primary's surface alone, which no displacement changes.
     fn see_steady(&self, i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
-        let Some(steady) = self.directives.steady else {
+        if self.directives.steady.is_none() {
             return;
-        };
+        }
         let stencil = &batch.stencil;
-        let x = add(self.origin, self.points[i].position(&scene.cache.x));
-        let turned = cross(steady.turning, sub(x, steady.centre));
-        let way = add_scaled(scene.belt_end, scene.dt, turned);
+        let x = self.points[i].position(&scene.cache.x);
+        let way = scale(scene.dt, self.steady_velocity(x, scene.t));
         let belt = stencil.frame.map(|e| dot(e, way));
         let across = dot(stencil.normal, way);
         // What moves along its normal alone does not slide.
