@@ -76,6 +76,7 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
     };
     let of_motion = [
         ("dynamic", step.dynamic.is_some()),
+        ("cycles", step.cycles.is_some()),
         ("steady", step.steady.is_some()),
         ("increments", step.increments != Increments::default()),
         ("pretension", !step.pretension.is_empty()),
