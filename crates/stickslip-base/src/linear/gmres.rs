@@ -26,6 +26,9 @@ impl Default for GmresSettings {
 /// Part of the tolerance that all errors of inexact products may take together.
 const ERRORS: f64 = 0.1;
 
+/// `product(v, out, error)` makes `out = A v` with an error that is not above `error` times the product.
+pub type Product<'a> = dyn FnMut(&[f64], &mut [f64], f64) + 'a;
+
 /// How [`gmres`] ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GmresReport {
@@ -68,7 +71,7 @@ pub fn gmres(
 /// # Panics
 /// If `b` and `x` differ in length.
 pub fn gmres_inexact(
-    apply: &mut dyn FnMut(&[f64], &mut [f64], f64),
+    apply: &mut Product,
     precondition: &mut dyn FnMut(&mut [f64]),
     b: &[f64],
     x: &mut [f64],
@@ -125,7 +128,7 @@ pub fn gmres_inexact(
 
 /// One cycle from a residual `r` of length `size`: the update of the solution and the steps taken.
 fn cycle(
-    apply: &mut dyn FnMut(&[f64], &mut [f64], f64),
+    apply: &mut Product,
     precondition: &mut dyn FnMut(&mut [f64]),
     r: &[f64],
     size: f64,
@@ -212,7 +215,7 @@ fn orthogonalize(basis: &[Vec<f64>], w: &mut [f64], before: f64) -> Vec<f64> {
 }
 
 fn residual_into(
-    apply: &mut dyn FnMut(&[f64], &mut [f64], f64),
+    apply: &mut Product,
     error: f64,
     b: &[f64],
     x: &[f64],

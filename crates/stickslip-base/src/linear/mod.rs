@@ -35,7 +35,7 @@ pub use engine::{
 };
 pub use error::LinearError;
 pub use factor::{Factor, SINGULAR_ROUNDINGS};
-pub use gmres::{GmresReport, GmresSettings, gmres, gmres_inexact};
+pub use gmres::{GmresReport, GmresSettings, Product, gmres, gmres_inexact};
 pub use isotropic::Isotropic;
 pub use multifrontal::{Fronts, Numbers, PartialFactor, Workspace};
 pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
