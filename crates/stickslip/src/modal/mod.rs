@@ -1,9 +1,9 @@
 //! Small vibrations about the state that an analysis has reached: real modes, modes of steady sliding, maps over friction.
 //!
-//! [`linear`] is the model linearised: a symmetric stiffness of bodies, springs, couplings and closed contacts, the mass, the damping of bodies, and what
-//! friction adds, as pairs of sparse rows, one for each contact point that slides. [`shifted`] solves with it: the symmetric part is factored once, friction is
-//! a dense matrix over the sliding points (Woodbury's formula), and only that depends on the coefficient of friction. [`real`] and [`complex`] are the two
-//! eigenvalue problems ([`quadratic`] solves the second), [`map`] asks for many coefficients in the space of a few real modes.
+//! `linear` is the model linearised: a symmetric stiffness of bodies, springs, couplings and closed contacts, the mass, the damping of bodies, and what
+//! friction adds, as pairs of sparse rows, one for each contact point that slides. `shifted` solves with it: the symmetric part is factored once, friction is
+//! a dense matrix over the sliding points (Woodbury's formula), and only that depends on the coefficient of friction. `real` and `complex` are the two
+//! eigenvalue problems (`quadratic` solves the second), `map` asks for many coefficients in the space of a few real modes.
 //!
 //! At a point that slides with the velocity `v` along `s`, pressure `p`, `k_n = dp/d(-g)` and the law `μ(v, p)` the secondary meets per area
 //!
