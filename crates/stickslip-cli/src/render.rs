@@ -96,8 +96,8 @@ mod tests {
              9 | durtion = 1\n  \
              | ^^^^^^^\n  \
              |\n  \
-             = help: did you mean `duration`? allowed here: change, couplings, duration, dynamic, increments, interfaces, \
-             loads, name, pretension, supports, temperatures"
+             = help: did you mean `duration`? allowed here: change, complex-modes, couplings, cycles, duration, dynamic, \
+             increments, interfaces, loads, modes, name, pretension, steady, supports, temperatures"
         );
     }
 
