@@ -315,6 +315,47 @@ fn two_degrees_of_freedom_flutter_as_their_characteristic_equation_says() {
     near(g, 0.0, 1e-9);
 }
 
+/// What is found without motion is what motion does: a block that is kicked as it slides swings ever more widely, at the rate and frequency of the eigenvalue, and
+/// less and less where that decays.
+#[test]
+fn motion_grows_and_decays_as_eigenvalues_say() {
+    let run = "[[step]]\nname = \"run\"\nduration = 14\nincrements.fixed = 7000\ndynamic = { scheme.newmark = {} }\n";
+    let kick = "initial.kick = { set = \"block\", velocity = [2e-4, 0], step = \"run\" }\nprobe.m = { of = \"block\", point = [0, 0.05] }\n";
+    for damping in [0.0, 1.2] {
+        let dashpots = [damping; 2];
+        // Equal dashpots make λ² + cλ of λ².
+        let [re, im] = [0.407292624_f64, 4.600639877];
+        let square = [0.25 * damping * damping + re * re - im * im, 2.0 * re * im];
+        let size = square[0].hypot(square[1]);
+        let growth = (0.5 * (size + square[0])).sqrt() - 0.5 * damping;
+        let omega = (0.5 * (size - square[0])).sqrt();
+        let text = hoffmann(0.8, dashpots, run)
+            .replacen("-1e-3", "-1", 1)
+            .replacen("load.press", &format!("{kick}load.press"), 1);
+        let record = support::run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let rows = record.increments.iter().map(|(_, row)| row);
+        let course: Vec<[f64; 2]> = rows
+            .filter(|row| row.get("STEP") == Some(2.0))
+            .map(|row| ["TIME", "m.U1"].map(|name| row.get(name).expect("a column")))
+            .collect();
+        // Turning points, after the partner of the mode, which decays by as much more, has gone; from one to the next it does not matter about what they swing.
+        let turns: Vec<[f64; 2]> = course
+            .windows(3)
+            .filter(|w| (w[1][1] - w[0][1]) * (w[2][1] - w[1][1]) <= 0.0 && w[1][0] > 9.0)
+            .map(|w| w[1])
+            .collect();
+        let n = turns.len();
+        assert!(n >= 5, "{turns:?}");
+        let swing = |k: usize| (turns[k + 1][1] - turns[k][1]).abs();
+        let time = turns[n - 2][0] - turns[0][0];
+        let rate = (swing(n - 2) / swing(0)).ln() / time;
+        let turning = PI * (n - 2) as f64 / time;
+        assert_eq!(growth > 0.0, damping == 0.0);
+        near(rate, growth, 1e-2 * growth.abs());
+        near(turning, omega, 1e-2 * omega);
+    }
+}
+
 /// The map over the friction of 0.5.
 fn hoffmann_map(dashpots: [f64; 2]) -> ModalOutcome {
     let map = "[[step]]\ncomplex-modes = { count = 3, map = { to = 2, points = 21 } }\n";
