@@ -510,3 +510,43 @@ wear.archard = {{ coefficient = 1e-3, primary-coefficient = 1e-3 }}
     let [a, b] = [&all, &some].map(|s| s.summary.last["joint.CWEARVOL"]);
     assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
 }
+
+/// Points that stick wear nothing, whatever their springs give way: a block that is pressed and pushed while all of it sticks answers with the same force, bit for bit, where it
+/// would wear very fast and where nothing wears; and where some of it slides both sides lose what the law says of the path that is slid.
+#[test]
+fn what_sticks_does_not_wear() {
+    let run = |push: f64, wear: &str| {
+        let text = format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.block = {{ generate.rectangle = {{ to = [2, 1], cells = [8, 4] }}, material = "m" }}
+material.m.isotropic = {{ young = 1.0, poisson = 0.3 }}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.base = {{ secondary = "block.bottom", primary = "floor", friction.coulomb = {{ mu = 0.5 }}, enforcement.penalty = {{ stiffness = 10.0, tangential-stiffness = 5.0 }}{wear} }}
+support.press = {{ set = "block.top", y = -0.01, x = 0 }}
+support.push = {{ set = "block.top", y = -0.01, x = {push:?} }}
+quality.gate = "off"
+step = [{{ supports = ["press"], increments.fixed = 1 }}, {{ supports = ["push"], increments.fixed = 4 }}]
+"#
+        );
+        let record = support::run(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let row = record.increments.last().expect("an increment").1.clone();
+        move |name: &str| row.get(name).unwrap_or_else(|| panic!("no column {name}"))
+    };
+    let wear = ", wear.archard = { coefficient = 500.0 }";
+    let [worn, plain] = [wear, ""].map(|wear| run(1e-4, wear));
+    assert_eq!(worn("SLIP"), 0.0);
+    assert_eq!(worn("base.CWEARMAX"), 0.0);
+    for name in ["base.CFN2", "base.CFS1", "push.RF1", "push.RF2"] {
+        assert_eq!(worn(name), plain(name), "{name}");
+    }
+    // Beyond that the whole base slides, and the more it wears the less it carries.
+    let [fast, slow, plain] = [
+        ", wear.archard = { coefficient = 10.0 }",
+        ", wear.archard = { coefficient = 1e-3 }",
+        "",
+    ]
+    .map(|wear| run(0.05, wear));
+    assert!(fast("base.CWEARMAX") > 0.0 && fast("base.CFN2") < 0.9 * slow("base.CFN2"));
+    assert!((slow("base.CFN2") / plain("base.CFN2") - 1.0).abs() < 1e-2);
+}

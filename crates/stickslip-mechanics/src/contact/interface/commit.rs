@@ -4,6 +4,7 @@ use super::definition::{Interface, Primary};
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
 use super::scene::Wants;
+use super::worn::path;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -382,15 +383,6 @@ impl Interface {
 impl Evaluation {
     /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
     pub(super) fn path(&self, frictional: bool) -> f64 {
-        let r = &self.response;
-        match (r.status, frictional) {
-            (Status::Open, _) => 0.0,
-            (_, true) => {
-                let [a, b] = r.sliding_path;
-                let [e, f] = self.frames.before;
-                crate::math::norm(add_scaled(scale(a, e), b, f))
-            }
-            (_, false) => crate::math::norm(self.moved),
-        }
+        path(&self.response, frictional, self.frames.before, self.moved)
     }
 }

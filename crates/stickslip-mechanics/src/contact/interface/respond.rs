@@ -5,6 +5,7 @@ use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation, Frames, Question, Slots, components};
 use super::initial::TOUCHING;
 use super::scene::{LawQuery, Scene};
+use super::worn::length;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
@@ -13,11 +14,6 @@ use crate::math::{Vec3, add_scaled, dot, norm, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
 const FIRST_SLACK: f64 = 1e-2;
-
-/// Length of a way along two directions.
-fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
-    norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
-}
 
 /// Part of the velocity of a surface that rounding may leave along it.
 const AT_REST: f64 = 1e-12;
@@ -52,7 +48,11 @@ impl Interface {
                 },
             },
             rest: self.rest(i),
-            worn: self.softness(i, length(stencil.frame_before, slid)),
+            // A law of the program is asked once, before it is known how much of the way is slid.
+            worn: match scene.query {
+                LawQuery::Nothing => 0.0,
+                _ => self.softness(i, length(stencil.frame_before, slid)),
+            },
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
             pressed: self.directives.all_stick,
@@ -73,7 +73,9 @@ impl Interface {
             }));
             return Evaluation::default();
         }
-        let response = self.laws.respond(stencil, &at);
+        let [e, f] = stencil.frame_before;
+        let moved = add_scaled(scale(slid[0], e), slid[1], f);
+        let response = self.wearing(i, stencil, moved, &mut at);
         let worn = at.worn * response.traction[0];
         Evaluation {
             slots,
@@ -90,11 +92,7 @@ impl Interface {
                 before: stencil.frame_before,
                 normal_before: stencil.normal_before,
             },
-            moved: add_scaled(
-                scale(slid[0], stencil.frame_before[0]),
-                slid[1],
-                stencil.frame_before[1],
-            ),
+            moved,
             normal_stiffness: at.stiffness.normal,
             tangential_stiffness: at.stiffness.tangential,
             multiplier: at.kept.multiplier,

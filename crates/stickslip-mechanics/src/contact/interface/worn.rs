@@ -6,13 +6,34 @@
 //! weights. What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both is in proportion to the pressure of the point at its end: a compliance in series with the contact
-//! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that of the iterate, and its derivative is left out of the tangent: the
+//! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides, and its derivative is left out of the tangent: the
 //! solution does not depend on that, and the tangent stays as symmetric as it was.
 
 use super::definition::Interface;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
+use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearRate};
+use crate::contact::response::{LawInput, Response, Status};
+use crate::math::{Vec3, add_scaled, norm, scale};
+
+/// Evaluations of the laws after which path and pressure of a point that wears are taken as they are, and the change of the depth that is none.
+const EVALUATIONS: usize = 50;
+const SETTLED: f64 = 1e-13;
+
+/// Length of a way along two directions.
+pub(super) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
+    norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
+}
+
+/// Length of the way that a point slid, which moved by `moved` in all; a sticking point slides nowhere, a frictionless one all the way it moves.
+pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], moved: Vec3) -> f64 {
+    match (response.status, frictional) {
+        (Status::Open, _) => 0.0,
+        (_, true) => length(frame, response.sliding_path),
+        (_, false) => norm(moved),
+    }
+}
 
 impl Interface {
     /// How fast the side with the points and the other one wear at a point.
@@ -54,6 +75,29 @@ impl Interface {
         };
         let [own, other] = self.wear_rates(h).map(|r| r.per_path(shear));
         (own + other) * self.cycles() * path
+    }
+
+    /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
+    /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end.
+    pub(super) fn wearing(
+        &self,
+        i: usize,
+        stencil: &Stencil,
+        moved: Vec3,
+        at: &mut LawInput,
+    ) -> Response {
+        let frictional = self.laws.friction_law().frictional();
+        let mut response = self.laws.respond(stencil, at);
+        for _ in 0..EVALUATIONS {
+            let path = path(&response, frictional, stencil.frame_before, moved);
+            let worn = self.softness(i, path);
+            if (worn - at.worn).abs() <= SETTLED * worn {
+                break;
+            }
+            at.worn = worn;
+            response = self.laws.respond(stencil, at);
+        }
+        response
     }
 
     /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
