@@ -15,7 +15,7 @@ use crate::solve::solver::Solver;
 use crate::system::{ContactBlock, Links, Stage};
 
 /// By how much stiffer equations between displacements are taken than Newton's method takes them.
-const FIRMER: f64 = 10.0;
+const FIRMER: f64 = 1e3;
 
 /// Part of a step after which what acts in it acts.
 const SOON: f64 = 1e-3;

@@ -101,8 +101,7 @@ fn demanded(name: &str) -> (f64, bool) {
         "belt-mass" | "forced-slider" | "free-slider" | "belt-block" => (1e-4, true),
         "braking-block" => (1e-6, false),
         // Followed bodies are at rest when their anchors carry less than 1e-8 of the load.
-        // The disc of `fretting-wear` can roll but for a holder and contact: reactions of both ways to solve differ by 1.2e-7, before anything wears too, whatever the
-        // tolerance; the cause is not known.
+        // Multipliers of `fretting-wear` settle to the `error` of its enforcement, not to rounding.
         "closing-gaps" | "fretting-wear" => (1e-7, false),
         // What is in balance to the default tolerance agrees to that.
         "shear-lag" | "lug" => (1e-8, false),

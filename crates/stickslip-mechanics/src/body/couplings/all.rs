@@ -155,7 +155,7 @@ pub(super) struct Iterate {
 
 /// Stiffness by which multipliers are eliminated, relative to that of the bodies at the points of a row. Every iteration leaves about its inverse of
 /// what an equation is off; what rounding of displacements leaves of forces grows with it.
-pub(super) const FIRM: f64 = 1e4;
+pub(super) const FIRM: f64 = 1e2;
 
 impl Couplings {
     /// Couplings of the points of a space of this dimension.
