@@ -79,6 +79,17 @@ impl Lattice {
         cells: &[LatticeCell],
         position: impl Fn(Key) -> Vec3,
     ) -> Result<Lattice, MeshError> {
+        Lattice::closed(dim, element, diagonal, (cells, usize::MAX), position)
+    }
+
+    /// The same where the first direction begins anew after `period` positions.
+    pub fn closed(
+        dim: usize,
+        element: ElementKind,
+        diagonal: Diagonal,
+        (cells, period): (&[LatticeCell], usize),
+        position: impl Fn(Key) -> Vec3,
+    ) -> Result<Lattice, MeshError> {
         if element.dim() != dim {
             let fitting: Vec<&str> = ElementKind::ALL
                 .into_iter()
@@ -100,6 +111,7 @@ impl Lattice {
         for cell in cells {
             fill(element, diagonal, cell, &mut nodes);
         }
+        nodes.iter_mut().for_each(|key| key[0] %= period);
         // The first direction runs fastest, the layers come last.
         let mut keys = nodes.clone();
         keys.sort_unstable_by_key(order);

@@ -441,3 +441,83 @@ fn a_refined_ball_of_any_element_is_sound() {
         }
     }
 }
+
+#[test]
+fn rings_have_their_circles() {
+    for ring in Ring::samples() {
+        let mesh = ring.generate().unwrap();
+        for (set, radius) in [("bore", ring.bore), ("rim", ring.radius)] {
+            for p in mesh.facet_set_points(set).unwrap() {
+                let [x, y] = ring.centre;
+                let away = distance(mesh.points[p], [x, y, 0.0]);
+                assert!((away - radius).abs() < 1e-15, "{set}: {away}");
+            }
+        }
+        let area = PI * (ring.radius.powi(2) - ring.bore.powi(2));
+        // Twelve chords, or as many parabolas.
+        let tolerance = if ring.element.order() == 1 {
+            0.05
+        } else {
+            1e-3
+        };
+        assert!((mesh.measure() / area - 1.0).abs() < tolerance);
+    }
+    let bad = |change: fn(&mut Ring)| {
+        let mut ring = Ring::samples()[0].clone();
+        change(&mut ring);
+        message(ring.generate())
+    };
+    assert!(bad(|r| r.bore = 0.06).contains("not inside the rim"));
+    assert!(bad(|r| r.cells[0] = 2).contains("do not go round"));
+    assert!(bad(|r| r.cells[1] = 0).contains("no cells"));
+    assert!(bad(|r| r.ratio = f64::NAN).contains("not a length"));
+}
+
+/// The normal of an involute touches its base circle, wherever on a flank; on the pitch circle teeth are as thick as their play says.
+#[test]
+fn flanks_of_gears_are_involutes() {
+    for gear in Gear::samples() {
+        let mesh = gear.generate().unwrap();
+        let pitch = 0.5 * gear.module * gear.teeth as f64;
+        let base = pitch * gear.pressure_angle.cos();
+        let [x, y] = gear.centre;
+        let polar = |p: usize| {
+            let arm = sub(mesh.points[p], [x, y, 0.0]);
+            (crate::math::norm(arm), arm[1].atan2(arm[0]))
+        };
+        let step = 2.0 * PI / gear.teeth as f64;
+        let mut flanks = 0;
+        for p in mesh.facet_set_points("teeth").unwrap() {
+            let (radius, angle) = polar(p);
+            let root = pitch - gear.dedendum * gear.module;
+            let tip = pitch + gear.addendum * gear.module;
+            assert!(radius > root - 1e-12 && radius < tip + 1e-12);
+            let away = (angle - gear.angle).rem_euclid(step);
+            let away = away.min(step - away);
+            // The angle at which a string wound off the base circle ends, from the middle of the tooth.
+            let rolled = ((radius / base).powi(2) - 1.0).max(0.0).sqrt();
+            let involute = rolled - rolled.atan();
+            let at_pitch = gear.pressure_angle.tan() - gear.pressure_angle;
+            let half = 0.5 * (0.5 * step * pitch - 0.5 * gear.backlash) / pitch;
+            let flank = half + at_pitch - involute;
+            let edge = radius > root + 1e-9 && radius < tip - 1e-9;
+            if edge {
+                assert!((away - flank).abs() < 1e-9, "{radius}: {away} {flank}");
+                flanks += 1;
+            }
+        }
+        let rows = gear.cells[0] * gear.element.order() - 1;
+        assert_eq!(flanks, 2 * gear.teeth * rows);
+    }
+    let bad = |change: fn(&mut Gear)| {
+        let mut gear = Gear::samples()[0].clone();
+        change(&mut gear);
+        message(gear.generate())
+    };
+    assert!(bad(|g| g.teeth = 3).contains("no involute gear"));
+    assert!(bad(|g| g.pressure_angle = 20.0).contains("none of a gear"));
+    assert!(bad(|g| g.bore = 0.02).contains("reaches the root circle"));
+    assert!(bad(|g| g.addendum = 5.0).contains("ends in a point"));
+    assert!(bad(|g| g.cells = [0, 1, 1, 1]).contains("no cells"));
+    assert!(bad(|g| g.backlash = f64::INFINITY).contains("heights"));
+}
