@@ -44,6 +44,7 @@ references! {
     saad_schultz_1986: "Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear systems, SIAM Journal on Scientific and Statistical Computing 7 (1986) 856-869.",
     saad_1993: "Y. Saad, A flexible inner-outer preconditioned GMRES algorithm, SIAM Journal on Scientific Computing 14 (1993) 461-469.",
     simoncini_szyld_2003: "V. Simoncini, D. B. Szyld, Theory of inexact Krylov subspace methods and applications to scientific computing, SIAM Journal on Scientific Computing 25 (2003) 454-477.",
+    shabana_2013: "A. A. Shabana, Dynamics of Multibody Systems, 4th ed., Cambridge University Press, 2013.",
     westergaard_1939: "H. M. Westergaard, Bearing pressures and cracks, Journal of Applied Mechanics 6 (1939) A49-A53.",
     persson_2001: "B. N. J. Persson, Theory of rubber friction and contact mechanics, Journal of Chemical Physics 115 (2001) 3840-3861.",
     mccool_1986: "J. I. McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60.",

@@ -294,13 +294,7 @@ impl Links {
     /// The block `Tᵀ K T` over the dofs that move those of a block; `None` if none of them is of a rigid body.
     pub fn transform(&self, block: &ContactBlock) -> Option<ContactBlock> {
         let (dofs, rows) = self.replace(&block.dofs)?;
-        Some(ContactBlock {
-            hessian: congruent(&rows, dofs.len(), &block.hessian),
-            surrogate: congruent(&rows, dofs.len(), &block.surrogate),
-            rows: columns(&rows, dofs.len(), &block.rows),
-            change: columns(&rows, dofs.len(), &block.change),
-            dofs,
-        })
+        Some(block.congruent(dofs, &rows))
     }
 
     /// The dofs that move these, each once; `None` if none of them is of a rigid body.
@@ -343,8 +337,26 @@ impl Links {
     }
 }
 
+impl ContactBlock {
+    /// `Tᵀ K T` over the dofs that move those of the block, with the rows of `T`.
+    pub(super) fn congruent<const W: usize>(
+        &self,
+        dofs: Vec<usize>,
+        rows: &[[(usize, f64); W]],
+    ) -> ContactBlock {
+        let m = dofs.len();
+        ContactBlock {
+            hessian: congruent(rows, m, &self.hessian),
+            surrogate: congruent(rows, m, &self.surrogate),
+            rows: columns(rows, m, &self.rows),
+            change: columns(rows, m, &self.change),
+            dofs,
+        }
+    }
+}
+
 /// `Tᵀ K T` with the rows of `T`, which has `m` columns; empty if `K` is.
-fn congruent(rows: &[Row], m: usize, k: &[f64]) -> Vec<f64> {
+fn congruent<const W: usize>(rows: &[[(usize, f64); W]], m: usize, k: &[f64]) -> Vec<f64> {
     if k.is_empty() {
         return Vec::new();
     }
@@ -368,7 +380,7 @@ fn congruent(rows: &[Row], m: usize, k: &[f64]) -> Vec<f64> {
 }
 
 /// `A T` with the rows of `T`, which has `m` columns.
-fn columns(rows: &[Row], m: usize, a: &[f64]) -> Vec<f64> {
+pub(super) fn columns<const W: usize>(rows: &[[(usize, f64); W]], m: usize, a: &[f64]) -> Vec<f64> {
     let n = rows.len();
     let mut out = vec![0.0; a.len() / n.max(1) * m];
     for (a, o) in a.chunks_exact(n).zip(out.chunks_exact_mut(m)) {

@@ -1,7 +1,8 @@
-//! What is common to all forces: state, degrees of freedom, the [`Force`] trait, assembly, constraints, rigid bodies, amplitudes.
+//! What is common to all forces: state, degrees of freedom, the [`Force`] trait, assembly, constraints, rigid bodies, frames of bodies that turn, amplitudes.
 
 mod amplitude;
 mod assembler;
+mod body_frames;
 mod constraints;
 mod dofs;
 mod failure;
@@ -12,6 +13,7 @@ mod schedule;
 
 pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
+pub use body_frames::{BodyFrame, BodyFrames, FramePose, InSpace};
 pub use constraints::Constraints;
 pub use dofs::{Component, Dofs, Motion};
 pub use failure::{Cause, Culprit, Evidence, Otherwise, StepFailure};

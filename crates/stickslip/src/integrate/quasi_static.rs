@@ -46,6 +46,7 @@ impl Integrator for QuasiStatic {
         Ok(Accepted {
             flow: Flow {
                 work: frame.work(&fixed, (&at.u, &converged.forces), &external),
+                transmitted: frame.transmitted(model, (&at.u, &converged.forces), &external),
                 ..Flow::default()
             },
             strain: solver.strain_energy(&at.u),
@@ -76,6 +77,23 @@ impl Frame {
             at.u.iter_mut().zip(ahead).for_each(|(u, d)| *u += d);
         }
         at
+    }
+
+    /// Half of what loads and reactions have done on the frames of bodies that turn, whichever way: what some hand on others take. By the trapezoidal rule.
+    pub(crate) fn transmitted(
+        &self,
+        model: &Model,
+        (u, forces): (&[f64], &[f64]),
+        external: &[f64],
+    ) -> f64 {
+        let dofs = model.dofs;
+        let frames = model.frames.all().iter();
+        let own = frames.flat_map(|f| dofs.of(f.hidden, 0)..dofs.of(f.hidden + 2, 0));
+        let work = own.map(|i| {
+            let sum = self.load[i] + self.forces[i] + external[i] + forces[i];
+            0.5 * sum * (u[i] - self.state.u[i])
+        });
+        0.5 * work.map(f64::abs).sum::<f64>()
     }
 
     /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly. It begins with what held the last

@@ -90,6 +90,13 @@ impl Frame {
         constraints
     }
 
+    /// Displacements at a time as far as they are known before it: what is prescribed, and the last state.
+    fn expected(&self, model: &Model, t: f64) -> Vec<f64> {
+        let mut u = self.state.u.clone();
+        self.constraints(model, t).impose(&mut u);
+        u
+    }
+
     /// External forces at a time and what temperatures press with, which acts like them.
     pub(crate) fn external(&self, model: &Model, t: f64) -> Vec<f64> {
         let mut external = self.loads(model, t);
@@ -101,7 +108,14 @@ impl Frame {
     /// the bodies. They move bodies as wholes: what temperatures press with has no resultant but rounding.
     pub(crate) fn loads(&self, model: &Model, t: f64) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
-        for load in &model.loads {
+        for load in model.loads.iter().filter(|l| !l.follows) {
+            load.external(t, &mut external);
+        }
+        if !model.frames.is_empty() {
+            let (points, u) = (&model.mesh.points, self.expected(model, t));
+            model.frames.transfer(points, &u, &mut external);
+        }
+        for load in model.loads.iter().filter(|l| l.follows) {
             load.external(t, &mut external);
         }
         model.links.transfer(&mut external);

@@ -15,6 +15,8 @@ pub(crate) struct Flow {
     pub numerical: f64,
     /// Taken from masses that met what does not give way.
     pub impact: f64,
+    /// What frames of bodies that turn have handed on, whichever way.
+    pub transmitted: f64,
     /// By how much the strain energy is more than that without thermal strain at the end, and that of bodies which are held as they are meshed.
     pub thermal: [f64; 2],
 }
@@ -70,6 +72,9 @@ pub struct EnergyLedger {
     exceeded: f64,
     #[serde(skip)]
     impacts: f64,
+    /// Work that frames of bodies that turn have handed on so far: nothing keeps it, and yet it is in play.
+    #[serde(skip)]
+    transmitted: f64,
     /// Energy brought in by initial velocities and displacements.
     pub initial: f64,
     /// What is left of the balance: supplied less stored and dissipated.
@@ -113,6 +118,7 @@ impl EnergyLedger {
         self.contact = sum(|e| e.stored);
         self.friction = sum(|e| e.dissipated);
         self.impacts += flow.impact;
+        self.transmitted += flow.transmitted;
         self.contact_damping = sum(|e| e.damped) + self.impacts;
         self.uncertain = sum(|e| e.uncertain);
         let (passed, moved) = (sum(|e| e.path), sum(|e| e.work));
@@ -174,6 +180,7 @@ impl EnergyLedger {
             + self.contact_damping
             + self.rayleigh_damping
             + self.numerical.abs()
+            + self.transmitted
     }
 }
 
@@ -213,6 +220,7 @@ crate::keep!(EnergyLedger {
     moved,
     exceeded,
     impacts,
+    transmitted,
     initial,
     residual
 });
@@ -229,5 +237,6 @@ crate::keep!(Flow {
     damped,
     numerical,
     impact,
+    transmitted,
     thermal
 });

@@ -1,9 +1,11 @@
 //! What is simulated and where it stands.
 
+use std::borrow::Cow;
+
 use super::contact::Contact;
 use super::definition::{Model, Step};
 use super::frame::Frame;
-use crate::system::Constraints;
+use crate::system::{Constraints, Fields};
 
 /// What is simulated and where it stands: enough to say what acts.
 #[derive(Clone, Copy)]
@@ -20,6 +22,22 @@ impl<'a> Scene<'a> {
     /// Constraints at a time.
     pub(crate) fn constraints(&self, t: f64) -> Constraints {
         self.frame.constraints(self.model, t)
+    }
+
+    /// Displacements in space, by dof `[m]`.
+    pub fn displacements(&self) -> Cow<'a, [f64]> {
+        let (model, u) = (self.model, &self.frame.state.u);
+        match model.frames.is_empty() {
+            true => Cow::Borrowed(u),
+            false => Cow::Owned(model.frames.in_space(&model.mesh.points, u)),
+        }
+    }
+
+    /// Turns stresses and strains of bodies that turn from the axes of their frames to those of space.
+    pub(crate) fn turn_tensors(&self, fields: &mut Fields) {
+        for field in fields.all.iter_mut().filter(|f| f.components == 6) {
+            (self.model.frames).turn_tensors(&self.frame.state.u, &mut field.values);
+        }
     }
 
     /// Loads at a time: external forces that move bodies as wholes.

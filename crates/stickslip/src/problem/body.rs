@@ -26,6 +26,9 @@ pub struct Body {
     /// an axis it moves along y alone.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid: bool,
+    /// How far the body may turn.
+    #[serde(default, skip_serializing_if = "BodyRotation::is_small")]
+    pub rotation: BodyRotation,
     /// What the elements do with the change of volume.
     #[serde(default)]
     pub formulation: Formulation,
@@ -42,6 +45,35 @@ pub struct Body {
     /// Where the mesh comes from.
     #[serde(flatten)]
     pub mesh: MeshSource,
+}
+
+/// How far a body may turn.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum BodyRotation {
+    /// By a few degrees: displacements and rotations are those of the linear theory.
+    #[default]
+    Small,
+    /// By any angle, with the `[reference.NAME]` that is named: `rotation.with = "axle"`. The body is described in a frame that the reference point carries, and
+    /// strains are small in it. Supports of its sets act along the axes of the frame: they hold the body *on the axle*; the axle itself is supported and turned
+    /// at the reference point. What the body presses on, and loads unless they `follow`, are in space. In quasi-static steps.
+    With(String),
+}
+
+impl BodyRotation {
+    /// Whether it is that of the linear theory.
+    pub fn is_small(&self) -> bool {
+        *self == BodyRotation::Small
+    }
+
+    /// The reference point that it turns with.
+    pub fn reference(&self) -> Option<&str> {
+        match self {
+            BodyRotation::Small => None,
+            BodyRotation::With(name) => Some(name),
+        }
+    }
 }
 
 fn one() -> f64 {

@@ -14,7 +14,18 @@ pub struct Load {
     /// An `[amplitude.NAME]` over the time of the analysis, by which the load is multiplied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<String>,
+    /// On a body that turns (`body.NAME.rotation`): whether the load turns with it. A pressure and a centrifugal force do in any case; others keep their
+    /// direction in space unless this says so.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub follow: bool,
     /// What acts.
     #[serde(flatten)]
     pub kind: LoadKind,
+}
+
+impl Load {
+    /// Whether it turns with a body that does.
+    pub(crate) fn follows(&self) -> bool {
+        self.follow || matches!(self.kind, LoadKind::Pressure(_) | LoadKind::Centrifugal(_))
+    }
 }

@@ -52,7 +52,7 @@ use std::path::Path;
 use crate::error::{Diagnostic, Error, ProblemError};
 
 pub use amplitude::AmplitudeTable;
-pub use body::{Body, GmshFile, MeshSource, Rayleigh};
+pub use body::{Body, BodyRotation, GmshFile, MeshSource, Rayleigh};
 pub use build::Meshes;
 pub use changes::changed_keys;
 pub use coupling::Coupling;

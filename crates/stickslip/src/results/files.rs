@@ -305,7 +305,7 @@ pub fn fields(view: &View) -> Fields {
         name: "U".into(),
         location: Location::Point,
         components: 3,
-        values: vectors(&view.frame.state.u),
+        values: vectors(&view.displacements()),
     });
     for (name, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
         if model.moves() {
@@ -321,13 +321,14 @@ pub fn fields(view: &View) -> Fields {
         }
     }
     let fixed = view.held_dofs();
-    let reactions: Vec<f64> = view
+    let mut reactions: Vec<f64> = view
         .frame
         .forces
         .iter()
         .zip(&fixed)
         .map(|(f, &fixed)| if fixed { *f } else { 0.0 })
         .collect();
+    (model.frames).turn_out(&view.frame.state.u, &mut reactions);
     fields.all.push(Field {
         name: "RF".into(),
         location: Location::Point,
@@ -337,6 +338,7 @@ pub fn fields(view: &View) -> Fields {
     for body in &model.bodies {
         body.fields(&view.frame.state, &mut fields);
     }
+    view.turn_tensors(&mut fields);
     for interface in &view.contact.interfaces {
         interface.fields(&mut fields);
     }

@@ -271,9 +271,11 @@ fn own_fields(view: &View, quantities: &[Quantity]) -> Fields {
         for body in &model.bodies {
             body.strain_fields(&view.frame.state, &mut out);
         }
+        view.turn_tensors(&mut out);
     }
     if quantities.contains(&Quantity::Force) {
-        let forces = view.internal_forces();
+        let mut forces = view.internal_forces();
+        (model.frames).turn_out(&view.frame.state.u, &mut forces);
         let points = 0..model.mesh.points.len();
         out.all.push(Field {
             name: "FORC".into(),

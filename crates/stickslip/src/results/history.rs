@@ -172,9 +172,10 @@ fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
 fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
     let model = view.model;
     let dim = model.dofs.dim;
+    let displacements = view.displacements();
     for (probe, around) in model.probes.iter().zip(around) {
         let point = probe.point;
-        let u = model.dofs.vector(&view.frame.state.u, point);
+        let u = model.dofs.vector(&displacements, point);
         for (c, u) in u.iter().enumerate().take(dim) {
             row.push(format!("{}.U{}", probe.name, c + 1), *u);
         }
@@ -190,10 +191,13 @@ fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
             }
         }
         // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
-        let stress = match around {
+        let mut stress = match around {
             Some(around) => around.stress(model.dofs, &view.frame.state),
             None => [0.0; 6],
         };
+        if let Some(body) = model.frames.of_point(point) {
+            model.frames.poses(&view.frame.state.u)[body].turn_tensor(&mut stress);
+        }
         for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
             if dim == 2 && k >= 4 {
                 continue;

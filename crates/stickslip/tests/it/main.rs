@@ -41,5 +41,6 @@ mod stops;
 mod suggestions;
 mod surfaces;
 mod threads;
+mod turning;
 mod units;
 mod wear;

@@ -608,6 +608,7 @@ fn every_model_survives_the_way_to_text_and_back() {
         let load = Load {
             set: "block.top".into(),
             amplitude: None,
+            follow: false,
             kind,
         };
         p.load.insert("push".into(), load);

@@ -9,6 +9,8 @@ pub struct Load {
     pub entries: Vec<(usize, f64)>,
     /// The factor in time.
     pub schedule: Schedule,
+    /// Whether it turns with bodies that do; others keep their direction in space.
+    pub follows: bool,
 }
 
 impl Load {

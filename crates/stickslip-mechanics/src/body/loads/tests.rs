@@ -246,6 +246,7 @@ fn loads_follow_their_schedule_and_springs_store_energy() {
                 course: Course::Ramp(0.0, 1.0),
             }],
         },
+        follows: false,
     };
     let mut out = vec![1.0; 2];
     load.external(0.5, &mut out);

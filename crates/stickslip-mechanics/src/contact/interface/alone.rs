@@ -51,9 +51,11 @@ impl Interface {
             Some((_, shift)) => [0, 1, 2].map(|q| e.multiplier[q] - shift[q]),
             None => e.response.traction,
         };
+        let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
+        (self.cache.in_space).gradients(&mut dofs, &mut rows);
         Some(PointAlone {
-            dofs: batch.dofs(e).to_vec(),
-            rows: tangent.rows.to_vec(),
+            dofs,
+            rows,
             area: e.area,
             body: e.area * self.points[i].stiffness,
             stiffness,

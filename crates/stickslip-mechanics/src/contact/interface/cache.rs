@@ -7,6 +7,7 @@ use crate::contact::facet_point::FacetPoint;
 use crate::contact::mortar::FaceIntegral;
 use crate::contact::pairing::Anchor;
 use crate::math::Vec3;
+use crate::system::{Assembler, InSpace};
 
 /// What was found for the last evaluations.
 #[derive(Debug, Default)]
@@ -18,6 +19,9 @@ pub struct Cache {
     /// Coordinates at the last evaluation, and at the accepted state that it started from.
     pub(super) x: Vec<Vec3>,
     pub(super) before: Vec<Vec3>,
+    /// The frames of bodies that turn at the last evaluation, and room to assemble what acts in space.
+    pub(super) in_space: InSpace,
+    pub(super) spatial: Assembler,
     /// Where the facets lie, and which way they look.
     pub(super) bounds: Vec<Bounds>,
     pub(super) anchors: Vec<Option<Anchor>>,

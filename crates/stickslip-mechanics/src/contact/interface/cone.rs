@@ -103,11 +103,13 @@ impl Interface {
         let dim = self.dofs.dim;
         let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (node, w) in self.weights_of(i) {
-            let before = add(
-                self.reference[node],
-                self.dofs.vector(&stage.from.u, self.nodes[node]),
-            );
-            apart = add_scaled(apart, w, before);
+            apart = add_scaled(apart, w, self.cache.before[node]);
+            if self.frames.of_point(self.nodes[node]).is_some() {
+                let way = sub(self.cache.x[node], self.cache.before[node]);
+                own = add_scaled(own, w.max(0.0), way);
+                moved = add_scaled(moved, w, way);
+                continue;
+            }
             for c in 0..dim {
                 let dof = self.dofs.of(self.nodes[node], c);
                 let du = stage.at.u[dof] - stage.from.u[dof];

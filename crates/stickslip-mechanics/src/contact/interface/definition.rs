@@ -1,5 +1,7 @@
 //! What an interface is: its two sides, its laws, and what it knows.
 
+use std::sync::Arc;
+
 use super::attempt::Attempt;
 use super::cache::Cache;
 use super::directives::Directives;
@@ -11,8 +13,8 @@ use crate::contact::mortar::Mortar;
 use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
-use crate::math::{Vec3, add};
-use crate::system::{Dofs, Schedule};
+use crate::math::{Vec3, add, sub};
+use crate::system::{BodyFrames, Dofs, FramePose, Schedule};
 
 /// What the secondary touches.
 #[derive(Debug, Clone)]
@@ -66,6 +68,8 @@ pub struct Interface {
     pub belt: Vec<[f64; 4]>,
     /// When it acts.
     pub schedule: Schedule,
+    /// The bodies of its sides that turn; shared by all interfaces, and empty where none of its points is one of theirs.
+    pub frames: Arc<BodyFrames>,
     /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
     pub edge_tolerance: f64,
     /// What becomes of the gaps of the meshes.
@@ -93,8 +97,35 @@ impl Interface {
 
     pub(super) fn coordinates_into(&self, u: &[f64], out: &mut Vec<Vec3>) {
         out.clear();
+        let poses = self.frame_poses(u);
         let nodes = self.nodes.iter().zip(&self.reference);
-        out.extend(nodes.map(|(&node, &x)| add(x, self.dofs.vector(u, node))));
+        out.extend(nodes.map(|(&node, &x)| {
+            let moved = self.dofs.vector(u, node);
+            match self.frames.of_point(node) {
+                Some(body) => poses[body].place(x, moved),
+                None => add(x, moved),
+            }
+        }));
+    }
+
+    /// Displacements of the nodes in space.
+    pub(super) fn displacements(&self, u: &[f64]) -> Vec<Vec3> {
+        let poses = self.frame_poses(u);
+        let nodes = self.nodes.iter().zip(&self.reference);
+        let moved = nodes.map(|(&node, &x)| {
+            let moved = self.dofs.vector(u, node);
+            match self.frames.of_point(node) {
+                Some(body) => sub(poses[body].place(x, moved), x),
+                None => moved,
+            }
+        });
+        moved.collect()
+    }
+
+    /// Where the frames of bodies that turn are at displacements `u`, counted like all coordinates here.
+    pub(super) fn frame_poses(&self, u: &[f64]) -> Vec<FramePose> {
+        let poses = self.frames.poses(u).into_iter();
+        poses.map(|pose| pose.counted_from(self.origin)).collect()
     }
 
     /// Whether the primary is an obstacle.

@@ -29,44 +29,17 @@ impl Force for Interface {
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
-        if !self.schedule.active(stage.at.t) {
-            self.cache.last.points.clear();
-            self.attempt.tentative = false;
-            self.add_pairs(&Evaluations::default(), out);
-            return Ok(());
-        }
-        let wants = Wants {
-            tangent: out.wants_tangent,
-            surrogate: out.wants_surrogate,
-            holds_turns: out.holds_turns,
-            initial: false,
-        };
-        let evaluations = self.evaluate_all(stage, wants);
-        for (flips, e) in self.attempt.flips.iter_mut().zip(&evaluations.points) {
-            flips.meets(e.facet);
-        }
-        self.add_pairs(&evaluations, out);
-        scatter(&evaluations, out);
-        let pending = out.wants_tangent && out.tentative;
-        self.attempt.tentative = pending;
-        // The multiplier rows of the last iterate are needed until the step has been taken.
-        if self.unknown() && (pending || !out.wants_tangent) {
-            for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
-                kept.response = e.response;
-                kept.gap = e.gap;
-            }
-            self.cache.trial = evaluations;
-        } else {
-            self.cache.trial = std::mem::replace(&mut self.cache.last, evaluations);
-        }
-        if out.wants_tangent && !out.tentative {
-            self.record();
+        match self.frames.is_empty() {
+            true => self.assemble_in_space(stage, out),
+            false => self.assemble_in_frames(stage, out),
         }
         Ok(())
     }
 
     fn curve(&self, out: &mut Assembler) {
+        let first = out.blocks.len();
         self.add_curvature(&self.cache.last, out);
+        self.cache.in_space.blocks(&mut out.blocks[first..]);
     }
 
     fn settle(&mut self) {
@@ -83,6 +56,7 @@ impl Force for Interface {
             return;
         }
         let last = &self.cache.last;
+        let in_space = &self.cache.in_space;
         let multipliers = self.attempt.multipliers.iter_mut();
         for (i, (m, e)) in multipliers.zip(&last.points).enumerate() {
             let batch = last.batch(i);
@@ -93,7 +67,8 @@ impl Force for Interface {
             // dl = -K_ll⁻¹ (r_l + K_lu du)
             let now: [f64; 3] = std::array::from_fn(|p| {
                 let row = &tangent.change[p * dofs.len()..(p + 1) * dofs.len()];
-                let along: f64 = row.iter().zip(dofs).map(|(k, &dof)| k * du[dof]).sum();
+                let moved = row.iter().zip(dofs);
+                let along: f64 = moved.map(|(k, &dof)| k * in_space.moved(dof, du)).sum();
                 m.base[p] - step * (shift[p] + along)
             });
             m.pressure = now[0];
@@ -173,6 +148,59 @@ fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
 }
 
 impl Interface {
+    /// Residual and tangent as they act on bodies and frames of bodies that turn.
+    fn assemble_in_frames(&mut self, stage: &Stage, out: &mut Assembler) {
+        let mut spatial = std::mem::take(&mut self.cache.spatial);
+        if spatial.residual.len() != out.residual.len() {
+            spatial = Assembler::new(out.residual.len());
+        }
+        spatial.wants_surrogate = out.wants_surrogate;
+        spatial.wants_pairs = out.wants_pairs;
+        spatial.holds_turns = out.holds_turns;
+        spatial.tentative = out.tentative;
+        spatial.reset(out.wants_tangent);
+        self.assemble_in_space(stage, &mut spatial);
+        self.cache.in_space.assemble(&mut spatial, out);
+        self.cache.spatial = spatial;
+    }
+
+    /// Residual and tangent as they act on points in space.
+    fn assemble_in_space(&mut self, stage: &Stage, out: &mut Assembler) {
+        if !self.schedule.active(stage.at.t) {
+            self.cache.last.points.clear();
+            self.attempt.tentative = false;
+            self.add_pairs(&Evaluations::default(), out);
+            return;
+        }
+        let wants = Wants {
+            tangent: out.wants_tangent,
+            surrogate: out.wants_surrogate,
+            holds_turns: out.holds_turns,
+            initial: false,
+        };
+        let evaluations = self.evaluate_all(stage, wants);
+        for (flips, e) in self.attempt.flips.iter_mut().zip(&evaluations.points) {
+            flips.meets(e.facet);
+        }
+        self.add_pairs(&evaluations, out);
+        scatter(&evaluations, out);
+        let pending = out.wants_tangent && out.tentative;
+        self.attempt.tentative = pending;
+        // The multiplier rows of the last iterate are needed until the step has been taken.
+        if self.unknown() && (pending || !out.wants_tangent) {
+            for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
+                kept.response = e.response;
+                kept.gap = e.gap;
+            }
+            self.cache.trial = evaluations;
+        } else {
+            self.cache.trial = std::mem::replace(&mut self.cache.last, evaluations);
+        }
+        if out.wants_tangent && !out.tentative {
+            self.record();
+        }
+    }
+
     /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
     /// none.
     fn add_pairs(&self, evaluations: &Evaluations, out: &mut Assembler) {

@@ -77,12 +77,14 @@ impl Interface {
         }
         let slid = !self.laws.tied && self.history.points[i].status == Status::Slip;
         let (stiffness, damping) = self.parts(i, e, (slid, dt));
+        let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
+        (self.cache.in_space).gradients(&mut dofs, &mut rows);
         Some(LinearPoint {
             point: i,
             status: if slid { Status::Slip } else { status },
             steady: e.steady,
-            dofs: batch.dofs(e).to_vec(),
-            rows: tangent.rows.to_vec(),
+            dofs,
+            rows,
             stiffness,
             damping,
             position: add(self.origin, self.points[i].position(&self.cache.x)),

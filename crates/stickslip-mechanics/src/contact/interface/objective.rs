@@ -195,6 +195,7 @@ fn drum(
         kinematics,
         belt: Vec::new(),
         schedule: Schedule::always(),
+        frames: Default::default(),
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),

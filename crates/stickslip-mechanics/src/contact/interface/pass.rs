@@ -8,7 +8,7 @@ use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
 use super::scene::{LawQuery, Scene, Wants};
 use crate::contact::pairing::Anchor;
 use crate::math::scale;
-use crate::system::{Force, Stage};
+use crate::system::{Force, InSpace, Stage};
 
 impl Interface {
     /// Evaluates all points, in the memory of `trial`: whoever asks puts that back.
@@ -19,6 +19,10 @@ impl Interface {
     fn evaluate_with(&self, cache: &mut Cache, stage: &Stage, wants: Wants) -> Evaluations {
         self.coordinates_into(&stage.at.u, &mut cache.x);
         self.coordinates_into(&stage.from.u, &mut cache.before);
+        if !self.frames.is_empty() {
+            let places = self.nodes.iter().copied().zip(cache.x.iter().copied());
+            cache.in_space = InSpace::new(&self.frames, self.frame_poses(&stage.at.u), places);
+        }
         if self.mortar.is_some() {
             self.integrate(cache, wants.holds_turns);
         } else if !self.kinematics.as_dyn().frozen() {

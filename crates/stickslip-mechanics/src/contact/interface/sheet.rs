@@ -53,6 +53,7 @@ impl Interface {
     /// `u`: displacements; `t`: time, at which a rigid obstacle is where its motion has it.
     pub fn sheet(&self, u: &[f64], t: f64) -> Sheet {
         let (corners, faces, cells) = self.corners(u);
+        let moved = self.displacements(u);
         let shown: Vec<Shown> = corners.iter().map(|c| self.shown(c)).collect();
         let mut fields = Fields::default();
         let mut push = |name: &str, components: usize, values: Vec<f64>| {
@@ -64,7 +65,7 @@ impl Interface {
             });
         };
         push("U", 3, corners.iter().flat_map(|c| c.moved).collect());
-        let relative = corners.iter().flat_map(|c| self.relative(c, u, t));
+        let relative = corners.iter().flat_map(|c| self.relative(c, &moved, t));
         push("UREL", 3, relative.collect());
         for (k, (name, _)) in MEANS.into_iter().enumerate() {
             if self.dofs.dim == 3 || !name.ends_with('2') {
@@ -141,7 +142,7 @@ impl Interface {
     }
 
     /// By how much a corner has moved more than what its points lie over now.
-    fn relative(&self, corner: &Corner, u: &[f64], t: f64) -> Vec3 {
+    fn relative(&self, corner: &Corner, moved: &[Vec3], t: f64) -> Vec3 {
         if let Primary::Rigid(_, motion) = &self.primary {
             let now = add(corner.x, corner.moved);
             // Where the matter of the obstacle that is here now was at first.
@@ -151,7 +152,7 @@ impl Interface {
         let (mut sum, mut total) = ([0.0; 3], 0.0);
         for &(i, share) in &corner.points {
             for &(node, w) in self.history.opposite.of(i) {
-                sum = add_scaled(sum, share * w, self.dofs.vector(u, self.nodes[node]));
+                sum = add_scaled(sum, share * w, moved[node]);
                 total += share * w;
             }
         }

@@ -99,6 +99,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         kinematics,
         belt: Vec::new(),
         schedule: Schedule::always(),
+        frames: Default::default(),
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),

@@ -1,5 +1,7 @@
 //! Interfaces: surfaces of the joined mesh to contact points and facets.
 
+use std::sync::Arc;
+
 use super::super::{FacetShape, Interface as Table, Problem, Roles};
 use super::fault::problem_error;
 use super::mirrors::{self, Held};
@@ -299,6 +301,7 @@ impl Make<'_> {
             kinematics: table.kinematics.clone(),
             belt: belt(table),
             schedule: self.schedule.clone(),
+            frames: Arc::default(),
             edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.1)?,
             relief: Vec::new(),

@@ -17,6 +17,7 @@ mod schedules;
 mod sets;
 mod snap;
 mod surfaces;
+mod turning;
 mod unused;
 
 use std::collections::BTreeSet;
@@ -138,6 +139,7 @@ impl Problem {
         let sets = Sets::new(self, (&mesh, &bodies), beside.clone())?;
         links.extend(references::links(self, &sets, &mesh, space)?);
         let links = Links::new(dofs, links);
+        let frames = Arc::new(turning::frames(self, &sets, &bodies, &links));
         let temperatures = heat::temperatures(self, &sets, &mesh, space, &timeline)?;
         let mut heat = None;
         if let Some(temperatures) = temperatures {
@@ -177,7 +179,9 @@ impl Problem {
             masses: &masses,
             loads: &loads,
             steps: &steps,
+            frames: &frames,
         };
+        turning::refuse(self, &said)?;
         let references = references::build(self, &said)?;
         let followers = references::followers(
             &mut couplings,
@@ -199,6 +203,7 @@ impl Problem {
         let held = mirrors::Held::new(&links, dofs, &supports, space);
         let mut interfaces =
             contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
+        turning::attach(&frames, &mut interfaces);
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
@@ -211,6 +216,7 @@ impl Problem {
             space,
             dofs,
             links: links.with_followers(followers),
+            frames,
             bodies,
             references,
             loads,
@@ -290,6 +296,7 @@ fn loads(
                 name: name.clone(),
                 entries,
                 schedule: timeline.load(problem, name, load.amplitude.as_deref()),
+                follows: load.follows(),
             }),
             Action::Springs(entries) => springs.push(Spring::new(entries)),
         }

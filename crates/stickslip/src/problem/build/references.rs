@@ -14,7 +14,7 @@ use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, Vec3, distance, symmetric_eigen};
 use crate::mesh::Mesh;
 use crate::model::{Body, Reference, Rigid, Step, Support};
-use crate::system::{Dofs, Follower, Freedom, Link, Links};
+use crate::system::{BodyFrames, Dofs, Follower, Freedom, Link, Links};
 
 /// Part of what resists a reference point the most below which nothing does.
 const NOTHING: f64 = 1e-12;
@@ -63,6 +63,13 @@ fn reach(
     mesh: &Mesh,
 ) -> Result<f64, Error> {
     let (mut sum, mut count) = (0.0, 0_usize);
+    let turning = problem.body.iter();
+    for (body, _) in turning.filter(|(_, b)| b.rotation.reference() == Some(name)) {
+        for p in sets.points(body, &format!("body.{body}"))? {
+            sum += distance(mesh.points[p], centre);
+            count += 1;
+        }
+    }
     for (coupling, table) in &problem.coupling {
         let model = CouplingKind::as_dyn(&table.kind);
         if model.reference() != Some(name) {
@@ -89,6 +96,7 @@ pub(super) struct Said<'a> {
     pub masses: &'a [(usize, f64)],
     pub loads: &'a [Load],
     pub steps: &'a [Step],
+    pub frames: &'a BodyFrames,
 }
 
 impl Said<'_> {
@@ -128,7 +136,9 @@ impl Said<'_> {
             true => r.mass,
             false => r.spin[c][c],
         });
-        let any = sprung.sum::<f64>() > 0.0 || moves && mass + own > 0.0;
+        // What a body that turns is pressed by, its frame is.
+        let any =
+            sprung.sum::<f64>() > 0.0 || moves && mass + own > 0.0 || self.frames.carries(link);
         f64::from(u8::from(any))
     }
 }

@@ -333,7 +333,7 @@ fn probes(problem: &Problem, findings: &mut Findings) {
 }
 
 /// `name`, if given, must be a key of `table`.
-fn one_of<T>(
+pub(super) fn one_of<T>(
     findings: &mut Findings,
     key: &[&str],
     name: Option<&str>,

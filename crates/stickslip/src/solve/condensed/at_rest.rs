@@ -209,6 +209,7 @@ impl Solver {
         accepted.strain = 0.5 * dot(u, &internal);
         accepted.flow = Flow {
             work: frame.work(&fixed, (u, &forces), &accepted.external),
+            transmitted: frame.transmitted(model, (u, &forces), &accepted.external),
             ..Flow::default()
         };
         accepted.forces = forces;

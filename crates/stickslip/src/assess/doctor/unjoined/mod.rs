@@ -54,7 +54,7 @@ impl Unjoined {
     /// Pairs of a model, displaced by `u` at the start.
     pub fn new(scene: &Scene) -> Self {
         let model = scene.model;
-        let u = &scene.frame.state.u;
+        let u = &scene.displacements();
         let mut out = Unjoined::default();
         let end = model.steps.last().map_or(0.0, |s| s.end);
         for body in 0..model.bodies.len() {
@@ -100,7 +100,7 @@ impl Unjoined {
     /// What the model shows before it runs.
     pub fn check(&self, scene: &Scene) -> Vec<Finding> {
         let model = scene.model;
-        let u = &scene.frame.state.u;
+        let u = &scene.displacements();
         let start = model.steps.first().map_or(0.0, |s| s.start);
         let mut out = Vec::new();
         for pair in self.pairs.iter().filter(|p| p.until < start) {
@@ -182,7 +182,7 @@ impl Unjoined {
     /// Looks at the last accepted state: pairs that have come to overlap, once each.
     pub fn look(&mut self, scene: &Scene) -> Vec<Finding> {
         let model = scene.model;
-        let (u, t) = (&scene.frame.state.u, scene.frame.state.t);
+        let (u, t) = (&scene.displacements(), scene.frame.state.t);
         let start = model.steps.first().map_or(0.0, |s| s.start);
         let mut out = Vec::new();
         for i in 0..self.pairs.len() {

@@ -1,0 +1,527 @@
+//! Bodies that turn: small strains in a frame that turns by any angle.
+//!
+//! A reference point carries the frame: its translation `q`, and a rotation vector `θ` that gives the rotation `R(θ)`. A point of the body with the
+//! reference place `X` and the displacement `w` *in the axes of the frame* is in space at `x = c + q + R (X - c + w)`, where `c` is the place of the
+//! reference point. The body itself, its stiffness and its supports, knows `w` alone and stays linear: its factor serves whatever the rotation. What
+//! acts in space, first of all contact, sees `x`; of its forces the body gets `Rᵀ f`, and the reference point the resultant and the moment about itself at
+//! the places where points *are*, so that action and reaction balance exactly, moments too. That is the floating frame of reference with the frame's motion
+//! among the unknowns ([`shabana_2013`](stickslip_base::references::shabana_2013), chapter 5).
+//!
+//! `BodyFrames` is this map and the transpose of its derivative for forces and tangent blocks; the derivative of the derivative, by which forces turn with the
+//! frame, is left to Newton's iteration. It is of the size of what contact carries over the length of the body, beside the stiffness of contact.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::links::columns;
+use super::{Assembler, ContactBlock, Dofs, Link};
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, cross, dot, identity, mat_vec, norm, outer, rotation, scale, sub,
+    transpose_vec,
+};
+
+/// A body that is described in the frame that a reference point carries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyFrame {
+    /// Its points.
+    pub points: Range<usize>,
+    /// The hidden points of the reference point, as those of its link.
+    pub hidden: usize,
+    /// Where the reference point is at first `[m]`.
+    pub centre: Vec3,
+    /// The length that rotations are multiplied by `[m]`.
+    pub length: f64,
+}
+
+/// Where a frame is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FramePose {
+    /// `R`.
+    pub turn: Mat3,
+    /// `c` `[m]`.
+    pub centre: Vec3,
+    /// `c + q` `[m]`.
+    pub now: Vec3,
+    /// The spin that goes with a change of `θ`, column by column.
+    spin: Mat3,
+}
+
+impl FramePose {
+    /// The same with places counted from there.
+    #[must_use]
+    pub fn counted_from(self, origin: Vec3) -> Self {
+        FramePose {
+            centre: sub(self.centre, origin),
+            now: sub(self.now, origin),
+            ..self
+        }
+    }
+
+    /// Turns a symmetric tensor, xx yy zz xy yz xz, from the axes of the frame to those of space.
+    pub fn turn_tensor(&self, tensor: &mut [f64]) {
+        let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| tensor[k]);
+        let inner = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        // Row i of R A; A is symmetric.
+        let half = self.turn.map(|row| mat_vec(&inner, row));
+        let at = |i: usize, j: usize| dot(half[i], self.turn[j]);
+        let turned = [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)];
+        tensor.copy_from_slice(&turned);
+    }
+
+    /// Where the point at `x` at first is in space with this displacement in the frame.
+    pub fn place(&self, x: Vec3, w: Vec3) -> Vec3 {
+        let arm = add(sub(x, self.centre), w);
+        add(self.now, mat_vec(&self.turn, arm))
+    }
+
+    /// The displacement in the frame of what is at a place in space.
+    pub fn displacement(&self, x: Vec3, place: Vec3) -> Vec3 {
+        let arm = transpose_vec(&self.turn, sub(place, self.now));
+        sub(arm, sub(x, self.centre))
+    }
+}
+
+/// By which dofs something in space moves: those of its point, the translation and the rotation of its frame.
+type Turned = [(usize, f64); 7];
+
+/// The bodies of a model that turn; without any, everything here does nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BodyFrames {
+    dofs: Dofs,
+    all: Vec<BodyFrame>,
+}
+
+impl BodyFrames {
+    /// Frames of these bodies.
+    pub fn new(dofs: Dofs, all: Vec<BodyFrame>) -> Self {
+        BodyFrames { dofs, all }
+    }
+
+    /// The numbering of dofs, hidden points counted.
+    pub fn dofs(&self) -> Dofs {
+        self.dofs
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// The bodies.
+    pub fn all(&self) -> &[BodyFrame] {
+        &self.all
+    }
+
+    /// The body that a point belongs to.
+    pub fn of_point(&self, point: usize) -> Option<usize> {
+        self.all.iter().position(|f| f.points.contains(&point))
+    }
+
+    /// Whether a hidden point, or the one after it, is that of a frame.
+    pub fn carries(&self, link: &Link) -> bool {
+        self.all.iter().any(|f| f.hidden == link.hidden)
+    }
+
+    /// Where the frames are, at the displacements `u` by dof.
+    pub fn poses(&self, u: &[f64]) -> Vec<FramePose> {
+        self.all.iter().map(|f| self.pose(f, u)).collect()
+    }
+
+    fn pose(&self, frame: &BodyFrame, u: &[f64]) -> FramePose {
+        let theta = scale(1.0 / frame.length, self.dofs.vector(u, frame.hidden + 1));
+        let theta = match self.dofs.dim {
+            2 => [0.0, 0.0, theta[0]],
+            _ => theta,
+        };
+        let (turn, spin) = exponential(theta);
+        FramePose {
+            turn,
+            centre: frame.centre,
+            now: add(frame.centre, self.dofs.vector(u, frame.hidden)),
+            spin,
+        }
+    }
+
+    /// Displacements in space by dof, from those in frames.
+    pub fn in_space(&self, points: &[Vec3], u: &[f64]) -> Vec<f64> {
+        let mut out = u.to_vec();
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            for p in frame.points.clone() {
+                let place = pose.place(points[p], self.dofs.vector(u, p));
+                let moved = sub(place, points[p]);
+                out[self.dofs.of(p, 0)..self.dofs.of(p + 1, 0)]
+                    .copy_from_slice(&moved[..self.dofs.dim]);
+            }
+        }
+        out
+    }
+
+    /// Turns vectors by dof, such as forces, from the axes of frames to those of space.
+    pub fn turn_out(&self, u: &[f64], vectors: &mut [f64]) {
+        self.turn(u, vectors, |pose, v| mat_vec(&pose.turn, v));
+    }
+
+    /// Turns symmetric tensors by point, xx yy zz xy yz xz, from the axes of frames to those of space.
+    pub fn turn_tensors(&self, u: &[f64], tensors: &mut [f64]) {
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            for p in frame.points.clone() {
+                if let Some(tensor) = tensors.get_mut(6 * p..6 * p + 6) {
+                    pose.turn_tensor(tensor);
+                }
+            }
+        }
+    }
+
+    fn turn(&self, u: &[f64], vectors: &mut [f64], by: impl Fn(&FramePose, Vec3) -> Vec3) {
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            for p in frame.points.clone() {
+                let turned = by(&pose, self.dofs.vector(vectors, p));
+                vectors[self.dofs.of(p, 0)..self.dofs.of(p + 1, 0)]
+                    .copy_from_slice(&turned[..self.dofs.dim]);
+            }
+        }
+    }
+
+    /// Lets forces by dof that act in space on points act on bodies and frames.
+    pub fn transfer(&self, points: &[Vec3], u: &[f64], forces: &mut [f64]) {
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            for p in frame.points.clone() {
+                let force = self.dofs.vector(forces, p);
+                if force != [0.0; 3] {
+                    let place = pose.place(points[p], self.dofs.vector(u, p));
+                    self.hand_over((frame, &pose), (p, place), force, forces);
+                }
+            }
+        }
+    }
+
+    /// Replaces the force on a point by that in its frame, and adds what the frame gets.
+    fn hand_over(
+        &self,
+        (frame, pose): (&BodyFrame, &FramePose),
+        (p, place): (usize, Vec3),
+        force: Vec3,
+        forces: &mut [f64],
+    ) {
+        let dim = self.dofs.dim;
+        let own = transpose_vec(&pose.turn, force);
+        for c in 0..dim {
+            forces[self.dofs.of(p, c)] = own[c];
+            forces[self.dofs.of(frame.hidden, c)] += force[c];
+        }
+        let moment = cross(sub(place, pose.now), force);
+        let moment = scale(1.0 / frame.length, transpose_vec(&pose.spin, moment));
+        match dim {
+            2 => forces[self.dofs.of(frame.hidden + 1, 0)] += moment[2],
+            _ => {
+                for (c, moment) in moment.into_iter().enumerate() {
+                    forces[self.dofs.of(frame.hidden + 1, c)] += moment;
+                }
+            }
+        }
+    }
+
+    /// How the displacement in space of a point along an axis follows the dofs, where the point is at `place`.
+    fn row(&self, body: usize, pose: &FramePose, dof: usize, place: Vec3) -> Turned {
+        let frame = &self.all[body];
+        let (point, c) = self.dofs.locate(dof);
+        let first = self.dofs.of(frame.hidden, c);
+        let mut row = [(first, 0.0); 7];
+        row[0] = (first, 1.0);
+        for j in 0..self.dofs.dim {
+            row[1 + j] = (self.dofs.of(point, j), pose.turn[c][j]);
+        }
+        // δx = (spin δθ) × arm
+        let arm = sub(place, pose.now);
+        let axes: &[usize] = match self.dofs.dim {
+            2 => &[2],
+            _ => &[0, 1, 2],
+        };
+        for (k, &axis) in axes.iter().enumerate() {
+            let column = [0, 1, 2].map(|i| pose.spin[i][axis]);
+            let moved = cross(column, arm)[c] / frame.length;
+            row[4 + k] = (self.dofs.of(frame.hidden + 1, k), moved);
+        }
+        row
+    }
+}
+
+/// Frames at one state, and where the points of the bodies are in it: what is assembled in space is transformed by that.
+#[derive(Debug, Clone, Default)]
+pub struct InSpace {
+    frames: Arc<BodyFrames>,
+    poses: Vec<FramePose>,
+    /// By point, of those that belong to a frame.
+    places: HashMap<usize, (usize, Vec3)>,
+}
+
+impl InSpace {
+    /// With poses and places of points counted from the same origin.
+    pub fn new(
+        frames: &Arc<BodyFrames>,
+        poses: Vec<FramePose>,
+        places: impl Iterator<Item = (usize, Vec3)>,
+    ) -> Self {
+        let places = places.filter_map(|(p, x)| Some((p, (frames.of_point(p)?, x))));
+        InSpace {
+            frames: Arc::clone(frames),
+            places: places.collect(),
+            poses,
+        }
+    }
+
+    fn row(&self, dof: usize) -> Option<Turned> {
+        if self.places.is_empty() {
+            return None;
+        }
+        let (point, _) = self.frames.dofs.locate(dof);
+        let &(body, place) = self.places.get(&point)?;
+        Some(self.frames.row(body, &self.poses[body], dof, place))
+    }
+
+    /// The dofs that move these, each once, and the row of each of these with positions among them; `None` if no frame has any of them.
+    fn replace(&self, dofs: &[usize]) -> Option<(Vec<usize>, Vec<Turned>)> {
+        let rows: Vec<Option<Turned>> = dofs.iter().map(|&dof| self.row(dof)).collect();
+        if rows.iter().all(Option::is_none) {
+            return None;
+        }
+        let mut new: Vec<usize> = Vec::with_capacity(2 * dofs.len());
+        let both = dofs.iter().zip(rows);
+        let rows = both.map(|(&dof, row)| {
+            let mut own = [(dof, 0.0); 7];
+            own[0].1 = 1.0;
+            row.unwrap_or(own).map(|(dof, factor)| {
+                let at = new.iter().position(|&d| d == dof).unwrap_or_else(|| {
+                    new.push(dof);
+                    new.len() - 1
+                });
+                (at, factor)
+            })
+        });
+        let rows = rows.collect();
+        Some((new, rows))
+    }
+
+    /// How far what is named by a dof moves in space when all dofs move by `du`.
+    pub fn moved(&self, dof: usize, du: &[f64]) -> f64 {
+        match self.row(dof) {
+            Some(row) => row.iter().map(|&(d, factor)| factor * du[d]).sum(),
+            None => du[dof],
+        }
+    }
+
+    /// Adds to `out` what was assembled in space, and empties that.
+    pub fn assemble(&self, spatial: &mut Assembler, out: &mut Assembler) {
+        self.forces(&mut spatial.residual, &mut out.residual);
+        self.forces(&mut spatial.condensed, &mut out.condensed);
+        out.multiplier_residual = out.multiplier_residual.max(spatial.multiplier_residual);
+        out.rounding += spatial.rounding;
+        out.pairs.append(&mut spatial.pairs);
+        for dofs in spatial.couplings.drain(..) {
+            let replaced = self.replace(&dofs);
+            out.couplings.push(replaced.map_or(dofs, |(new, _)| new));
+        }
+        self.blocks(&mut spatial.blocks);
+        out.blocks.append(&mut spatial.blocks);
+    }
+
+    /// Transforms blocks in space.
+    pub fn blocks(&self, blocks: &mut [ContactBlock]) {
+        for block in blocks {
+            if let Some((dofs, rows)) = self.replace(&block.dofs) {
+                *block = block.congruent(dofs, &rows);
+            }
+        }
+    }
+
+    /// Transforms gradients in space, rows over dofs.
+    pub fn gradients(&self, dofs: &mut Vec<usize>, gradients: &mut Vec<f64>) {
+        if let Some((new, rows)) = self.replace(dofs) {
+            *gradients = columns(&rows, new.len(), gradients);
+            *dofs = new;
+        }
+    }
+
+    /// Adds forces in space by dof to those on bodies and frames, and empties them.
+    fn forces(&self, spatial: &mut [f64], out: &mut [f64]) {
+        for (dof, force) in spatial.iter_mut().enumerate() {
+            let force = std::mem::take(force);
+            if force == 0.0 {
+                continue;
+            }
+            match self.row(dof) {
+                None => out[dof] += force,
+                Some(row) => row.iter().for_each(|&(d, factor)| out[d] += factor * force),
+            }
+        }
+    }
+}
+
+/// Angle below which series are as good as the functions they are of.
+const SMALL: f64 = 1e-4;
+
+/// The rotation of a rotation vector, by Rodrigues' formula, and the matrix `T` of its spin: `δR Rᵀ = [T δθ]×`,
+/// `T = a 1 + b [θ]× + c θ θᵀ` with `a = sin φ / φ`, `b = (1 - cos φ) / φ²`, `c = (1 - a) / φ²`.
+fn exponential(theta: Vec3) -> (Mat3, Mat3) {
+    let angle = norm(theta);
+    if angle == 0.0 {
+        return (identity(), identity());
+    }
+    let turn = rotation(scale(1.0 / angle, theta), angle);
+    let square = angle * angle;
+    let a = angle.sin() / angle;
+    let (b, c) = if angle < SMALL {
+        (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
+    } else {
+        ((1.0 - angle.cos()) / square, (1.0 - a) / square)
+    };
+    let dyad = outer(theta, theta);
+    let unit = identity();
+    let spin = std::array::from_fn(|i| {
+        let turned = cross(theta, unit[i]);
+        // Row i of [θ]× is -θ × e_i.
+        add(add_scaled(scale(a, unit[i]), -b, turned), scale(c, dyad[i]))
+    });
+    (turn, spin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{distance, transpose_vec};
+
+    fn noise(count: usize, seed: f64) -> Vec<f64> {
+        let number = |i: usize| (12.9898 * (i as f64 + seed)).sin() * 0.7;
+        (0..count).map(number).collect()
+    }
+
+    /// Points 0 to 3 are a body that turns, 4 is free, 5 and 6 carry the frame.
+    fn sample(dim: usize) -> (Arc<BodyFrames>, Vec<Vec3>) {
+        let dofs = Dofs { dim, points: 7 };
+        let frame = BodyFrame {
+            points: 0..4,
+            hidden: 5,
+            centre: [0.3, -0.2, if dim == 3 { 0.5 } else { 0.0 }],
+            length: 0.8,
+        };
+        let places = noise(15, 3.0);
+        let points = places.chunks(3).map(|x| match dim {
+            2 => [x[0], x[1], 0.0],
+            _ => [x[0], x[1], x[2]],
+        });
+        let points = points.collect();
+        (Arc::new(BodyFrames::new(dofs, vec![frame])), points)
+    }
+
+    fn places(frames: &BodyFrames, points: &[Vec3], u: &[f64]) -> Vec<Vec3> {
+        let moved = frames.in_space(points, u);
+        let each = points.iter().enumerate();
+        each.map(|(p, &x)| add(x, frames.dofs.vector(&moved, p)))
+            .collect()
+    }
+
+    #[test]
+    fn a_frame_moves_its_points_as_a_rigid_body_and_back() {
+        for dim in [2, 3] {
+            let (frames, points) = sample(dim);
+            let mut u = noise(7 * dim, 1.0);
+            u[..4 * dim].fill(0.0);
+            let x = places(&frames, &points, &u);
+            for p in 0..4 {
+                for q in 0..p {
+                    let apart = distance(x[p], x[q]) - distance(points[p], points[q]);
+                    assert!(apart.abs() < 1e-14);
+                }
+                let pose = frames.poses(&u)[0];
+                let back = pose.displacement(points[p], x[p]);
+                assert!(distance(back, [0.0; 3]) < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn rows_are_derivatives_of_places_whatever_the_angle() {
+        for dim in [2, 3] {
+            for turned in [1e-9, 1e-5, 0.5, 3.0, 7.0] {
+                let (frames, points) = sample(dim);
+                let mut u = noise(7 * dim, 1.0);
+                for c in 0..dim {
+                    u[6 * dim + c] *= turned;
+                }
+                let x = places(&frames, &points, &u);
+                let each = x.iter().copied().enumerate();
+                let space = InSpace::new(&frames, frames.poses(&u), each);
+                let du = noise(7 * dim, 9.0);
+                let step = 1e-6;
+                let at = |sign: f64| {
+                    let both = u.iter().zip(&du);
+                    let u: Vec<f64> = both.map(|(u, d)| u + sign * step * d).collect();
+                    places(&frames, &points, &u)
+                };
+                let (after, before) = (at(1.0), at(-1.0));
+                for p in 0..5 {
+                    for c in 0..dim {
+                        let expected = (after[p][c] - before[p][c]) / (2.0 * step);
+                        let found = space.moved(frames.dofs.of(p, c), &du);
+                        assert!(
+                            (found - expected).abs() < 1e-8,
+                            "{dim} {turned}: {found} {expected}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_acts_in_space_does_the_same_work_on_bodies_and_frames() {
+        for dim in [2, 3] {
+            let (frames, points) = sample(dim);
+            let u = noise(7 * dim, 1.0);
+            let x = places(&frames, &points, &u);
+            let space = InSpace::new(&frames, frames.poses(&u), x.iter().copied().enumerate());
+            let (du, mut forces) = (noise(7 * dim, 9.0), noise(7 * dim, 5.0));
+            forces[5 * dim..].fill(0.0);
+            let work = |f: &[f64], du: &[f64]| f.iter().zip(du).map(|(f, d)| f * d).sum::<f64>();
+            let moved: Vec<f64> = (0..5 * dim).map(|dof| space.moved(dof, &du)).collect();
+            let expected = work(&forces[..5 * dim], &moved);
+            let mut spatial = Assembler::new(7 * dim);
+            spatial.residual.copy_from_slice(&forces);
+            let mut out = Assembler::new(7 * dim);
+            space.assemble(&mut spatial, &mut out);
+            assert!((work(&out.residual, &du) - expected).abs() < 1e-12);
+            // Loads take the same way.
+            frames.transfer(&points, &u, &mut forces);
+            for (a, b) in forces.iter().zip(&out.residual) {
+                assert!((a - b).abs() < 1e-12, "{dim}: {a} {b}");
+            }
+            // Vectors turn out and back.
+            let mut v = noise(7 * dim, 2.0);
+            let pose = frames.poses(&u)[0];
+            let before = frames.dofs.vector(&v, 2);
+            frames.turn_out(&u, &mut v);
+            let back = transpose_vec(&pose.turn, frames.dofs.vector(&v, 2));
+            assert!(distance(back, before) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn tensors_turn_with_their_axes() {
+        let (frames, _) = sample(3);
+        let u = noise(21, 1.0);
+        let pose = frames.poses(&u)[0];
+        // A dyad of a vector stays one.
+        let v = [0.3, -0.7, 0.4];
+        let w = mat_vec(&pose.turn, v);
+        let dyad = |v: Vec3| {
+            let [x, y, z] = v;
+            [x * x, y * y, z * z, x * y, y * z, x * z]
+        };
+        let mut tensor = dyad(v);
+        pose.turn_tensor(&mut tensor);
+        for (a, b) in tensor.iter().zip(dyad(w)) {
+            assert!((a - b).abs() < 1e-14);
+        }
+    }
+}

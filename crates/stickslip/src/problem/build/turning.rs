@@ -1,0 +1,82 @@
+//! Bodies that turn with reference points.
+
+use std::sync::Arc;
+
+use super::super::Problem;
+use super::fault::problem_error;
+use super::references::Said;
+use super::sets::Sets;
+use crate::contact::interface::Interface;
+use crate::error::{Diagnostic, Error};
+use crate::model::Body;
+use crate::system::{BodyFrame, BodyFrames, Links};
+
+/// The bodies that turn, with the reference points that carry their frames.
+pub(super) fn frames(problem: &Problem, sets: &Sets, bodies: &[Body], links: &Links) -> BodyFrames {
+    let turning = bodies.iter().filter_map(|body| {
+        let reference = problem.body[&body.name].rotation.reference()?;
+        let hidden = sets.reference(reference)?;
+        let link = &links.all()[links.of_hidden(hidden)?];
+        Some(BodyFrame {
+            points: body.points.clone(),
+            hidden,
+            centre: link.centre,
+            length: link.length,
+        })
+    });
+    BodyFrames::new(links.dofs(), turning.collect())
+}
+
+/// Tells the interfaces that bodies which turn take part in.
+pub(super) fn attach(frames: &Arc<BodyFrames>, interfaces: &mut [Interface]) {
+    for interface in interfaces {
+        let mut nodes = interface.nodes.iter();
+        if nodes.any(|&n| frames.of_point(n).is_some()) {
+            interface.frames = Arc::clone(frames);
+        }
+    }
+}
+
+/// What bodies that turn cannot bear.
+pub(super) fn refuse(problem: &Problem, said: &Said) -> Result<(), Error> {
+    let frames = said.frames;
+    if frames.is_empty() {
+        return Ok(());
+    }
+    let dofs = frames.dofs();
+    let of = |dof: usize| frames.of_point(dofs.locate(dof).0);
+    let fault = |key: String, message: &str, help: &str| {
+        let finding = Diagnostic::new(key, message.to_string()).help(help.to_string());
+        Err(problem_error(vec![finding]))
+    };
+    for coupling in said.couplings {
+        for row in &coupling.rows {
+            let mut bodies = row.dofs.iter().map(|&dof| of(dof));
+            let first = bodies.next().flatten();
+            if bodies.any(|body| body != first) {
+                return fault(
+                    format!("coupling.{}", coupling.name),
+                    "it joins a body that turns by any angle to something that does not turn with it",
+                    "tie surfaces by an interface (`tied = true`), or support the body in its frame and load the reference point that carries it",
+                );
+            }
+        }
+    }
+    for (name, load) in &problem.load {
+        let springs = load.kind.as_dyn().region() == crate::body::loads::Region::Points
+            && matches!(load.kind, crate::body::loads::LoadKind::Spring(_));
+        let own = springs
+            && said.bodies.iter().any(|b| {
+                let turns = problem.body[&b.name].rotation.reference().is_some();
+                turns && (load.set == b.name || load.set.split('.').next() == Some(&b.name))
+            });
+        if own {
+            return fault(
+                format!("load.{name}.set"),
+                "springs to ground would turn with this body",
+                "put them at the reference point that carries it",
+            );
+        }
+    }
+    Ok(())
+}
