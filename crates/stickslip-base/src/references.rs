@@ -51,6 +51,7 @@ references! {
     steele_2014: "G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014, 453-472.",
     mindlin_deresiewicz_1953: "R. D. Mindlin, H. Deresiewicz, Elastic spheres in contact under varying oblique forces, Journal of Applied Mechanics 20 (1953) 327-344.",
     archard_1953: "J. F. Archard, Contact and rubbing of flat surfaces, Journal of Applied Physics 24 (1953) 981-988.",
+    fouvry_1995: "S. Fouvry, Ph. Kapsa, L. Vincent, Analysis of sliding behaviour for fretting loadings: determination of transition criteria, Wear 185 (1995) 35-46.",
     fouvry_2003: "S. Fouvry, T. Liskiewicz, P. Kapsa, S. Hannel, E. Sauger, An energy description of wear mechanisms and its applications to oscillating sliding contacts, Wear 255 (2003) 287-298.",
     hunt_crossley_1975: "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445.",
     armstrong_1994: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.",

@@ -24,7 +24,7 @@ impl Elastic {
     /// Mass `[kg]` (in a plane body of its thickness, around an axis of the full ring).
     pub fn total_mass(&self) -> f64 {
         let mut total = 0.0;
-        self.cell_masses(MassKind::Consistent, &mut |_, m| {
+        self.cell_masses(MassKind::Consistent, None, &mut |_, m| {
             total += m.iter().sum::<f64>();
         });
         total
@@ -32,7 +32,16 @@ impl Elastic {
 
     /// Adds the lumped masses, by point.
     pub fn add_lumped_mass(&self, by_point: &mut [f64]) {
-        self.cell_masses(MassKind::Lumped, &mut |points, m| {
+        self.add_lumped(None, by_point);
+    }
+
+    /// Adds the volumes around the points `[m³]`, in the proportions of lumped masses.
+    pub fn add_lumped_volume(&self, by_point: &mut [f64]) {
+        self.add_lumped(Some(1.0), by_point);
+    }
+
+    fn add_lumped(&self, density: Option<f64>, by_point: &mut [f64]) {
+        self.cell_masses(MassKind::Lumped, density, &mut |points, m| {
             let n = points.len();
             for (a, &p) in points.iter().enumerate() {
                 by_point[p] += m[a * n + a];
@@ -45,11 +54,11 @@ impl Elastic {
     pub fn add_mass(&self, kind: MassKind, light: &[bool], matrix: &mut BlockCsr) -> bool {
         let dim = self.space.dim();
         if !self.points().iter().any(|&p| light[p]) {
-            self.cell_masses(kind, &mut |points, m| spread(points, m, dim, matrix));
+            self.cell_masses(kind, None, &mut |points, m| spread(points, m, dim, matrix));
             return true;
         }
         let mut cells = Vec::new();
-        self.cell_masses(kind, &mut |points, m| {
+        self.cell_masses(kind, None, &mut |points, m| {
             cells.push(Cell {
                 points: points.to_vec(),
                 mass: m.to_vec(),
@@ -70,12 +79,19 @@ impl Elastic {
     }
 
     /// Hands out the mass matrix of every cell in one direction, shape `(n, n)` row by row, with the cell's points.
-    fn cell_masses(&self, kind: MassKind, visit: &mut dyn FnMut(&[usize], &[f64])) {
+    /// Visits the masses of the cells, of another density where one is given.
+    fn cell_masses(
+        &self,
+        kind: MassKind,
+        density: Option<f64>,
+        visit: &mut dyn FnMut(&[usize], &[f64]),
+    ) {
         for part in &self.parts {
             let block = &self.mesh.blocks[part.block];
+            let density = density.unwrap_or(part.density);
             by_nodes!(
                 block.kind,
-                masses(&self.mesh, block, self.space, part.density, kind, visit)
+                masses(&self.mesh, block, self.space, density, kind, visit)
             );
         }
     }

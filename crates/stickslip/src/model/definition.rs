@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::cycling::Cycling;
 use super::heat::Heat;
 use super::limits::Limits;
 use super::modal::{Modal, SteadyPlan};
@@ -321,37 +322,6 @@ pub struct Step {
     /// How often it is gone through.
     pub cycles: Option<Cycling>,
 }
-
-/// The cycles of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cycling {
-    /// Duration of one `[s]`.
-    pub period: f64,
-    /// How many there are.
-    pub count: usize,
-    /// How many of them each one that is computed stands for; the last for those that are left.
-    pub jump: usize,
-}
-
-impl Cycling {
-    /// How many cycles the computed one stands for in which an increment lies that begins a time `since` the step did.
-    pub fn stands_for(&self, since: f64) -> usize {
-        let block = (since / self.period + ON_TIME).floor().max(0.0) as usize;
-        let before = block.saturating_mul(self.jump);
-        self.jump.min(self.count.saturating_sub(before)).max(1)
-    }
-
-    /// Cycles that are over a time `since` the step began `[-]`.
-    pub fn done(&self, since: f64) -> f64 {
-        let block = (since / self.period + ON_TIME).floor().max(0.0);
-        let part = (since / self.period - block).max(0.0);
-        let before = (block * self.jump as f64).min(self.count as f64);
-        before + part * self.stands_for(since) as f64
-    }
-}
-
-/// Part of a cycle that is rounding.
-const ON_TIME: f64 = 1e-9;
 
 impl Step {
     /// Whether motion is integrated without solving equations.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::course::Course;
+use super::cycling::Block;
 use super::ledger::EnergyLedger;
 use crate::system::State;
 
@@ -29,6 +30,8 @@ pub struct Frame {
     pub course: Course,
     /// What an implicit step knows beside the state.
     pub motion: Motion,
+    /// The cycle at hand, where jumps over cycles are chosen.
+    pub block: Block,
     /// Energies: what there is, and where it came from and went.
     pub ledger: EnergyLedger,
 }
@@ -55,6 +58,7 @@ crate::keep!(Frame {
     released,
     course,
     motion,
+    block,
     ledger
 });
 crate::keep!(Motion {

@@ -3,6 +3,7 @@
 pub(crate) mod conditions;
 pub(crate) mod contact;
 pub(crate) mod course;
+pub(crate) mod cycling;
 pub(crate) mod definition;
 pub(crate) mod drivers;
 pub(crate) mod frame;
@@ -18,8 +19,9 @@ pub(crate) mod unheld;
 
 pub use contact::Contact;
 pub use course::Course;
+pub use cycling::{Block, ChosenJump, Cycling, Jump};
 pub use definition::{
-    Body, ContactAt, ContactMass, Cycling, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
+    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
     Reference, Rigid, Solution, Step, Support,
 };
 pub use frame::{Frame, Motion};

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ComplexModes, Dynamic, Modes, SteadySliding, Tension};
 use crate::contact::interface::Change;
+use crate::model::Jump;
 
 /// `[[step]]`: a stretch of the analysis with its own supports, loads and interfaces. Steps follow each other in the
 /// order of the file; a step starts from the state at the end of the one before.
@@ -63,8 +64,8 @@ pub struct Step {
     pub dynamic: Option<Dynamic>,
 }
 
-/// How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed; amplitude tables, and what follows in them, count
-/// one cycle.
+/// How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed, or where jumps are chosen for each cycle that is over;
+/// amplitude tables, and what follows in them, count one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -72,21 +73,20 @@ pub struct Cycles {
     /// How many cycles there are.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub count: usize,
-    /// How many of them each cycle that is computed stands for: what slides in it wears as often. Default: 1.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
-    #[serde(default = "once")]
-    pub jump: usize,
+    /// How many of them each cycle that is computed stands for: what slides in it wears as often. Or the error that jumps over cycles may make, `{ error = 0.01 }`, by
+    /// which each is chosen. Default: 1.
+    #[serde(default)]
+    pub jump: Jump,
 }
 
 impl Cycles {
-    /// How many cycles are computed.
+    /// How many cycles there are in the time of the analysis.
     pub fn blocks(self) -> usize {
-        self.count.div_ceil(self.jump.max(1)).max(1)
+        match self.jump {
+            Jump::Fixed(jump) => self.count.div_ceil(jump.max(1)).max(1),
+            Jump::Chosen(_) => self.count,
+        }
     }
-}
-
-fn once() -> usize {
-    1
 }
 
 impl Step {

@@ -1,4 +1,4 @@
-//! The result directory: `fields.pvd` and `.vtu` files, `interfaces.pvd` and `interfaces/*.vtp`, `interfaces/*.csv`, `history.csv`, `summary.json`,
+//! The result directory: `fields.pvd` and `.vtu` files, `interfaces.pvd` and `interfaces/*.vtp`, `interfaces/*.csv`, `history.csv`, `cycles.csv`, `summary.json`,
 //! an `.frd` file where the problem asks for one, and `culprits.vtu` where the doctor found something.
 
 use std::path::Path;
@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use super::analysis::Analysis;
 use super::folder::{Claim, Folder, FolderClaim, INTERFACES, SURFACES, surface_name};
 use super::frd;
+use super::history::Row;
 use super::modes;
 use super::observer::{Event, Observer, Snapshot};
 use super::saved::{self, Positions, Saved, Source};
@@ -25,6 +26,7 @@ pub struct ResultFiles {
     folder: Folder,
     pvd: pvd::Collection,
     history: Option<csv::History>,
+    cycles: Option<csv::History>,
     count: usize,
     /// What all files of fields share.
     mesh: Option<Arc<vtu::PackedMesh>>,
@@ -50,6 +52,7 @@ impl ResultFiles {
             folder: Folder::take(directory, claim)?,
             pvd: pvd::Collection::new(&directory.join("fields.pvd")),
             history: None,
+            cycles: None,
             count: 0,
             mesh: None,
             writing: None,
@@ -89,6 +92,7 @@ impl ResultFiles {
                 0 => None,
                 columns => Some(csv::History::resume(&history, columns)?),
             },
+            cycles: resume_cycles(directory, positions)?,
             count: positions.fields.len(),
             alike: claim.alike,
             mesh: None,
@@ -107,6 +111,7 @@ impl ResultFiles {
         let directory = &self.folder.directory;
         let mut lengths = Vec::new();
         let growing = self.history.iter().map(|_| "history.csv");
+        let growing = growing.chain(self.cycles.iter().map(|_| CYCLES));
         let growing = growing.chain(self.also.iter().map(String::as_str));
         let frd = Some(self.frd.reached()).filter(|reached| reached.tally.outputs > 0);
         for name in growing.chain(frd.map(|_| self.frd.name())) {
@@ -262,6 +267,28 @@ fn write_sheet(path: &Path, sheet: &Sheet) -> Result<(), Error> {
     vtu::write_surface(path, &surface)
 }
 
+/// What cycles took, a row each that is computed.
+const CYCLES: &str = "cycles.csv";
+
+/// Adds a row to a table, whose file is made with the first.
+fn add_row(table: &mut Option<csv::History>, path: &Path, row: &Row) -> Result<(), Error> {
+    if table.is_none() {
+        *table = Some(csv::History::create(path, &row.names)?);
+    }
+    table.as_mut().map_or(Ok(()), |t| t.row(&row.values))
+}
+
+/// The table of cycles as it was at a checkpoint.
+fn resume_cycles(directory: &Path, positions: &Positions) -> Result<Option<csv::History>, Error> {
+    let path = directory.join(CYCLES);
+    if !positions.lengths.iter().any(|(name, _)| name == CYCLES) {
+        // It was begun after the checkpoint.
+        return remove(&path).map(|()| None);
+    }
+    let columns = csv::read(&path)?.names.len();
+    csv::History::resume(&path, columns).map(Some)
+}
+
 /// Removes a file that need not be there.
 fn remove(path: &Path) -> Result<(), Error> {
     match std::fs::remove_file(path) {
@@ -375,13 +402,12 @@ impl Observer for ResultFiles {
         match event {
             Event::Increment(row) => {
                 self.frd.see(analysis, row);
-                if self.history.is_none() {
-                    let path = self.folder.directory.join("history.csv");
-                    self.history = Some(csv::History::create(&path, &row.names)?);
-                }
-                if let Some(history) = &mut self.history {
-                    history.row(&row.values)?;
-                }
+                let path = self.folder.directory.join("history.csv");
+                add_row(&mut self.history, &path, row)?;
+            }
+            Event::Cycle(row) => {
+                let path = self.folder.directory.join(CYCLES);
+                add_row(&mut self.cycles, &path, row)?;
             }
             Event::Output => self.output(analysis)?,
             Event::Modes(outcome) => {

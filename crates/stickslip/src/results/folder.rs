@@ -262,6 +262,7 @@ fn is_of_interface(name: &str) -> bool {
 const FILES: &[&str] = &[
     "summary.json",
     "history.csv",
+    "cycles.csv",
     "fields.pvd",
     SURFACES,
     "culprits.vtu",

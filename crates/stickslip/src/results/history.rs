@@ -17,7 +17,7 @@ pub struct Row {
 }
 
 impl Row {
-    fn push(&mut self, name: impl Into<String>, value: f64) {
+    pub(super) fn push(&mut self, name: impl Into<String>, value: f64) {
         self.names.push(name.into());
         self.values.push(value);
     }
@@ -110,9 +110,14 @@ pub(crate) fn row(
 
 /// Cycles that are over at a time, those of steps before included.
 fn cycles(view: &View, t: f64) -> f64 {
-    let steps = &view.model.steps[..=view.step_index()];
-    let of = steps.iter().filter_map(|s| Some((s, s.cycles?)));
-    of.map(|(s, c)| c.done(t.min(s.end) - s.start)).sum()
+    let now = view.step_index();
+    let steps = view.model.steps[..=now].iter().enumerate();
+    let of = steps.filter_map(|(i, s)| Some((i, s, s.cycles?)));
+    of.map(|(i, s, c)| match i == now {
+        true => c.done(t - s.start, view.frame.block),
+        false => c.count as f64,
+    })
+    .sum()
 }
 
 fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {

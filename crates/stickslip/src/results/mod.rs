@@ -7,6 +7,7 @@ pub(crate) mod folder;
 pub(crate) mod frd;
 pub(crate) mod history;
 pub(crate) mod lock;
+pub(crate) mod loops;
 pub(crate) mod modes;
 pub(crate) mod observer;
 pub(crate) mod saved;

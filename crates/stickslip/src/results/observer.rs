@@ -17,6 +17,8 @@ pub enum Event<'a> {
     Accepted(&'a Advance),
     /// What came of an accepted increment: the history row.
     Increment(&'a Row),
+    /// A cycle of a step with cycles is over: what it took, a row of `cycles.csv`.
+    Cycle(&'a Row),
     /// Something a user should know.
     Note(&'a str),
     /// What the doctor found in the model before the first step.

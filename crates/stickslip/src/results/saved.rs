@@ -219,7 +219,7 @@ impl Saved {
     /// Whether files of a deck grow with the run beside those of all results.
     pub fn has_prints(&self) -> bool {
         let mut names = self.positions.lengths.iter().map(|(name, _)| name);
-        names.any(|name| name != "history.csv" && !name.ends_with(".frd"))
+        names.any(|name| name != "history.csv" && name != "cycles.csv" && !name.ends_with(".frd"))
     }
 
     /// Whether what the run had from a program is there again.

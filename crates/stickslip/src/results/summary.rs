@@ -48,7 +48,9 @@ pub struct Summary {
     pub events: usize,
     /// Attempts rejected for other reasons.
     pub cutbacks: usize,
-    /// Why, one line each.
+    /// Blocks of cycles that were taken back because they stood for too many.
+    pub cycles_taken_back: usize,
+    /// Why increments were rejected, one line each.
     pub cutback_reasons: Vec<String>,
     /// What was tried when plain iteration had failed, in this order, attempt by attempt. When nothing helped the increment was cut back.
     pub fallbacks: Vec<FallbackSummary>,
@@ -292,6 +294,7 @@ crate::keep!(Summary {
     iterations,
     events,
     cutbacks,
+    cycles_taken_back,
     cutback_reasons,
     fallbacks,
     friction_solvers,

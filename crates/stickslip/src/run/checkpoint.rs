@@ -10,22 +10,25 @@
 //! | histories of interfaces; multipliers, targets and holds of couplings | `History`, `CouplingsState` | as they are |
 //! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
 //! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Recovered`, `Failed` | as they are |
-//! | how far the steps are: increments, attempts, the length that is wished | `Steps` | as it is |
+//! | how far the steps are: increments, attempts, the length that is wished, jumps over cycles | `Steps` | as it is |
 //! | damping forces and constraints of an explicit step | `ExplicitState` | as they are; masses, springs and frequencies made again |
 //! | the way to solve, candidates, condensed state and direction, floating bodies with their anchors, counts | `SolverState` | as they are |
 //! | factors, hierarchies, condensed bodies, load patterns, the matrices of increments in motion | `SolverState` | what they were made of |
-//! | figures, findings, notes, counts, the last row | `Summary`, `Watch` | as they are |
+//! | figures, findings, notes, counts, the last row; the cycle at hand | `Summary`, `Watch`, `Loop` | as they are |
 //! | facets, boxes, evaluations, projections | `Cache` | nothing: functions of the above |
-//! | cells at probes, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
+//! | cells at probes, shares of bodies by point, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
 //!
 //! Condensed increments that wait are in those that observers are handed only where a run is stopped: how many interiors are found together shows in
 //! their last digits. They are reported twice then, and who goes on cuts back what they left. Others are taken where none waits.
+//!
+//! Where jumps over cycles are chosen there is a checkpoint between two blocks only: what a block has found may be taken back.
 //!
 //! An attempt changes nothing of this but what is in [`Working`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
 //! the increment is tried again with the same bits.
 
 use std::path::Path;
 
+use super::jumps::Jumps;
 use super::queue::{Failed, Pending, Recovered};
 use crate::assess::doctor::Watch;
 use crate::body::couplings::CouplingsState;
@@ -33,6 +36,7 @@ use crate::contact::interface::{History, Memory};
 use crate::error::{Error, IoError};
 use crate::integrate::explicit::ExplicitState;
 use crate::model::frame::Frame;
+use crate::results::loops::Loop;
 use crate::results::saved::Saved;
 use crate::results::sealed::{laid_out, read};
 use crate::results::summary::Summary;
@@ -40,6 +44,7 @@ use crate::solve::state::SolverState;
 use crate::time::Pace;
 
 /// All state from which an analysis goes on.
+#[derive(Clone)]
 pub struct Checkpoint {
     pub(super) frame: Frame,
     pub(super) histories: Vec<History>,
@@ -50,6 +55,7 @@ pub struct Checkpoint {
     pub(super) recovered: Option<Recovered>,
     pub(super) summary: Summary,
     pub(super) watches: Vec<Watch>,
+    pub(super) loops: Vec<Loop>,
     pub(super) working: Working,
 }
 
@@ -75,6 +81,7 @@ pub(super) struct Standing {
     pub too_long: f64,
     pub tight: bool,
     pub failed: Option<Failed>,
+    pub jumps: Jumps,
 }
 
 /// The state that attempts change.
@@ -94,6 +101,7 @@ crate::keep!(Checkpoint {
     recovered,
     summary,
     watches,
+    loops,
     working
 });
 crate::keep!(Position {
@@ -109,7 +117,8 @@ crate::keep!(Standing {
     vain,
     too_long,
     tight,
-    failed
+    failed,
+    jumps
 });
 crate::keep!(Working {
     interfaces,

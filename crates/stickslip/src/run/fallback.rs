@@ -30,6 +30,10 @@ impl Simulation {
             increment,
             failure,
         } = taken;
+        if self.try_block_again()? {
+            self.solver.floating.forget();
+            return self.solve_sparsely(&failure, observers);
+        }
         let mut running = Increments::of(self.step());
         running.stepper.again(trial.from, trial.to - trial.from);
         running.accepted = increment - 1;

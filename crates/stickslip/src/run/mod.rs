@@ -2,8 +2,10 @@
 
 mod book;
 mod checkpoint;
+mod cycles;
 mod failures;
 mod fallback;
+mod jumps;
 mod modes;
 mod pending;
 mod position;
@@ -12,6 +14,7 @@ mod restart;
 mod simulation;
 mod sizes;
 mod steps;
+mod trying;
 mod weigh;
 
 pub use crate::solve::work::{Watch, Work};

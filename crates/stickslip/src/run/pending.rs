@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::model::contact::Contact;
 use crate::newton::Progress;
 use crate::results::history;
+use crate::results::loops;
 use crate::results::observer::{Event, Observer};
 use crate::solve::choice::TOGETHER;
 use crate::system::{Cause, State, StepFailure};
@@ -171,17 +172,33 @@ impl Simulation {
             let named = row.names.iter().cloned().zip(row.values.iter().copied());
             self.summary.last = named.collect();
             self.judge();
-            self.tell(observers, || Event::Increment(&row))?;
-        }
-        if pending.fields {
-            let State { u, t, .. } = &self.frame.state;
-            for interface in &mut self.contact.interfaces {
-                interface.measure(u, *t);
+            match &mut self.trying {
+                Some(trying) => trying.hold(row, pending.fields),
+                None => self.tell(observers, || Event::Increment(&row))?,
             }
-            self.tell(observers, || Event::Output)?;
+        }
+        let view = view!(self);
+        let cycle = loops::follow(&view, &self.shares, &mut self.loops, pending.trial);
+        if let Some(row) = cycle {
+            match &mut self.trying {
+                Some(trying) => trying.hold_cycle(row),
+                None => self.tell(observers, || Event::Cycle(&row))?,
+            }
+        }
+        if pending.fields && self.trying.is_none() {
+            self.put_out(observers)?;
         }
         self.summary.phases.write += started.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Tells observers that fields are due.
+    pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let State { u, t, .. } = &self.frame.state;
+        for interface in &mut self.contact.interfaces {
+            interface.measure(u, *t);
+        }
+        self.tell(observers, || Event::Output)
     }
 
     /// Judges the last accepted increment.

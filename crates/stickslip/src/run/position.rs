@@ -1,6 +1,7 @@
 //! How far an analysis has come.
 
 use super::checkpoint::Standing;
+use super::jumps::Jumps;
 use super::queue::Failed;
 use crate::model::definition::Step;
 use crate::time::Stepper;
@@ -31,6 +32,8 @@ pub(super) struct Increments {
     pub(super) tight: bool,
     /// An attempt that failed, kept until the increments before it are reported.
     pub(super) failed: Option<Failed>,
+    /// Jumps over cycles, where they are chosen.
+    pub(super) jumps: Jumps,
 }
 
 impl Increments {
@@ -48,6 +51,7 @@ impl Increments {
             too_long: f64::INFINITY,
             tight: false,
             failed: None,
+            jumps: Jumps::default(),
         }
     }
 
@@ -62,6 +66,7 @@ impl Increments {
             too_long: self.too_long,
             tight: self.tight,
             failed: self.failed.clone(),
+            jumps: self.jumps.clone(),
         }
     }
 
@@ -76,6 +81,7 @@ impl Increments {
             too_long,
             tight,
             failed,
+            jumps,
         } = standing;
         let fresh = Increments::of(step);
         Increments {
@@ -87,6 +93,7 @@ impl Increments {
             too_long,
             tight,
             failed,
+            jumps,
         }
     }
 }

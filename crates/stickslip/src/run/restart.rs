@@ -24,6 +24,7 @@ impl Simulation {
     /// Increments that wait for their interiors or for their report are part of it: what is reported of them after it was taken, who goes on from it reports again.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
         let ready = self.steps.begun && self.steps.next > 0 && self.taken_back.is_none();
+        let ready = ready && self.trying.is_none();
         ready.then(|| self.checkpoint_with(self.working()))
     }
 
@@ -42,6 +43,7 @@ impl Simulation {
             recovered: self.recovered.clone(),
             summary: self.summary.clone(),
             watches: self.watches.clone(),
+            loops: self.loops.clone(),
             working,
         }
     }
@@ -71,24 +73,40 @@ impl Simulation {
         let Checkpoint {
             frame,
             histories,
+            working,
+            ..
+        } = &checkpoint;
+        fits(&simulation, frame, (histories, working))?;
+        for step in &simulation.model.steps[..=frame.step] {
+            // Their energies are in the ledger.
+            simulation.contact.change_laws(step, |_| {});
+        }
+        simulation.go_back_to(checkpoint)?;
+        simulation.started = Instant::now();
+        simulation.saved = (simulation.summary.increments, simulation.started);
+        Ok(simulation)
+    }
+
+    /// Goes on from a checkpoint of this analysis, in the laws that hold there.
+    pub(super) fn go_back_to(&mut self, checkpoint: Checkpoint) -> Result<(), Error> {
+        let simulation = self;
+        let Checkpoint {
+            frame,
+            histories,
             position,
             pending,
             recovered,
             summary,
             watches,
+            loops,
             working,
         } = checkpoint;
-        fits(&simulation, &frame, (&histories, &working))?;
         let Simulation {
             model,
             contact,
             solver,
             ..
-        } = &mut simulation;
-        for step in &model.steps[..=frame.step] {
-            // Their energies are in the ledger.
-            contact.change_laws(step, |_| {});
-        }
+        } = simulation;
         for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
             interface.history = history;
         }
@@ -118,9 +136,8 @@ impl Simulation {
         simulation.recovered = recovered;
         simulation.summary = summary;
         simulation.watches = watches;
-        simulation.started = Instant::now();
-        simulation.saved = (simulation.summary.increments, simulation.started);
-        Ok(simulation)
+        simulation.loops = loops;
+        Ok(())
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::checkpoint::Working;
 use super::position::Steps;
 use super::queue::{Pending, Recovered, TakenBack};
+use super::trying::Trying;
 use crate::assess::diagnosis::{CheckReport, start_gaps};
 use crate::assess::doctor::{self, Finding, Watch};
 use crate::assess::quality;
@@ -23,6 +24,7 @@ use crate::model::frame::Frame;
 use crate::model::scene::Scene;
 use crate::newton::condensed::Library;
 use crate::results::analysis::Analysis;
+use crate::results::loops::{self, Loop};
 use crate::results::observer::{Event, Observer};
 use crate::results::summary::{Phases, Summary};
 use crate::solve::solver::Solver;
@@ -51,6 +53,9 @@ pub struct Simulation {
     pub(crate) taken_back: Option<TakenBack>,
     /// What interfaces did so far.
     pub(crate) watches: Vec<Watch>,
+    /// The cycles at hand of interfaces, and the parts of bodies around their points by which displacements are averaged for them.
+    pub(crate) loops: Vec<Loop>,
+    pub(crate) shares: Vec<f64>,
     /// Bodies that no interface joins.
     pub(crate) unjoined: doctor::Unjoined,
     /// Cells at the probes; `None` at rigid bodies.
@@ -60,6 +65,8 @@ pub struct Simulation {
     pub(super) saved: (usize, Instant),
     /// What the attempt at hand may change, as it was at its beginning, where a run may be stopped in the middle of one.
     pub(super) before: Option<Working>,
+    /// The block of cycles at hand, where jumps over them are chosen.
+    pub(super) trying: Option<Trying>,
 }
 
 /// What looks at a simulation, with its summary and what judges remember left free.
@@ -113,6 +120,8 @@ impl Simulation {
         Ok(Simulation {
             around: model.probes.iter().map(|p| probed(p.point)).collect(),
             unjoined: doctor::Unjoined::new(&scene),
+            loops: vec![Loop::default(); contact.interfaces.len()],
+            shares: loops::shares(&model),
             watches: vec![Watch::default(); contact.interfaces.len()],
             integration: Integration::QuasiStatic(QuasiStatic),
             steps: Steps::default(),
@@ -128,6 +137,7 @@ impl Simulation {
             started,
             saved: (0, started),
             before: None,
+            trying: None,
         })
     }
 
@@ -185,6 +195,14 @@ impl Simulation {
         outcome: Result<bool, Error>,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
+        let outcome = match outcome {
+            // The rows of the block in which it ended say why.
+            Err(e) if !matches!(e, Error::Interrupted(_)) => {
+                let told = self.release_block(observers);
+                told.and(Err(e))
+            }
+            other => other,
+        };
         let settled = observers.iter_mut().try_for_each(|o| o.settle());
         let outcome = outcome.and_then(|done| settled.map(|()| done));
         let outcome = outcome.map_err(|e| match e {

@@ -16,6 +16,9 @@ use crate::time::scheme::Method;
 /// Characters of a number in a history at most, with its comma: `-1.2345678901234567e-300,`.
 const NUMBER: usize = 25;
 
+/// Cycles that are computed where jumps are chosen, at most about.
+const BLOCKS: usize = 200;
+
 /// Characters of the line of a file of fields in `fields.pvd`, and bytes of its name in a checkpoint.
 const LINE: usize = 80;
 
@@ -122,7 +125,12 @@ impl Simulation {
             // They grow.
             _ => (increments.initial * increments.largest).sqrt(),
         };
-        ((step.end - step.start) / length).clamp(1.0, 1e15).round() as u64
+        let cycles = step.cycles.filter(|c| c.chosen().is_some());
+        let span = match cycles {
+            Some(cycles) => cycles.period * cycles.count.min(BLOCKS) as f64,
+            None => step.end - step.start,
+        };
+        (span / length).clamp(1.0, 1e15).round() as u64
     }
 
     /// Bytes of a checkpoint, and of the increments that may wait in the last one.

@@ -12,6 +12,7 @@ use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
 use crate::integrate::integration::Integration;
 use crate::integrate::quasi_static::QuasiStatic;
+use crate::model::cycling::Block;
 use crate::model::definition::Step;
 use crate::model::frame::Motion;
 use crate::model::scene::Scene;
@@ -114,6 +115,7 @@ impl Simulation {
             }
             None => return Ok(false),
         };
+        let running = self.begin_block(running);
         self.steps.running = self.next_attempt(running, observers)?;
         Ok(true)
     }
@@ -122,9 +124,15 @@ impl Simulation {
     fn stop(&mut self, observers: &mut [&mut dyn Observer]) -> Error {
         // What is reported from here on, who goes on from there reports again.
         match self.save(observers).and_then(|()| self.flush(observers)) {
-            Ok(()) => Error::Interrupted(self.frame.state.t),
+            Ok(()) => Error::Interrupted(self.told()),
             Err(e) => e,
         }
+    }
+
+    /// The time up to which all is reported.
+    fn told(&self) -> f64 {
+        let trying = self.trying.as_ref().map(|trying| trying.start.time());
+        trying.unwrap_or(self.frame.state.t)
     }
 
     /// Hands on a checkpoint where one is due and can be taken.
@@ -133,7 +141,8 @@ impl Simulation {
         let (increments, at) = self.saved;
         let passed = self.summary.increments - increments;
         let failed = (self.steps.running.as_ref()).is_some_and(|running| running.failed.is_some());
-        if !self.pending.is_empty() || self.recovered.is_some() || failed {
+        let between = self.pending.is_empty() && self.recovered.is_none() && self.trying.is_none();
+        if !between || failed {
             return Ok(());
         }
         let due = every > 0 && passed >= every
@@ -147,9 +156,10 @@ impl Simulation {
     /// Hands on a checkpoint where one can be taken.
     fn save(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let before = self.before.take();
-        let taken = match before {
-            Some(before) => Some(self.checkpoint_with(before)),
-            None => self.checkpoint(),
+        let taken = match (&self.trying, before) {
+            (Some(trying), _) => Some(trying.start.clone()),
+            (None, Some(before)) => Some(self.checkpoint_with(before)),
+            (None, None) => self.checkpoint(),
         };
         let Some(checkpoint) = taken else {
             return Ok(());
@@ -185,6 +195,7 @@ impl Simulation {
             ..
         } = self;
         frame.step = step;
+        frame.block = Block::default();
         frame.begin_step(model, contact);
         contact.begin_acting(&model.steps[step], &frame.state);
         if model.steps[step].modal.is_some() {
@@ -353,8 +364,9 @@ impl Simulation {
     /// Tells interfaces for how many cycles beside its own an increment stands.
     fn count_cycles(&mut self, trial: Trial) {
         let step = self.step();
-        let cycles = step.cycles.map(|c| c.stands_for(trial.from - step.start));
-        let skipped = cycles.map_or(0.0, |n| n as f64 - 1.0);
+        let since = trial.from - step.start;
+        let block = step.cycles.map(|c| c.block(since, self.frame.block));
+        let skipped = block.map_or(0.0, |b| b.stands_for as f64 - 1.0);
         for interface in &mut self.contact.interfaces {
             interface.skip(skipped);
         }
@@ -517,7 +529,7 @@ impl Simulation {
             self.forget_direction();
         }
         running.attempt = 1;
-        Ok(())
+        self.end_block(running, trial.to, observers)
     }
 
     /// Makes an increment that failed smaller.
@@ -550,6 +562,9 @@ impl Simulation {
                 running.stepper.again(trial.from, initial);
                 running.attempt = 1;
                 return self.solve_sparsely(&failure, observers);
+            }
+            if self.try_fewer_cycles(running)? {
+                return Ok(());
             }
             return Err(self.give_up(failure, &trial).into());
         }

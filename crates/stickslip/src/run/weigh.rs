@@ -216,6 +216,7 @@ mod tests {
             vain: false,
             too_long: f64::INFINITY,
             tight: false,
+            jumps: Default::default(),
             failed: None,
         };
         for halvings in 0..100 {

@@ -112,6 +112,13 @@ impl Condenser {
         self.moving.clear();
     }
 
+    /// It is later, and all that acts is as it was.
+    pub fn pass_time(&mut self, t: f64) {
+        if let Some(condensed) = &mut self.at_rest {
+            condensed.state.t = t;
+        }
+    }
+
     /// What the last increment did is no guide for the next.
     pub fn forget_direction(&mut self) {
         if let Some(condensed) = &mut self.at_rest {

@@ -92,6 +92,16 @@ impl Stepper {
         self.easy = 0;
     }
 
+    /// Goes on from a later time; that, or a milestone an instant from it.
+    pub fn leap(&mut self, to: f64) -> f64 {
+        let instant = SLIVER * self.milestones.last().copied().unwrap_or(to).abs();
+        let near = self.milestones.partition_point(|&t| t < to - instant);
+        let near = self.milestones.get(near).filter(|&&t| t <= to + instant);
+        self.now = near.copied().unwrap_or(to);
+        self.easy = 0;
+        self.now
+    }
+
     /// The increment that a step begins with.
     pub fn initial(&self) -> f64 {
         self.increments.initial
@@ -99,7 +109,8 @@ impl Stepper {
 
     /// The next increment to try; `None` at the end.
     pub fn next(&self) -> Option<Trial> {
-        let target = *self.milestones.iter().find(|&&t| t > self.now)?;
+        let next = self.milestones.partition_point(|&t| t <= self.now);
+        let target = *self.milestones.get(next)?;
         let left = target - self.now;
         // Equal parts up to the milestone, so that no sliver is left before it.
         let parts = (left / self.wish - 1e-6).ceil().max(1.0);

@@ -16,6 +16,7 @@ mod elements;
 mod exact;
 mod examples;
 mod frd;
+mod fretting;
 mod heat;
 mod layers;
 mod library;

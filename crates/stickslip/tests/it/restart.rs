@@ -226,34 +226,38 @@ impl Observer for Keeper {
 #[test]
 fn a_run_that_is_stopped_in_the_middle_of_an_increment_goes_on_with_the_same_bits() {
     for method in ["condensed", "sparse"] {
-        let problem = kinds(method);
-        let mut whole = Diary::default();
-        let mut run = begin(&problem, Path::new("."));
-        run.run(&mut [&mut whole]).unwrap_or_else(|e| panic!("{e}"));
-        for asked in [9, 30, 55] {
-            let counter = AtomicUsize::new(0);
-            let mut stopped = begin(&problem, Path::new("."));
-            stopped.set_interrupt(Arc::new(move || {
-                counter.fetch_add(1, Ordering::Relaxed) == asked
-            }));
-            let (mut first, mut keeper) = (Diary::default(), Keeper::default());
-            let outcome = stopped.run(&mut [&mut first, &mut keeper]);
-            assert!(matches!(outcome, Err(Error::Interrupted(_))), "{asked}");
-            let snapshot = keeper.0.expect("a run that is stopped leaves a checkpoint");
-            first.rows.truncate(snapshot.increments);
-            first.states.truncate(snapshot.increments);
-            let checkpoint = Checkpoint::from_bytes(&snapshot.state).expect("its bytes");
-            let setup = problem.build(Path::new(".")).expect("it was built before");
-            let library = Arc::new(Library::new(Library::small_limit()));
-            let mut again =
-                Simulation::resume(setup, library, checkpoint).unwrap_or_else(|e| panic!("{e}"));
-            again
-                .run(&mut [&mut first])
-                .unwrap_or_else(|e| panic!("{e}"));
-            assert!(first.rows == whole.rows, "{method}, {asked}: rows");
-            assert!(first.states == whole.states, "{method}, {asked}: states");
-            assert_eq!(summary(&again), summary(&run), "{method}, {asked}");
-        }
+        check_stopped(method, &kinds(method), &[9, 30, 55]);
+    }
+}
+
+/// Runs a problem, stops it when it has asked so many times whether to stop, and goes on from the checkpoint that is left.
+pub fn check_stopped(name: &str, problem: &Problem, asked: &[usize]) {
+    let mut whole = Diary::default();
+    let mut run = begin(problem, Path::new("."));
+    run.run(&mut [&mut whole]).unwrap_or_else(|e| panic!("{e}"));
+    for &asked in asked {
+        let counter = AtomicUsize::new(0);
+        let mut stopped = begin(problem, Path::new("."));
+        stopped.set_interrupt(Arc::new(move || {
+            counter.fetch_add(1, Ordering::Relaxed) == asked
+        }));
+        let (mut first, mut keeper) = (Diary::default(), Keeper::default());
+        let outcome = stopped.run(&mut [&mut first, &mut keeper]);
+        assert!(matches!(outcome, Err(Error::Interrupted(_))), "{asked}");
+        let snapshot = keeper.0.expect("a run that is stopped leaves a checkpoint");
+        first.rows.truncate(snapshot.increments);
+        first.states.truncate(snapshot.increments);
+        let checkpoint = Checkpoint::from_bytes(&snapshot.state).expect("its bytes");
+        let setup = problem.build(Path::new(".")).expect("it was built before");
+        let library = Arc::new(Library::new(Library::small_limit()));
+        let mut again =
+            Simulation::resume(setup, library, checkpoint).unwrap_or_else(|e| panic!("{e}"));
+        again
+            .run(&mut [&mut first])
+            .unwrap_or_else(|e| panic!("{e}"));
+        assert!(first.rows == whole.rows, "{name}, {asked}: rows");
+        assert!(first.states == whole.states, "{name}, {asked}: states");
+        assert_eq!(summary(&again), summary(&run), "{name}, {asked}");
     }
 }
 

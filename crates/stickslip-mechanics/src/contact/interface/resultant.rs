@@ -97,6 +97,20 @@ impl Interface {
         tally
     }
 
+    /// Area that slides and area in contact, at the last committed state `[m²]`.
+    pub fn sliding_area(&self) -> [f64; 2] {
+        let mut areas = [0.0; 2];
+        let frictional = self.laws.friction_law().frictional();
+        for (i, h) in self.history.points.iter().enumerate() {
+            if h.status != Status::Open {
+                let slides = h.status == Status::Slip || !frictional;
+                areas[0] += if slides { self.area_of(i) } else { 0.0 };
+                areas[1] += self.area_of(i);
+            }
+        }
+        areas
+    }
+
     /// Centre of the area in contact at the displacements `u` `[m]`, and the mean outward normal of the secondary there; zero where nothing touches.
     pub fn centre_and_normal(&self, u: &[f64]) -> (Vec3, Vec3) {
         let x = self.coordinates(u);

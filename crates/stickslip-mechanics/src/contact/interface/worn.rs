@@ -158,6 +158,24 @@ impl Interface {
         [own, depths.map(|(t, area)| t[1] * area).sum()]
     }
 
+    /// Whether sliding wears off one of the surfaces.
+    pub fn wears(&self) -> bool {
+        self.laws.wear.as_dyn().active()
+    }
+
+    /// What sliding has taken so far, place by place: volumes of both sides where one of them wears `[m³]`, otherwise energies `[J]`.
+    pub fn taken(&self) -> Vec<f64> {
+        let points = self.history.points.iter().zip(&self.points);
+        if !self.wears() {
+            return points
+                .map(|(h, p)| h.dissipated * p.area * self.share)
+                .collect();
+        }
+        let own = points.map(|(h, p)| h.worn * p.area * self.share);
+        let depths = self.history.traces.iter().zip(&self.hollows.area);
+        own.chain(depths.map(|(t, area)| t[1] * area)).collect()
+    }
+
     /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.
     pub fn skip(&mut self, cycles: f64) {
         self.directives.skipped = cycles;

@@ -4,6 +4,7 @@
 //! motion (`motion.rs`), engines (`engine.rs`), cuts through bolts (`pretensions.rs`), bodies that turn (`turning.rs`).
 //! Ranges of single numbers are stated where the key is declared and checked with the schema.
 
+mod cycles;
 mod engine;
 mod findings;
 mod motion;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
 use super::super::{Cycles, Increments, Problem, Step};
+use super::cycles;
 use super::findings::Findings;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
@@ -49,12 +50,8 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         increments(findings, &at("increments"), &step.increments);
         start += step.duration;
         if step.cycles.is_some() {
-            cycles(
-                findings,
-                &at("cycles"),
-                problem,
-                [start - step.duration, start],
-            );
+            let span = [start - step.duration, start];
+            cycles::check(findings, &at("cycles"), problem, span);
         }
         modal(findings, &i, step);
         sliding(findings, &i, (problem, step));
@@ -181,69 +178,6 @@ fn idle(problem: &Problem, step: &Step) -> bool {
         && count(&step.interfaces, &problem.interface) == 0
         && count(&step.couplings, &problem.coupling) == 0
         && problem.pretension.is_empty()
-}
-
-/// What may not change over cycles, from `span[0]` to `span[1]` in amplitude tables.
-fn cycles(findings: &mut Findings, key: &[&str], problem: &Problem, span: [f64; 2]) {
-    let [start, end] = span;
-    let step = key.get(1).and_then(|i| i.parse::<usize>().ok());
-    let Some(step) = step.and_then(|i| problem.step.get(i)) else {
-        return;
-    };
-    let Some(cycles) = step.cycles else {
-        return;
-    };
-    let mut add = |message: String, help: &str| findings.add(key, message, help);
-    if step.dynamic.is_some() {
-        let message = "cycles are gone through at rest, and the step is dynamic";
-        add(message.into(), "remove `dynamic`, or `cycles`");
-    }
-    if cycles.count == 0 || cycles.jump == 0 || cycles.jump > cycles.count {
-        let message = format!(
-            "{} cycles by {} at a time: both must be positive, and the second not larger",
-            cycles.count, cycles.jump
-        );
-        add(message, "");
-    }
-    for (name, amplitude) in &problem.amplitude {
-        let Ok(table) = crate::system::Amplitude::new(amplitude.table.clone()) else {
-            continue;
-        };
-        let (first, last) = (table.at(start), table.at(end));
-        let rows = amplitude.table.iter().map(|r| r[1].abs());
-        if (first - last).abs() > 1e-12 * rows.fold(0.0, f64::max) {
-            add(
-                format!(
-                    "amplitude.{name} is {first} at the start of a cycle and {last} at its end, and the next one begins as this one did"
-                ),
-                "let its rows end as they begin, between the start and one duration later",
-            );
-        }
-    }
-    let moves = |rows: &[Vec<f64>]| rows.iter().any(|r| r.first().is_some_and(|&t| t > start));
-    for (name, obstacle) in &problem.obstacle {
-        let Some(motion) = &obstacle.motion else {
-            continue;
-        };
-        let turns = motion.rotation.iter().flat_map(|r| &r.angle);
-        if moves(&motion.translation) || turns.into_iter().any(|a| a[0] > start) {
-            add(
-                format!("obstacle.{name} moves by a table that knows nothing of cycles"),
-                "move the body against it, by a support with an amplitude",
-            );
-        }
-    }
-    for (name, interface) in &problem.interface {
-        let rows = interface.primary_velocity_table.as_deref();
-        if rows.is_some_and(moves) {
-            add(
-                format!(
-                    "the velocity of interface.{name} is from a table that knows nothing of cycles"
-                ),
-                "move the body by a support with an amplitude",
-            );
-        }
-    }
 }
 
 fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {

@@ -102,6 +102,7 @@ impl Observer for Record {
                 self.current.clear();
             }
             Event::Accepted(_)
+            | Event::Cycle(_)
             | Event::Note(_)
             | Event::Finding(_)
             | Event::Output

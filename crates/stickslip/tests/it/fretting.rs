@@ -1,0 +1,370 @@
+//! Thousands of cycles by a few that are computed: jumps that are chosen by their error, cycles that repeat, and what each of them took.
+
+use std::path::Path;
+
+use crate::restart;
+use crate::support::{self, Row};
+use stickslip::Error;
+use stickslip::results::{Analysis, Event, Observer};
+use stickslip::run::Simulation;
+
+/// The rows of cycles.
+#[derive(Default)]
+struct Cycles(Vec<Row>);
+
+impl Observer for Cycles {
+    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
+        if let Event::Cycle(row) = event {
+            self.0.push(row.clone());
+        }
+        Ok(())
+    }
+}
+
+impl Cycles {
+    fn of(simulation: &mut Simulation) -> Self {
+        let mut cycles = Cycles::default();
+        simulation
+            .run(&mut [&mut cycles])
+            .unwrap_or_else(|e| panic!("{e}"));
+        cycles
+    }
+
+    fn column(&self, name: &str) -> Vec<f64> {
+        let value = |row: &Row| row.get(name).unwrap_or_else(|| panic!("no column {name}"));
+        self.0.iter().map(value).collect()
+    }
+
+    fn last(&self, name: &str) -> f64 {
+        *self.column(name).last().expect("a cycle")
+    }
+}
+
+/// Stiffness of the bed, mean pressure, and the part of it that varies at the start.
+const BED: f64 = 1e-6;
+const MEAN: f64 = 1e-9;
+const VARIES: f64 = 0.8;
+/// How many times the wave of the pressure falls by `e` over all cycles.
+const DECADES: f64 = 3.0;
+const CYCLES: usize = 1000;
+/// Way of the flat in a cycle.
+const WAY: f64 = 0.4;
+
+/// A flat that goes to and fro on a layer under a constant load, without friction. The contact is a bed of springs so soft that both are rigid on it (a Winkler bed), and the surface of the
+/// layer is a wave, as a gap alone.
+fn bed(jump: &str, more: &str) -> Simulation {
+    let k = DECADES / (BED * WAY * CYCLES as f64);
+    let text = format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.layer = {{ generate.rectangle = {{ to = [1, 0.25], cells = [16, 1] }}, material = "soft" }}
+body.flat = {{ generate.rectangle = {{ from = [-0.5, 0.25], to = [1.5, 0.5], cells = [8, 1] }}, material = "soft" }}
+material.soft.isotropic = {{ young = 1.0, poisson = 0.3 }}
+support.ground = {{ set = "layer.bottom", x = 0.0, y = 0.0 }}
+reference.holder.point = [0.5, 0.5]
+coupling.holder.kinematic = {{ reference = "holder", set = "flat.top" }}
+support.drive = {{ set = "holder", x = 0.1, amplitude = "triangle" }}
+support.turn = {{ set = "holder", rotation-z = 0.0 }}
+load.press = {{ set = "holder", nodal-force = {{ value = [0, -{MEAN:?}] }} }}
+amplitude.triangle.table = [[1, 0], [1.25, 1], [1.75, -1], [2, 0]]
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "fret", cycles = {{ count = {CYCLES}, jump = {jump} }}, increments = {{ fixed = 4 }} }}]
+interface.joint = {{ secondary = "layer.top", primary = "flat.bottom", roles = "as-named", normal.linear = {{ c = {BED} }}, wear.archard = {{ coefficient = {k} }} }}
+{more}
+"#
+    );
+    let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let interface = &mut simulation.contact.interfaces[0];
+    let primary = interface.primary_nodes;
+    for x in &mut interface.reference[primary..] {
+        x[1] += VARIES * MEAN / BED * wave(x[0]);
+    }
+    simulation
+}
+
+fn wave(x: f64) -> f64 {
+    (std::f64::consts::TAU * x).cos()
+}
+
+/// The part of the pressure along the wave, over its mean.
+fn part(simulation: &Simulation) -> f64 {
+    let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
+    let mut sums = [0.0; 2];
+    let rows = column("x")
+        .iter()
+        .zip(column("CPRESS"))
+        .zip(column("CNORMF"));
+    for ((x, p), force) in rows {
+        sums[0] += force * wave(*x);
+        sums[1] += force / p * wave(*x).powi(2);
+    }
+    sums[0] / sums[1] / MEAN
+}
+
+#[test]
+fn jumps_keep_to_the_error_that_is_asked_for() {
+    let mut found = Vec::new();
+    for error in [0.1, 0.02] {
+        let mut simulation = bed(&format!("{{ error = {error} }}"), "");
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(simulation.summary.last["CYCLES"], CYCLES as f64);
+        assert_eq!(simulation.summary.last["TIME"], 1.0 + CYCLES as f64);
+        let blocks = (simulation.summary.increments - 1) / 4;
+        // p = p̄ + p₁ exp(-K k s), and what is worn off differs by the difference of pressures over K.
+        let off = (part(&simulation) - VARIES * (-DECADES).exp()).abs();
+        let depth = off * 2.0 / std::f64::consts::PI / DECADES;
+        assert!(depth < error, "{error}: {depth}");
+        assert!(blocks < CYCLES / 10, "{blocks}");
+        let volume = simulation.summary.last["joint.CWEARVOL"];
+        let exact = DECADES * MEAN / BED;
+        assert!((volume / exact - 1.0).abs() < 1e-3, "{volume} {exact}");
+        found.push((depth, blocks));
+    }
+    assert!(found[1].0 < 0.5 * found[0].0, "{found:?}");
+}
+
+/// A punch that goes to and fro on a layer, with friction: both surfaces wear, the corners first.
+fn punch(method: &str, cycles: &str) -> String {
+    format!(
+        r#"format = 1
+model.space = "plane-strain"
+solver.method = "{method}"
+body.layer = {{ generate.rectangle = {{ from = [-1, 0], to = [2, 1], cells = [24, 4] }}, material = "soft" }}
+body.punch = {{ generate.rectangle = {{ from = [0, 1], to = [1, 1.5], cells = [10, 3] }}, material = "soft" }}
+material.soft.isotropic = {{ young = 1.0, poisson = 0.3 }}
+support.ground = {{ set = "layer.bottom", x = 0.0, y = 0.0 }}
+support.drive = {{ set = "punch.top", x = 0.02, amplitude = "triangle" }}
+load.press = {{ set = "punch.top", pressure.value = 1e-3 }}
+amplitude.triangle.table = [[1, 0], [1.25, 1], [1.75, -1], [2, 0], [2.5, 0], [3, 1]]
+step = [{{ name = "press", increments = {{ fixed = 1 }} }}, {{ name = "fret", cycles = {{ {cycles} }}, increments = {{ fixed = 4 }} }}, {{ name = "on", increments = {{ fixed = 2 }} }}]
+quality.gate = "off"
+[interface.joint]
+secondary = "punch.bottom"
+primary = "layer.top"
+roles = "as-named"
+friction.coulomb = {{ mu = 0.3 }}
+wear.archard = {{ coefficient = 0.05, primary-coefficient = 0.02 }}
+"#
+    )
+}
+
+#[test]
+fn blocks_that_are_taken_back_leave_no_trace_and_a_run_goes_on_with_the_same_bits() {
+    for method in ["condensed", "sparse"] {
+        // The first jumps are far too long.
+        let cycles = "count = 200, jump = { error = 0.005, first = 40 }";
+        let problem = support::problem(&punch(method, cycles));
+        let mut record = support::Record::default();
+        let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+        simulation
+            .run(&mut [&mut record])
+            .unwrap_or_else(|e| panic!("{e}"));
+        assert!(simulation.summary.cycles_taken_back > 0);
+        let column = |name: &str| -> Vec<f64> {
+            let rows = record.increments.iter();
+            rows.map(|(_, row)| row.get(name).expect("a column"))
+                .collect()
+        };
+        let (cycles, times) = (column("CYCLES"), column("TIME"));
+        assert!(
+            cycles.windows(2).all(|w| w[0] < w[1] || w[1] == 200.0),
+            "{cycles:?}"
+        );
+        assert!(times.windows(2).all(|w| w[0] < w[1]), "{times:?}");
+        assert_eq!(simulation.summary.increments, record.increments.len());
+        restart::check(method, &problem, Path::new("."), 6);
+        restart::check_stopped(method, &problem, &[15, 40, 90]);
+    }
+}
+
+/// Load and friction of the cylinder, half of the friction that it can take as tangential force, radius and moduli; N, mm.
+const LOAD: f64 = 120.0;
+const MU: f64 = 0.6;
+const FORCE: f64 = 36.0;
+const RADIUS: f64 = 6.0;
+const YOUNG: f64 = 2e5;
+const POISSON: f64 = 0.3;
+
+/// Plane modulus of both bodies together, and half width of the contact.
+fn hertz() -> (f64, f64) {
+    let modulus = 0.5 * YOUNG / (1.0 - POISSON * POISSON);
+    (
+        modulus,
+        (4.0 * LOAD * RADIUS / (std::f64::consts::PI * modulus)).sqrt(),
+    )
+}
+
+/// Places from `-half` to `half` a distance `fine` apart, then by 1.3 farther each to `-far` and `far`.
+fn graded(half: f64, fine: f64, far: f64) -> Vec<f64> {
+    let inner = (half / fine).round() as i32;
+    let mut side = Vec::new();
+    let (mut x, mut step) = (half, fine);
+    while x + 1.3 * step < far {
+        step *= 1.3;
+        x += step;
+        side.push(x);
+    }
+    side.pop();
+    side.push(far);
+    let mut all: Vec<f64> = side.iter().rev().map(|x| -x).collect();
+    all.extend((-inner..=inner).map(|i| f64::from(i) * fine));
+    all.extend(side);
+    all
+}
+
+/// A cylinder that is pressed on a flat by a constant force and pushed to and fro by another, with cells of `size` where they touch.
+fn cylinder(size: f64, cycles: &str, increments: usize, wear: &str) -> Simulation {
+    let x = graded(0.15, size, 6.0);
+    let depth = graded(0.04, size, 6.0);
+    let y: Vec<f64> = depth.iter().copied().filter(|y| *y <= 1e-12).collect();
+    let text = format!(
+        r#"format = 1
+model.space = "plane-strain"
+body.flat = {{ generate.rectangle = {{ x = {x:?}, y = {y:?} }}, material = "steel" }}
+body.cylinder = {{ generate.half-disc = {{ centre = [0, {RADIUS}], radius = {RADIUS}, direction = [0, -1], size = 1.0, refine = {{ finest = {size}, width = 0.15, growth = 1.3 }} }}, material = "steel" }}
+material.steel.isotropic = {{ young = {YOUNG}, poisson = {POISSON} }}
+interface.contact = {{ secondary = "flat.top", primary = "cylinder.arc", roles = "as-named", friction.coulomb = {{ mu = {MU} }}{wear} }}
+support.ground = {{ set = "flat.bottom", x = 0.0, y = 0.0 }}
+reference.holder.point = [0, {RADIUS}]
+coupling.holder.kinematic = {{ reference = "holder", set = "cylinder.flat" }}
+support.turn = {{ set = "holder", rotation-z = 0.0 }}
+support.touch = {{ set = "holder", x = 0.0, y = -0.001 }}
+load.press = {{ set = "holder", nodal-force = {{ value = [0, -{LOAD}] }} }}
+load.push = {{ set = "holder", nodal-force = {{ value = [{FORCE}, 0] }}, amplitude = "triangle" }}
+amplitude.triangle.table = [[2, 0], [2.25, 1], [2.75, -1], [3, 0]]
+step = [{{ name = "touch", loads = [], increments = {{ fixed = 1 }} }}, {{ name = "press", supports = ["ground", "turn"], increments = {{ fixed = 2 }} }}, {{ name = "fret", supports = ["ground", "turn"], cycles = {{ {cycles} }}, increments = {{ fixed = {increments} }} }}]
+"#
+    );
+    support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Energy that a cycle between `±Q` dissipates under a constant load `P`, of similar half-planes: by the principle of Ciavarella and Jäger tangential displacements are `μ (d(P) - d(P - Q/μ))`, and
+/// where normal ones have the part `-P ln P / (π E*)` beside a linear one. What a loop encloses that follows from this by Masing's rule is, with `r = 1 - Q / μP`, `μ² P² / (π E*) (2 (1 - r²) + 4 r ln r)`.
+fn mindlin() -> f64 {
+    let r = 1.0 - FORCE / (MU * LOAD);
+    let (modulus, _) = hertz();
+    (MU * LOAD).powi(2) / (std::f64::consts::PI * modulus)
+        * (2.0 * (1.0 - r * r) + 4.0 * r * r.ln())
+}
+
+#[test]
+fn a_thousand_cycles_that_repeat_cost_a_few() {
+    let mut some = cylinder(0.005, "count = 1000, jump = { error = 1e-3 }", 16, "");
+    let cycles = Cycles::of(&mut some);
+    let computed = cycles.0.len();
+    assert!(computed <= 6, "{computed}");
+    assert_eq!(cycles.last("CYCLES"), 1000.0);
+    let notes = &some.summary.notes;
+    assert!(
+        notes
+            .iter()
+            .any(|n| n.contains("stays the same from cycle")),
+        "{notes:?}"
+    );
+    let mut all = cylinder(0.005, "count = 4", 16, "");
+    let exact = Cycles::of(&mut all).last("contact.ED");
+    let energy = cycles.last("contact.ED");
+    assert!((energy / exact - 1.0).abs() < 1e-5, "{energy} {exact}");
+    assert!(
+        (energy / mindlin() - 1.0).abs() < 0.01,
+        "{energy} {}",
+        mindlin()
+    );
+    let sum = cycles.last("contact.EDSUM");
+    assert!((sum / (1000.0 * energy) - 1.0).abs() < 1e-3, "{sum}");
+    assert!((cycles.last("contact.FT") / FORCE - 1.0).abs() < 5e-3);
+    assert!((cycles.last("contact.FN") / LOAD - 1.0).abs() < 1e-3);
+    assert_eq!(cycles.last("contact.CONDITION"), 1.0);
+}
+
+#[test]
+fn a_loop_of_gross_slip_is_a_box() {
+    let text = punch("condensed", "count = 3")
+        .replace("x = 0.02", "x = 0.2")
+        .replace("0.05, primary-coefficient = 0.02", "1e-6");
+    let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let cycles = Cycles::of(&mut simulation);
+    assert_eq!(cycles.column("CYCLES"), [1.0, 2.0, 3.0]);
+    assert_eq!(cycles.column("STANDS"), [1.0; 3]);
+    assert_eq!(cycles.last("joint.CONDITION"), 2.0);
+    let ratio = cycles.last("joint.RATIO");
+    assert!((0.8..1.0).contains(&ratio), "{ratio}");
+    // Friction times the load; twice the stroke to and fro.
+    let force = cycles.last("joint.FT");
+    assert!((force / 3e-4 - 1.0).abs() < 1e-3, "{force}");
+    let dissipated: f64 = cycles.column("joint.ED").iter().sum();
+    let ledger = simulation.summary.last["joint.ALLFD"];
+    let after = cycles.last("joint.EDSUM");
+    assert!(
+        (dissipated / after - 1.0).abs() < 1e-12 && after < ledger,
+        "{dissipated} {after} {ledger}"
+    );
+}
+
+/// The pressure in the middle of a contact that sticks within `c`, and the force that it carries within `x`.
+fn limiting(c: f64, x: f64) -> [f64; 2] {
+    let (modulus, _) = hertz();
+    let pi = std::f64::consts::PI;
+    let angle = (x / c).asin();
+    let own = pi * modulus * c * c / (4.0 * RADIUS);
+    let parabola = modulus / (2.0 * RADIUS) * (x * (c * c - x * x).sqrt() + c * c * angle);
+    [
+        modulus * c / (2.0 * RADIUS) + (LOAD - own) / (pi * c),
+        parabola + (LOAD - own) * 2.0 / pi * angle,
+    ]
+}
+
+/// What a flat and a cylinder that wear in partial slip come to: nothing presses any more where they slid, and what sticks carries all, `|x| < c` with `c² = a² (1 - Q / μP)`, by
+/// `p = E* / 2R √(c² - x²) + (P - π E* c² / 4R) / (π √(c² - x²))` (Ciavarella and Hills 1999; in three dimensions Popov 2014).
+#[test]
+fn partial_slip_wears_until_only_what_sticks_carries() {
+    let (_, a) = hertz();
+    let exact = a * (1.0 - FORCE / (MU * LOAD)).sqrt();
+    for size in [0.0125, 0.00625] {
+        let wear = ", wear.archard = { coefficient = 4e-6, primary-coefficient = 4e-6 }";
+        let jumps = "count = 5000, jump = { error = 0.3, first = 2 }";
+        let mut simulation = cylinder(size, jumps, 4, wear);
+        let cycles = Cycles::of(&mut simulation);
+        let energy = cycles.column("contact.ED");
+        assert!(
+            energy[energy.len() - 1] < 1e-2 * energy[0],
+            "{size}: {energy:?}"
+        );
+        let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+        let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
+        let (x, pressure, force) = (column("x"), column("CPRESS"), column("CNORMF"));
+        let pressed = x.iter().zip(pressure).filter(|(_, p)| **p > 0.0);
+        let edge = pressed.fold(0.0, |edge: f64, (x, _)| edge.max(x.abs()));
+        let middle = pressure.iter().zip(x).find(|(_, x)| x.abs() < 1e-9);
+        let middle = *middle.expect("a node").0;
+        // Where the edge is, of a pressure that falls with it, lies between the last node that presses and the next, and within a cell or so of where it would be.
+        let (mut low, mut high) = (0.5 * exact, 1.5 * exact);
+        for _ in 0..60 {
+            let c = 0.5 * (low + high);
+            match limiting(c, 0.0)[0] > middle {
+                true => low = c,
+                false => high = c,
+            }
+        }
+        let found = 0.5 * (low + high);
+        assert!(
+            edge < found && found < edge + size,
+            "{size}: {found} {edge}"
+        );
+        assert!(
+            (found - exact).abs() < 1.2 * size,
+            "{size}: {found} {exact}"
+        );
+        for part in [0.25, 0.5, 0.75] {
+            let place = part * exact;
+            // A node stands for half a cell to each side.
+            let share = |x: f64| ((place - x.abs()) / size + 0.5).clamp(0.0, 1.0);
+            let within: f64 = x.iter().zip(force).map(|(x, f)| f * share(*x)).sum();
+            let expected = limiting(found, place)[1];
+            assert!(
+                (within / expected - 1.0).abs() < 0.01,
+                "{size}, {part}: {within} {expected}"
+            );
+        }
+    }
+}
