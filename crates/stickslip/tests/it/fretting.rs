@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::restart;
 use crate::support::{self, Row};
 use stickslip::Error;
+use stickslip::assess::doctor::DoctorCause;
 use stickslip::results::{Analysis, Event, Observer};
 use stickslip::run::Simulation;
 
@@ -367,4 +368,35 @@ fn partial_slip_wears_until_only_what_sticks_carries() {
             );
         }
     }
+}
+
+fn findings(simulation: &Simulation, cause: DoctorCause) -> Vec<String> {
+    let all = simulation.summary.findings.iter();
+    let found = all.filter(|f| f.cause == cause);
+    found.map(|f| f.message.clone()).collect()
+}
+
+#[test]
+fn scars_beyond_first_order_and_the_limit_of_explicit_wear_are_told() {
+    let run = |coefficients: &str| {
+        let text = punch("condensed", "count = 4")
+            .replace("0.05, primary-coefficient = 0.02", coefficients);
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        simulation
+    };
+    let small = run("0.05, primary-coefficient = 0.02 }\nwear-feedback = \"explicit\" # {");
+    assert_eq!(findings(&small, DoctorCause::DeepWear), [""; 0]);
+    // Facets of 0.1, and two bodies with E / (1 - ν²) = 1 / 0.91.
+    let limit = 4.0 * 0.1 / (std::f64::consts::PI * 0.07 * 0.5 / 0.91);
+    let told = findings(&small, DoctorCause::ExplicitWear);
+    assert!(
+        told[0].contains(&format!("{limit:.3e}")),
+        "{limit} {told:?}"
+    );
+    let large = run("200.0, primary-coefficient = 200.0");
+    let told = findings(&large, DoctorCause::DeepWear);
+    assert!(told[0].contains("slope"), "{told:?}");
+    assert_eq!(findings(&large, DoctorCause::ExplicitWear), [""; 0]);
 }

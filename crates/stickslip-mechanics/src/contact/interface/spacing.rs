@@ -54,7 +54,7 @@ impl Interface {
 }
 
 /// Distance of the nodes of a facet, from its measure: that of a square, or half of one, with nodes at its corners.
-fn spacing(facet: &Facet, x: &[Vec3]) -> f64 {
+pub(super) fn spacing(facet: &Facet, x: &[Vec3]) -> f64 {
     let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| x[n]).collect();
     let [s, t, _] = facet.kind.centre();
     let p = evaluate(facet.kind, &nodes, [s, t]);

@@ -129,6 +129,10 @@ causes! {
     LetGo = "let-go",
     /// A table of the problem file that nothing uses.
     Unused = "unused",
+    /// What is worn off is no small change of the surface.
+    DeepWear = "deep-wear",
+    /// Wear is explicit, and stable in short increments only.
+    ExplicitWear = "explicit-wear",
 }
 
 impl DoctorCause {

@@ -199,6 +199,7 @@ impl Finding {
             Cause::CoarseFacets,
             Cause::MeshMismatch,
             Cause::TurnedNormals,
+            Cause::DeepWear,
             Cause::Locking,
         ];
         // An increment that was cut is of a step.

@@ -42,6 +42,10 @@ const LARGER: f64 = 1e-9;
 /// Turn of normals worth a word: shear over pressure is off by as much.
 const TURNED: f64 = 0.02;
 
+/// Slope of a scar, and its depth over the radius of the surface, from which it is no small change of the surface.
+const STEEP: f64 = 0.1;
+const DEEP: f64 = 1e-2;
+
 /// Part of the force that has to be carried where contact is three points across.
 const RESOLVED: f64 = 0.5;
 
@@ -87,9 +91,17 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
         .filter(|(_, watch)| watch.acted)
         .flat_map(|(interface, watch)| match watch.force > nothing {
             // One half of a pair may be idle where the other one carries.
-            false if interface.share < 1.0 => [None, None],
-            false => [Some(never_carried(interface, view.model.moves())), None],
-            true => [coarse(interface, watch), turned(interface, watch)],
+            false if interface.share < 1.0 => [None, None, None],
+            false => [
+                Some(never_carried(interface, view.model.moves())),
+                None,
+                None,
+            ],
+            true => [
+                coarse(interface, watch),
+                turned(interface, watch),
+                deep(interface),
+            ],
         })
         .flatten()
         .collect()
@@ -117,6 +129,37 @@ fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
         finding
             .blame(Guilty::interface(name, "kinematics.small-sliding"))
             .advise(format!("leave out `interface.{name}.kinematics.small-sliding`: the default follows the surfaces")),
+    )
+}
+
+fn deep(interface: &Interface) -> Option<Finding> {
+    let scar = interface.scar()?;
+    let mut said = Vec::new();
+    if scar.slope > STEEP {
+        said.push(format!("has a slope of up to {:.2}", scar.slope));
+    }
+    if scar.curved > DEEP {
+        said.push(format!(
+            "is up to {:.3} of the radius of the surface deep",
+            scar.curved
+        ));
+    }
+    if said.is_empty() {
+        return None;
+    }
+    let name = &interface.name;
+    let finding = Finding::new(
+        DoctorCause::DeepWear,
+        Severity::Warning,
+        format!(
+            "interface {name}: what is worn off {}. It is added to gaps, and normals and surfaces stay as they were: that holds to first order",
+            said.join(" and ")
+        ),
+    );
+    Some(
+        finding
+            .blame(Guilty::interface(name, "worn beyond first order"))
+            .advise("end the run here, mesh the bodies as they are worn, and go on from there"),
     )
 }
 

@@ -21,6 +21,7 @@ mod surfaces;
 mod units;
 mod unmoved;
 mod unused;
+mod wear;
 
 pub(super) use meshes::disconnected;
 
@@ -63,6 +64,7 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
             }
         }
         out.extend(friction::check(view, interface, measured));
+        out.extend(wear::check(view, interface));
     }
     out.extend(conditions::check(view, &measured));
     out.extend(schedules::check(view));
