@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::linear::{Linear, Pair, add_pairs};
 use super::outcome::{Export, ModalOutcome, Mode};
-use super::quadratic::{Eigen, residual, solve};
+use super::quadratic::{Eigen, residuals, solve};
 use super::shifted::{Root, Shifted};
 use super::{map, sensitivity};
 use crate::error::RunError;
@@ -15,7 +15,7 @@ use crate::model::frame::Frame;
 use crate::model::modal::ComplexPlan;
 
 /// Residual of the equations of motion above which a note says so.
-const DOUBTFUL: f64 = 1e-6;
+const DOUBTFUL: f64 = 1e-4;
 
 /// The modes that a step asks for.
 pub(crate) fn modes(
@@ -38,8 +38,12 @@ pub(crate) fn modes(
         notes: notes(linear),
         ..ModalOutcome::default()
     };
-    for eigen in &found {
-        let mut mode = mode(linear, eigen);
+    let (open, _) = residuals(&shifted, &found, 1.0, &mut solves);
+    for (eigen, residual) in found.iter().zip(open) {
+        let mut mode = Mode {
+            residual,
+            ..mode(linear, eigen)
+        };
         mode.shape.iter_mut().for_each(|x| model.links.impose(x));
         out.modes.push(mode);
     }
@@ -103,7 +107,6 @@ fn mode(linear: &Linear, eigen: &Eigen) -> Mode {
         frequency: omega / TAU,
         growth,
         damping_ratio: if size > 0.0 { -growth / size } else { 0.0 },
-        residual: residual(linear, eigen, 1.0).1,
         feed: feed(linear, &shape, omega),
         shape,
         ..Mode::default()

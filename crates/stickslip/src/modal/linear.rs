@@ -32,6 +32,16 @@ pub(crate) struct Pair {
     pub interface: usize,
 }
 
+impl Pair {
+    /// Left and right; the other way round in the transposed problem.
+    pub fn sides(&self, transposed: bool) -> (&Sparse, &Sparse) {
+        match transposed {
+            true => (&self.right, &self.left),
+            false => (&self.left, &self.right),
+        }
+    }
+}
+
 /// Matrices of small motions: `M ẍ + (C + f Σ drag) ẋ + (K + f Σ friction) x = 0` with the friction `f` relative to that of the state.
 pub(crate) struct Linear {
     /// Bodies, springs, couplings and closed contacts, symmetric.

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::linear::{Pair, add_pairs, product};
 use super::outcome::{FrictionMap, MapRow};
-use super::quadratic::{Eigen, UNSTABLE, residual};
+use super::quadratic::{Eigen, UNSTABLE, by_frequency, residuals};
 use super::real::lowest;
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, DenseLu, eigenvalues, general};
@@ -18,11 +18,11 @@ use crate::model::modal::MapPlan;
 /// Rounds in which what modes leave open is added, at most.
 const ROUNDS: usize = 5;
 
-/// Columns that are solved for together.
-const COLUMNS: usize = 32;
+/// Residual of modes in the equations of all dofs that is good enough: eigenvalues are better by about its size again.
+const GOOD: f64 = 1e-5;
 
-/// Residual of modes in the equations of all dofs that is good enough.
-const GOOD: f64 = 1e-6;
+/// The residual of unstable modes above which a note says so.
+const DOUBTFUL: f64 = 1e-4;
 
 /// Part of a vector that has to be left after orthogonalisation.
 const DEPENDENT: f64 = 1e-9;
@@ -68,7 +68,12 @@ pub(crate) fn friction(
     let largest = plan.range[1].abs().max(plan.range[0].abs());
     for _ in 0..ROUNDS {
         let modes = reduced.modes(largest, (count, to), true);
-        let rests = rests(shifted, &modes, largest, solves);
+        let (open, solved) = residuals(shifted, &modes, largest, solves);
+        let worse = |k: &usize| open[k / 2] > GOOD;
+        let rests: Vec<Vec<f64>> = (0..solved.len())
+            .filter(worse)
+            .map(|k| solved[k].clone())
+            .collect();
         if rests.is_empty() {
             break;
         }
@@ -85,19 +90,20 @@ pub(crate) fn friction(
     let [from, last] = plan.range;
     let step = (last - from) / (plan.points.max(2) - 1) as f64;
     for k in 0..plan.points.max(2) {
-        let factor = if k + 1 == plan.points {
-            last
-        } else {
-            from + step * k as f64
+        let factor = match k + 1 == plan.points {
+            true => last,
+            false => from + step * k as f64,
         };
         let modes = reduced.modes(factor, (count, to), true);
-        for (value, eigen) in &modes {
-            if value[0] > UNSTABLE * value[0].hypot(value[1]) {
-                map.residual = map.residual.max(residual(linear, eigen, factor).1);
-            }
-        }
-        let modes = modes.iter().map(|(v, _)| [v[1] / TAU, v[0]]).collect();
-        map.rows.push(MapRow { factor, modes });
+        let row = modes
+            .iter()
+            .map(|e| [e.value[1] / TAU, e.value[0]])
+            .collect();
+        let grows = |e: &Eigen| e.value[0] > UNSTABLE * e.value[0].hypot(e.value[1]);
+        let unstable: Vec<Eigen> = modes.into_iter().filter(grows).collect();
+        let (open, _) = residuals(shifted, &unstable, factor, solves);
+        map.residual = open.into_iter().fold(map.residual, f64::max);
+        map.rows.push(MapRow { factor, modes: row });
     }
     map.critical = reduced.critical(&map.rows, (count, to));
     if linear.damping.is_some() && !map.critical.is_empty() {
@@ -129,7 +135,7 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
             "damping makes it unstable earlier: without it the factor is {undamped:.6}. Where two modes couple, unequal damping of them does that"
         ));
     }
-    if map.residual > GOOD {
+    if map.residual > DOUBTFUL {
         notes.push(format!(
             "unstable modes of the map leave the equations of all dofs open by {:.1e}: ask for more modes",
             map.residual
@@ -151,53 +157,13 @@ fn images(shifted: &Shifted, block: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<
             }
         }
     }
-    solved(shifted, &columns, solves)
-}
-
-/// Displacements at rest under what modes leave open in the equations of all dofs, of those that leave too much.
-fn rests(
-    shifted: &Shifted,
-    modes: &[(Complex, Eigen)],
-    factor: f64,
-    solves: &mut usize,
-) -> Vec<Vec<f64>> {
-    let linear = shifted.linear;
-    let mut columns = Vec::new();
-    for (_, eigen) in modes {
-        let (rest, open) = residual(linear, eigen, factor);
-        if open > GOOD {
-            columns.extend(rest);
-        }
-    }
-    solved(shifted, &columns, solves)
-}
-
-fn solved(shifted: &Shifted, columns: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<f64>> {
-    let n = shifted.linear.size();
     *solves += columns.len();
-    let mut out = Vec::new();
-    for chunk in columns.chunks(COLUMNS) {
-        let mut all = chunk.concat();
-        shifted.factor.solve_columns(&mut all, chunk.len());
-        out.extend(all.chunks_exact(n).map(<[f64]>::to_vec));
-    }
-    out
+    shifted.solved(&columns)
 }
 
 /// Adds vectors to a basis; returns those parts of them that are new.
 fn extend(shifted: &Shifted, basis: &mut Vec<Vec<f64>>, more: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let linear = shifted.linear;
-    let product = |x: &[f64]| -> Vec<f64> {
-        let mut out = linear.times(&linear.stiffness, x);
-        if shifted.sigma > 0.0 {
-            let mass = linear.times(&linear.mass, x);
-            let damped = linear.damped(x);
-            for ((o, m), c) in out.iter_mut().zip(mass).zip(damped) {
-                *o += shifted.shift() * m + shifted.sigma * c;
-            }
-        }
-        out
-    };
+    let product = |x: &[f64]| shifted.times(x);
     let images: Vec<Vec<f64>> = basis.iter().map(|x| product(x)).collect();
     let mut pairs: Vec<(Vec<f64>, Vec<f64>)> =
         std::mem::take(basis).into_iter().zip(images).collect();
@@ -211,7 +177,7 @@ fn extend(shifted: &Shifted, basis: &mut Vec<Vec<f64>>, more: Vec<Vec<f64>>) -> 
             }
         }
         let left = dot(&x, &product(&x)).max(0.0).sqrt();
-        if left > DEPENDENT * before && pairs.len() < linear.free() {
+        if left > DEPENDENT * before && pairs.len() < shifted.linear.free() {
             x.iter_mut().for_each(|v| *v /= left);
             let image = product(&x);
             pairs.push((x, image));
@@ -268,29 +234,28 @@ impl Reduced {
         let p: Vec<f64> = (0..r * r)
             .map(|k| sum(k, [1.0, s, s * s, factor, s * factor]))
             .collect();
-        let lu = DenseLu::new(r, &p);
         let n = 2 * r;
-        let mut out = vec![0.0; n * n];
-        for j in 0..n {
-            let (column, velocity) = (j % r, j >= r);
-            let mut b: Vec<f64> = (0..r)
-                .map(|i| match velocity {
-                    true => -self.pace * self.mass[i * r + column],
-                    false => -sum(i * r + column, [0.0, 1.0, s, 0.0, factor]),
-                })
-                .collect();
-            lu.solve(&mut b);
-            for (i, w) in b.iter().enumerate() {
-                let own = if !velocity && i == column { 1.0 } else { 0.0 };
-                out[i * n + j] = *w;
-                out[(r + i) * n + j] = (own + s * w) / self.pace;
+        let images = (0..n * r).map(|k| {
+            let (i, column) = (k % r, k / r % r);
+            match k >= r * r {
+                true => -self.pace * self.mass[i * r + column],
+                false => -sum(i * r + column, [0.0, 1.0, s, 0.0, factor]),
             }
+        });
+        let mut w: Vec<f64> = images.collect();
+        DenseLu::new(r, &p).solve(&mut w);
+        let mut out = vec![0.0; n * n];
+        for (k, w) in w.into_iter().enumerate() {
+            let (i, j) = (k % r, k / r);
+            let own = if i == j { 1.0 } else { 0.0 };
+            out[i * n + j] = w;
+            out[(r + i) * n + j] = (own + s * w) / self.pace;
         }
         out
     }
 
     /// Modes of least size, by frequency; with their displacements where `shapes` are wanted.
-    fn modes(&self, factor: f64, (count, to): (usize, f64), shapes: bool) -> Vec<(Complex, Eigen)> {
+    fn modes(&self, factor: f64, (count, to): (usize, f64), shapes: bool) -> Vec<Eigen> {
         let n = 2 * self.basis.len();
         let companion = self.companion(factor);
         let found = match shapes {
@@ -313,7 +278,7 @@ impl Reduced {
             .collect();
         all.sort_by(|a, b| size(&b.0).total_cmp(&size(&a.0)));
         all.truncate(count);
-        let mut out: Vec<(Complex, Eigen)> = all
+        let mut out: Vec<Eigen> = all
             .into_iter()
             .map(|(z, y)| {
                 let square = z[0] * z[0] + z[1] * z[1];
@@ -326,11 +291,11 @@ impl Reduced {
                     x
                 };
                 let vector = [part(0, 1.0), part(1, -1.0)];
-                (value, Eigen { value, vector })
+                Eigen { value, vector }
             })
-            .filter(|(v, _)| v[1] <= TAU * to)
+            .filter(|e| e.value[1] <= TAU * to)
             .collect();
-        out.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]).then(a.0[0].total_cmp(&b.0[0])));
+        by_frequency(&mut out);
         out
     }
 
@@ -338,7 +303,7 @@ impl Reduced {
     fn fastest(&self, factor: f64, asked: (usize, f64)) -> Complex {
         let modes = self.modes(factor, asked, false);
         let rate = |v: &Complex| v[0] / v[0].hypot(v[1]).max(f64::MIN_POSITIVE);
-        let values = modes.into_iter().map(|(v, _)| v);
+        let values = modes.into_iter().map(|e| e.value);
         let fastest = values.max_by(|a, b| rate(a).total_cmp(&rate(b)));
         fastest.unwrap_or_default()
     }

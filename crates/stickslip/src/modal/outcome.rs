@@ -62,7 +62,7 @@ pub struct Mode {
     pub growth: f64,
     /// Damping relative to the critical one: less than zero where it grows.
     pub damping_ratio: f64,
-    /// What is left of the equations of motion, relative to the forces in them.
+    /// What is left of the equations of motion, relative to what is in the mode: the root of the energies that either would store.
     pub residual: f64,
     /// By direction: `φᵀ M r` of the mode with `φᵀ M φ = 1`. Of real modes alone.
     pub participation: Vec<f64>,
@@ -130,3 +130,46 @@ pub struct Export {
     /// Row, column, value.
     pub entries: Vec<(usize, usize, f64)>,
 }
+
+// Matrices are written when they are found.
+crate::keep!(ModalOutcome {
+    step,
+    complex,
+    modes,
+    directions,
+    masses,
+    sliding,
+    points,
+    solves,
+    shapes,
+    map,
+    sensitivities,
+    notes
+} and {
+    export: Vec::new(),
+});
+crate::keep!(Mode {
+    frequency,
+    growth,
+    damping_ratio,
+    residual,
+    participation,
+    effective_mass,
+    feed,
+    shape
+});
+crate::keep!(FrictionMap {
+    mu,
+    dimension,
+    rows,
+    critical,
+    residual,
+    undamped
+});
+crate::keep!(MapRow { factor, modes });
+crate::keep!(Sensitivity {
+    mode,
+    of,
+    growth,
+    frequency
+});

@@ -45,13 +45,13 @@ impl<'a> Companion<'a> {
             let root = |(d, fixed): (&f64, &bool)| if *fixed { 0.0 } else { d.max(0.0).sqrt() };
             all.map(root).collect()
         };
-        let drag = linear.drag.iter().map(|pair| match transposed {
-            true => Pair {
-                left: pair.right.clone(),
-                right: pair.left.clone(),
+        let drag = linear.drag.iter().map(|pair| {
+            let (left, right) = pair.sides(transposed);
+            Pair {
+                left: left.clone(),
+                right: right.clone(),
                 interface: pair.interface,
-            },
-            false => pair.clone(),
+            }
         });
         Companion {
             shifted,
@@ -68,22 +68,30 @@ impl<'a> Companion<'a> {
             .collect()
     }
 
-    /// `w₁ = -P⁻¹ (M z₂ + (C + σ M) z₁)`, `w₂ = z₁ + σ w₁`.
-    fn apply(&self, z: &[f64]) -> Vec<f64> {
+    /// `w₁ = -P⁻¹ (M z₂ + (C + σ M) z₁)`, `w₂ = z₁ + σ w₁`, of several at once.
+    fn apply(&self, all: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let linear = self.shifted.linear;
         let sigma = self.shifted.sigma;
-        let [x, v] = [0, 1].map(|k| self.unscaled(z, k));
-        let both: Vec<f64> = v.iter().zip(&x).map(|(v, x)| v + sigma * x).collect();
-        let mut w = linear.times(&linear.mass, &both);
-        let damped = linear.damped(&x);
-        w.iter_mut().zip(damped).for_each(|(w, c)| *w += c);
-        add_pairs(&self.drag, 1.0, &x, &mut w);
-        self.root.solve(self.shifted, &mut w);
-        w.iter_mut().for_each(|w| *w = -*w);
-        let second = x.iter().zip(&w).map(|(x, w)| x + sigma * w);
-        let second = second.zip(&self.scales[1]).map(|(w, s)| w * s);
-        let first = w.iter().zip(&self.scales[0]).map(|(w, s)| w * s);
-        first.chain(second).collect()
+        let positions: Vec<Vec<f64>> = all.iter().map(|z| self.unscaled(z, 0)).collect();
+        let forces = all.iter().zip(&positions).flat_map(|(z, x)| {
+            let v = self.unscaled(z, 1);
+            let both: Vec<f64> = v.iter().zip(x).map(|(v, x)| v + sigma * x).collect();
+            let mut w = linear.times(&linear.mass, &both);
+            let damped = linear.damped(x);
+            w.iter_mut().zip(damped).for_each(|(w, c)| *w += c);
+            add_pairs(&self.drag, 1.0, x, &mut w);
+            w
+        });
+        let mut w: Vec<f64> = forces.map(|w| -w).collect();
+        self.root.solve(self.shifted, &mut w, all.len());
+        let each = w.chunks_exact(linear.size()).zip(&positions);
+        each.map(|(w, x)| {
+            let second = x.iter().zip(w).map(|(x, w)| x + sigma * w);
+            let second = second.zip(&self.scales[1]).map(|(w, s)| w * s);
+            let first = w.iter().zip(&self.scales[0]).map(|(w, s)| w * s);
+            first.chain(second).collect()
+        })
+        .collect()
     }
 }
 
@@ -99,8 +107,8 @@ pub(crate) fn solve(
     let companion = Companion::new(shifted, root, transposed);
     let linear = shifted.linear;
     let mut applied = 0;
-    let mut apply = |z: &[f64]| {
-        applied += 1;
+    let mut apply = |z: &[Vec<f64>]| {
+        applied += z.len();
         companion.apply(z)
     };
     let mut krylov = Krylov {
@@ -138,37 +146,48 @@ pub(crate) fn solve(
         })
         .filter(|e| e.value[1] <= TAU * to)
         .collect();
-    all.sort_by(|a, b| {
-        let by_frequency = a.value[1].total_cmp(&b.value[1]);
-        by_frequency.then(a.value[0].total_cmp(&b.value[0]))
-    });
+    by_frequency(&mut all);
     all
 }
 
-/// What is left of the equations of motion with all friction times `factor`, real and imaginary part, and that relative to the forces in them.
-pub(crate) fn residual(linear: &Linear, eigen: &Eigen, factor: f64) -> ([Vec<f64>; 2], f64) {
+/// Sorts modes.
+pub(crate) fn by_frequency(modes: &mut [Eigen]) {
+    modes.sort_by(|a, b| {
+        let by_frequency = a.value[1].total_cmp(&b.value[1]);
+        by_frequency.then(a.value[0].total_cmp(&b.value[0]))
+    });
+}
+
+/// What is left of the equations of motion with all friction times `factor`, real and imaginary part.
+pub(crate) fn open(linear: &Linear, eigen: &Eigen, factor: f64) -> [Vec<f64>; 2] {
     let [l, w] = eigen.value;
-    let square = [l * l - w * w, 2.0 * l * w];
+    let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
     let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], factor));
     let mut open = [0, 1].map(|_| vec![0.0; linear.size()]);
-    let (mut rest, mut sizes) = (0.0, [0.0; 3]);
-    for i in 0..linear.size() {
-        if linear.fixed[i] {
-            continue;
-        }
-        let part = |q: usize, f: Complex| -> Complex {
-            let (a, b) = (x[q][i], y[q][i]);
-            [f[0] * a - f[1] * b, f[0] * b + f[1] * a]
-        };
-        let parts = [part(0, [1.0, 0.0]), part(1, [l, w]), part(2, square)];
-        let sum = |c: usize| parts.iter().map(|p| p[c]).sum::<f64>();
-        open[0][i] = sum(0);
-        open[1][i] = sum(1);
-        rest += sum(0).powi(2) + sum(1).powi(2);
-        for (s, p) in sizes.iter_mut().zip(parts) {
-            *s += p[0] * p[0] + p[1] * p[1];
+    for (q, [a, b]) in powers.into_iter().enumerate() {
+        for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {
+            open[0][i] += a * x[q][i] - b * y[q][i];
+            open[1][i] += a * y[q][i] + b * x[q][i];
         }
     }
-    let scale: f64 = sizes.iter().map(|s| s.sqrt()).sum();
-    (open, rest.sqrt() / scale.max(f64::MIN_POSITIVE))
+    open
+}
+
+/// The same relative to what is in the modes, of each, and the displacements at rest under it.
+pub(crate) fn residuals(
+    shifted: &Shifted,
+    modes: &[Eigen],
+    factor: f64,
+    solves: &mut usize,
+) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let open = modes.iter().flat_map(|e| open(shifted.linear, e, factor));
+    let open: Vec<Vec<f64>> = open.collect();
+    let solved = shifted.solved(&open);
+    *solves += solved.len();
+    let each = modes.iter().enumerate();
+    let relative = each.map(|(k, e)| {
+        let own = 2 * k..2 * k + 2;
+        shifted.relative(&open[own.clone()], &solved[own], &e.vector)
+    });
+    (relative.collect(), solved)
 }

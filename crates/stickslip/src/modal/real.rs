@@ -8,7 +8,7 @@ use super::participation::directions;
 use super::shifted::Shifted;
 use crate::error::RunError;
 use crate::linear::{Pencil, RealModes, Wanted, lanczos};
-use crate::math::vector::{dot, norm};
+use crate::math::vector::dot;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::RealPlan;
@@ -54,14 +54,15 @@ pub(crate) fn modes(
         notes: notes(linear, &found, &shifted),
         ..ModalOutcome::default()
     };
-    for (value, x) in found.values.iter().zip(found.vectors) {
+    let open = residuals(&shifted, &found);
+    out.solves += open.len();
+    for ((value, x), residual) in found.values.iter().zip(found.vectors).zip(open) {
         let frequency = frequency(*value, shifted.shift());
         if frequency < from || out.modes.len() == plan.count {
             continue;
         }
         let participation: Vec<f64> = directions.iter().map(|d| dot(&d.mass, &x)).collect();
         let mut shape = x;
-        let residual = residual(linear, *value, shifted.shift(), &shape);
         model.links.impose(&mut shape);
         out.modes.push(Mode {
             frequency,
@@ -122,13 +123,21 @@ fn frequency(value: f64, shift: f64) -> f64 {
     }
 }
 
-/// What is left of `K x - ω² M x`, relative to both.
-pub(crate) fn residual(linear: &Linear, value: f64, shift: f64, x: &[f64]) -> f64 {
-    let k = linear.times(&linear.stiffness, x);
-    let m = linear.times(&linear.mass, x);
-    let rest: Vec<f64> = k.iter().zip(&m).map(|(k, m)| k - value * m).collect();
-    let scale = norm(&k) + (value.abs() + shift) * norm(&m);
-    norm(&rest) / scale.max(f64::MIN_POSITIVE)
+/// What is left of `K x - ω² M x`, relative to what is in the mode.
+fn residuals(shifted: &Shifted, found: &RealModes) -> Vec<f64> {
+    let linear = shifted.linear;
+    let modes = found.values.iter().zip(&found.vectors);
+    let open = modes.map(|(value, x)| -> Vec<f64> {
+        let m = linear.times(&linear.mass, x);
+        let k = linear.times(&linear.stiffness, x).into_iter().zip(m);
+        k.map(|(k, m)| k - value * m).collect()
+    });
+    let open: Vec<Vec<f64>> = open.collect();
+    let solved = shifted.solved(&open);
+    let one = std::slice::from_ref::<Vec<f64>>;
+    let each = open.iter().zip(&solved).zip(&found.vectors);
+    each.map(|((r, s), x)| shifted.relative(one(r), one(s), one(x)))
+        .collect()
 }
 
 fn notes(linear: &Linear, found: &RealModes, shifted: &Shifted) -> Vec<String> {

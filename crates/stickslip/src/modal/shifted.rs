@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::linear::{Linear, Pair, add_pairs, fault, product};
 use crate::error::RunError;
 use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic};
+use crate::math::vector::dot;
 use crate::model::frame::Frame;
 
 /// Most rows of the dense matrix of friction.
@@ -22,6 +23,8 @@ pub(crate) struct Shifted<'a> {
     pub factor: Factor,
     /// `σ ≥ 0` `[1/s]`.
     pub sigma: f64,
+    /// Whether the damping of bodies is in it.
+    damped: bool,
 }
 
 impl<'a> Shifted<'a> {
@@ -40,6 +43,7 @@ impl<'a> Shifted<'a> {
                         linear,
                         factor,
                         sigma,
+                        damped,
                     });
                 }
                 Err(LinearError::NotPositive { .. } | LinearError::Singular { .. }) => {
@@ -64,6 +68,42 @@ impl<'a> Shifted<'a> {
     /// The shift `σ²` `[1/s²]`.
     pub fn shift(&self) -> f64 {
         self.sigma * self.sigma
+    }
+
+    /// `A x`.
+    pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        let linear = self.linear;
+        let mut out = linear.times(&linear.stiffness, x);
+        if self.sigma > 0.0 {
+            let mass = linear.times(&linear.mass, x);
+            let add = |out: &mut [f64], factor: f64, y: Vec<f64>| {
+                out.iter_mut().zip(y).for_each(|(o, y)| *o += factor * y);
+            };
+            add(&mut out, self.shift(), mass);
+            if self.damped {
+                add(&mut out, self.sigma, linear.damped(x));
+            }
+        }
+        out
+    }
+
+    /// `A⁻¹ b` of several.
+    pub fn solved(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut out = Vec::new();
+        for chunk in columns.chunks(COLUMNS) {
+            let mut all = chunk.concat();
+            self.factor.solve_columns(&mut all, chunk.len());
+            out.extend(all.chunks_exact(self.linear.size()).map(<[f64]>::to_vec));
+        }
+        out
+    }
+
+    /// How much forces `r` are beside those of displacements `x`: `√(rᵀ A⁻¹ r / xᵀ A x)`, real and imaginary parts together; `solved` are `A⁻¹ r`. Constraints that are
+    /// as stiff as rounding allows do not count in this norm for more than the energy that rounding stores in them, as they would if forces were compared.
+    pub fn relative(&self, r: &[Vec<f64>], solved: &[Vec<f64>], x: &[Vec<f64>]) -> f64 {
+        let open: f64 = r.iter().zip(solved).map(|(r, s)| dot(r, s)).sum();
+        let whole: f64 = x.iter().map(|x| dot(x, &self.times(x))).sum();
+        (open.max(0.0) / whole.max(f64::MIN_POSITIVE)).sqrt()
     }
 }
 
@@ -166,25 +206,30 @@ impl Root {
         (self.factor, self.transposed) = (factor, transposed);
     }
 
-    /// `P⁻¹ b` in place; of the transposed problem `P⁻ᵀ b`.
-    pub fn solve(&self, shifted: &Shifted, b: &mut [f64]) {
-        shifted.factor.solve(b);
+    /// `P⁻¹ b` in place, for several `b` one after the other; of the transposed problem `P⁻ᵀ b`.
+    pub fn solve(&self, shifted: &Shifted, b: &mut [f64], columns: usize) {
+        shifted.factor.solve_columns(b, columns);
         if self.pairs.is_empty() || self.factor == 0.0 {
             return;
         }
-        let mut z: Vec<f64> = self
+        let n = b.len() / columns;
+        let sides: Vec<_> = self
             .pairs
             .iter()
-            .map(|p| product(if self.transposed { &p.left } else { &p.right }, b))
+            .map(|p| p.sides(self.transposed))
             .collect();
+        let along = |b| sides.iter().map(move |(_, right)| product(right, b));
+        let mut z: Vec<f64> = b.chunks_exact(n).flat_map(along).collect();
         self.lu.solve(&mut z);
         let mut y = vec![0.0; b.len()];
-        for (z, p) in z.iter().zip(&self.pairs) {
-            let side = if self.transposed { &p.right } else { &p.left };
-            side.iter()
-                .for_each(|&(dof, v)| y[dof] += self.factor * z * v);
+        let each = y.chunks_exact_mut(n).zip(z.chunks_exact(self.pairs.len()));
+        for (y, z) in each {
+            for (z, (left, _)) in z.iter().zip(&sides) {
+                left.iter()
+                    .for_each(|&(dof, v)| y[dof] += self.factor * z * v);
+            }
         }
-        shifted.factor.solve(&mut y);
+        shifted.factor.solve_columns(&mut y, columns);
         b.iter_mut().zip(y).for_each(|(b, y)| *b -= y);
     }
 }

@@ -78,15 +78,17 @@ impl DenseLu {
         DenseLu { n, lu }
     }
 
-    /// Solves in place; what is singular gives numbers that are not finite.
+    /// Solves in place for right-hand sides one after the other; what is singular gives numbers that are not finite.
     ///
     /// # Panics
-    /// If `b` has not one entry a row.
+    /// If there is a part of a right-hand side.
     pub fn solve(&self, b: &mut [f64]) {
-        assert_eq!(b.len(), self.n, "length of the right-hand side");
+        let n = self.n;
         if let Some(lu) = &self.lu {
-            let x = lu.solve(Mat::from_fn(self.n, 1, |i, _| b[i]));
-            b.iter_mut().enumerate().for_each(|(i, b)| *b = x[(i, 0)]);
+            assert_eq!(b.len() % n, 0, "length of right-hand sides");
+            let x = lu.solve(Mat::from_fn(n, b.len() / n, |i, j| b[j * n + i]));
+            let each = b.iter_mut().enumerate();
+            each.for_each(|(k, b)| *b = x[(k % n, k / n)]);
         }
     }
 }
