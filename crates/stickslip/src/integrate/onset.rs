@@ -214,6 +214,7 @@ fn start_motion(
     }
     let before = inertia.kinetic_energy(&frame.state.v);
     model.apply_initial_velocities(frame.step, &mut frame.state.v);
+    begin_along_mode(model, frame, &contact.couplings, (&inertia, solver));
     let energy = &mut frame.ledger;
     energy.kinetic = inertia.kinetic_energy(&frame.state.v);
     energy.initial += energy.kinetic - before;
@@ -223,6 +224,35 @@ fn start_motion(
         travel: 0.0,
     };
     solver.inertia = Some(inertia);
+}
+
+/// Displaces the bodies along the mode with which the step begins. What that stores is brought in from outside.
+fn begin_along_mode(
+    model: &Model,
+    frame: &mut Frame,
+    couplings: &Couplings,
+    (inertia, solver): (&Inertia, &Solver),
+) {
+    let Some(kick) = &mut frame.kick else {
+        return;
+    };
+    kick.images = [0, 1].map(|k| inertia.mass_times(&kick.shape[k]));
+    let (t, n) = (frame.state.t, frame.state.u.len());
+    let rest = vec![0.0; n];
+    // Bodies and springs are linear: the trapezoidal rule is exact.
+    let forces = |u: &[f64]| -> Vec<f64> {
+        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(t, (u, &rest), out);
+        let coupled = coupling_forces(couplings, &model.links, n, add);
+        let both = times(&solver.stiffness, u).into_iter().zip(coupled);
+        both.map(|(a, b)| a + b).collect()
+    };
+    let before = frame.state.u.clone();
+    kick.apply(&mut frame.state);
+    let (from, to) = (forces(&before), forces(&frame.state.u));
+    let moved = difference(&frame.state.u, &before);
+    let stored = 0.5 * (dot(&from, &moved) + dot(&to, &moved));
+    frame.ledger.strain += stored;
+    frame.ledger.initial += stored;
 }
 
 /// Where bodies are at the start of a motion, and where they were `dt` before with the velocities that they have.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::cycling::Cycling;
 use super::heat::Heat;
 use super::limits::Limits;
-use super::modal::{Modal, SteadyPlan};
+use super::modal::{KickPlan, Modal, SteadyPlan};
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Change;
@@ -317,6 +317,8 @@ pub struct Step {
     pub steady: Option<SteadyPlan>,
     /// What is looked for in a step without increments.
     pub modal: Option<Modal>,
+    /// A mode that the step before has found, along which the motion begins.
+    pub kick: Option<KickPlan>,
     /// Interfaces, by name, whose laws change at its start.
     pub changes: Vec<(String, Change)>,
     /// How often it is gone through.

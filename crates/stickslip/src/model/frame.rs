@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::course::Course;
 use super::cycling::Block;
+use super::kick::Kick;
 use super::ledger::EnergyLedger;
 use crate::system::State;
 
@@ -32,6 +33,8 @@ pub struct Frame {
     pub motion: Motion,
     /// The cycle at hand, where jumps over cycles are chosen.
     pub block: Block,
+    /// The mode along which the last motion began.
+    pub kick: Option<Kick>,
     /// Energies: what there is, and where it came from and went.
     pub ledger: EnergyLedger,
 }
@@ -59,6 +62,7 @@ crate::keep!(Frame {
     course,
     motion,
     block,
+    kick,
     ledger
 });
 crate::keep!(Motion {

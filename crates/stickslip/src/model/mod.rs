@@ -9,6 +9,7 @@ pub(crate) mod drivers;
 pub(crate) mod frame;
 pub(crate) mod free_bodies;
 pub(crate) mod heat;
+pub(crate) mod kick;
 pub(crate) mod ledger;
 pub(crate) mod limits;
 pub(crate) mod modal;
@@ -26,8 +27,9 @@ pub use definition::{
 };
 pub use frame::{Frame, Motion};
 pub use heat::Heat;
+pub use kick::{Growth, Kick, Share};
 pub use ledger::{EnergyLedger, EnergyQuality};
 pub use limits::{GateMode, Limits};
-pub use modal::{ComplexPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+pub use modal::{ComplexPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
 pub use scene::Scene;
 pub use setup::Setup;

@@ -48,6 +48,15 @@ pub struct MapPlan {
     pub points: usize,
 }
 
+/// A mode along which a motion begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KickPlan {
+    /// Its number in the table of the step before, from 1; the one that grows fastest if not given.
+    pub mode: Option<usize>,
+    /// Largest displacement of a point `[m]`.
+    pub amplitude: f64,
+}
+
 /// Sliding that lasts, by interface.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SteadyPlan {

@@ -66,7 +66,7 @@ pub use load::Load;
 pub use mass::Mass;
 pub use material::{ConstantsAt, Material};
 pub use model::{Model, SpaceKind};
-pub use modes::{ComplexModes, FrictionRange, Modes, SteadySliding, Turning};
+pub use modes::{ComplexModes, FrictionRange, Kick, Modes, SteadySliding, Turning};
 pub use nearest::nearest;
 pub use obstacle::Obstacle;
 pub use output::{CheckpointPlan, Frd, Output};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::interface::Steady;
 use crate::math::{Vec3, norm};
-use crate::model::{ComplexPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+use crate::model::{ComplexPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
 
 /// `modes` of a step: real modes, the lowest first. An empty table takes the defaults.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -98,6 +98,32 @@ impl ComplexModes {
             export: self.export,
             sensitivity: self.sensitivity,
         })
+    }
+}
+
+/// `kick` of a dynamic step: displacements and velocities of a mode are added to the state that the step before, one with `modes` or `complex-modes`, has left. The
+/// history tells how much of the mode is in the motion: `MODE.A`, its amplitude, `MODE.PHASE`, and `MODE.REST`, the part of the kinetic energy that is not of it;
+/// `modes-N-growth.csv` compares with the eigenvalue.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Kick {
+    /// Largest displacement of a point in the mode at the start `[length]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub amplitude: f64,
+    /// Number of the mode in the table of the step before; the one that grows fastest if not given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mode: Option<usize>,
+}
+
+impl Kick {
+    /// What is done.
+    pub(super) fn plan(self) -> KickPlan {
+        KickPlan {
+            mode: self.mode,
+            amplitude: self.amplitude,
+        }
     }
 }
 

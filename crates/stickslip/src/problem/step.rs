@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ComplexModes, Dynamic, Modes, SteadySliding, Tension};
+use super::{ComplexModes, Dynamic, Kick, Modes, SteadySliding, Tension};
 use crate::contact::interface::Change;
 use crate::model::Jump;
 
@@ -62,6 +62,9 @@ pub struct Step {
     /// Makes the step dynamic; quasi-static if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<Dynamic>,
+    /// Begins a dynamic step along a mode that the step before has found: `kick = { amplitude = 1e-6 }`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kick: Option<Kick>,
 }
 
 /// How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed, or where jumps are chosen for each cycle that is over;

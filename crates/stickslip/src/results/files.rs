@@ -421,7 +421,9 @@ impl Observer for ResultFiles {
                 }
             }
             Event::End => {
-                let ended = self.end(analysis.summary);
+                let growth = &analysis.summary.growth;
+                let grown = modes::write_growth(&self.folder.directory, growth);
+                let ended = self.end(analysis.summary).and(grown);
                 self.folder.release();
                 ended?;
             }

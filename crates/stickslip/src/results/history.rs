@@ -4,8 +4,14 @@ use crate::assess::view::View;
 use crate::body::Around;
 use crate::contact::interface::Resultant;
 use crate::model::definition::{Reference, Support};
+use crate::model::kick::Share;
 use crate::system::{Motion, Tally};
 use crate::time::Trial;
+
+/// Columns of the mode along which a motion began.
+pub(super) const AMPLITUDE: &str = "MODE.A";
+pub(super) const PHASE: &str = "MODE.PHASE";
+pub(super) const REST: &str = "MODE.REST";
 
 /// A row of the history: names and values.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -78,6 +84,15 @@ pub(crate) fn row(
         row.push("ALLCD", e.contact_damping);
         row.push("ALLND", e.numerical);
         row.push("EINITIAL", e.initial);
+    }
+    if view.model.steps.iter().any(|s| s.kick.is_some()) {
+        let share = match &view.frame.kick {
+            Some(kick) => kick.last,
+            None => Share::default(),
+        };
+        row.push(AMPLITUDE, share.amplitude);
+        row.push(PHASE, share.phase);
+        row.push(REST, share.rest);
     }
     let dim = view.model.dofs.dim;
     for interface in &view.contact.interfaces {

@@ -4,11 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::analysis::Analysis;
+use super::growth;
 use crate::error::Error;
 use crate::io::csv::Table;
 use crate::io::vtu::PackedMesh;
 use crate::io::{csv, pvd, write_atomically};
 use crate::modal::{Export, FrictionMap, ModalOutcome, Mode};
+use crate::model::kick::Growth;
 use crate::system::{Field, Fields, Location};
 
 /// Beginning of the names of all of them.
@@ -54,6 +56,27 @@ pub(crate) fn write(
         let name = format!("{stem}_{:05}.vtu", k + 1);
         mesh.write(&directory.join(&name), &shape(analysis, mode))?;
         list.push(k as f64 + 1.0, &name)?;
+    }
+    Ok(())
+}
+
+/// Writes how motions grew that began along modes.
+pub(crate) fn write_growth(directory: &Path, all: &[Growth]) -> Result<(), Error> {
+    if all.is_empty() {
+        return Ok(());
+    }
+    let history = csv::read(&directory.join("history.csv"))?;
+    for one in all {
+        let tables = [
+            ("growth", growth::table(&history, one)),
+            ("spectrum", growth::spectrum(&history, one)),
+        ];
+        for (name, table) in tables {
+            if let Some(table) = table {
+                let path = directory.join(format!("{STEM}{}-{name}.csv", one.number));
+                csv::write(&path, &table)?;
+            }
+        }
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use crate::machine::{page_faults, peak_memory};
 use crate::modal::ModalOutcome;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
+use crate::model::kick::Growth;
 use crate::model::ledger::{EnergyLedger, EnergyQuality};
 use crate::newton::condensed::CACHE_NOTE;
 use crate::newton::{Fallback, Statistics};
@@ -93,6 +94,8 @@ pub struct Summary {
     pub interfaces: Vec<InterfaceSummary>,
     /// Modes, by step that looked for them.
     pub modes: Vec<ModalOutcome>,
+    /// How motions that began along modes grew, by step.
+    pub growth: Vec<Growth>,
     /// Last row of the history.
     pub last: BTreeMap<String, f64>,
 }
@@ -312,12 +315,13 @@ crate::keep!(Summary {
     energy,
     energy_quality,
     quality,
+    modes,
+    growth,
     last
 } and {
     version: env!("CARGO_PKG_VERSION"),
     threads: rayon::current_num_threads(),
     interfaces: Vec::new(),
-    modes: Vec::new(),
 });
 crate::keep!(Status[Running, Done, Failed, Interrupted]);
 crate::keep!(FallbackSummary {

@@ -31,6 +31,9 @@ pub(crate) fn book(
         frame.motion.internal = internal;
         frame.motion.travel = accepted.travel;
     }
+    if let Some(kick) = &mut frame.kick {
+        kick.follow(&frame.state, frame.ledger.kinetic, effort.tally);
+    }
     summary.increments += 1;
     summary.iterations += effort.iterations;
     let turned = model.links.largest_rotation(&frame.state.u);

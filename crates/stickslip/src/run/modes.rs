@@ -1,10 +1,14 @@
 //! Steps in which nothing moves: modes about the state that is reached.
 
+use std::f64::consts::TAU;
+
 use super::simulation::Simulation;
 use crate::contact::interface::Steady;
-use crate::error::Error;
-use crate::modal;
+use crate::error::{Error, RunError};
+use crate::modal::{self, ModalOutcome, Mode};
 use crate::model::definition::Model;
+use crate::model::kick::{Course, Kick, Share};
+use crate::model::modal::Modal;
 use crate::results::observer::{Event, Observer};
 use crate::solve::work::Work;
 
@@ -22,6 +26,82 @@ impl Simulation {
         }
     }
 
+    fn modes_about(&mut self, plan: &Modal) -> Result<ModalOutcome, RunError> {
+        self.solver.seen.tell(&Work::Modes);
+        let (model, frame) = (&self.model, &self.frame);
+        modal::compute(model, frame, &mut self.contact, &self.solver, plan)
+    }
+
+    /// Makes the mode ready along which a step begins. It is the one that the step before has found; a run that was taken up between the two finds it again.
+    ///
+    /// # Errors
+    /// [`Error::Run`] if there is no such mode.
+    pub(super) fn find_kick(&mut self, step: usize) -> Result<Option<Kick>, Error> {
+        let Some(plan) = self.model.steps[step].kick else {
+            return Ok(None);
+        };
+        let before = &self.model.steps[step - 1];
+        let outcome = match (self.modes.last(), before.modal.clone()) {
+            (Some(known), _) if known.step == before.name => known.clone(),
+            (_, Some(modal)) => {
+                self.begin_sliding(step - 1);
+                self.modes_about(&modal)?
+            }
+            (_, None) => return Ok(None),
+        };
+        let Some(mode) = chosen(&outcome, plan.mode) else {
+            let found = outcome.modes.len();
+            let message = match plan.mode {
+                Some(number) => {
+                    format!("there is no mode {number} to begin along: {found} were found")
+                }
+                None => "there is no mode to begin along: none was found".into(),
+            };
+            return Err(modal::linear::fault(&self.frame, message).into());
+        };
+        let [re, im] = &mode.shape;
+        let im = match im.is_empty() {
+            true => vec![0.0; re.len()],
+            false => im.clone(),
+        };
+        let dofs = self.model.dofs;
+        let at = |x: &[f64], p: usize| dofs.vector(x, p).iter().map(|v| v * v).sum::<f64>();
+        let points = 0..self.model.mesh.points.len();
+        let squares = points.map(|p| at(re, p) + at(&im, p));
+        let largest = squares.fold(0.0, f64::max).sqrt().max(f64::MIN_POSITIVE);
+        let scaled = |x: &[f64]| x.iter().map(|v| v / largest).collect();
+        Ok(Some(Kick {
+            step,
+            value: [mode.growth, TAU * mode.frequency],
+            about: self.frame.state.u.clone(),
+            shape: [scaled(re), scaled(&im)],
+            images: Default::default(),
+            amplitude: plan.amplitude,
+            last: Share::default(),
+            course: Course::at(self.model.steps[step].start),
+        }))
+    }
+
+    /// At the end of a step that began along a mode: how it grew.
+    pub(super) fn tell_growth(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let Some(kick) = &self.frame.kick else {
+            return Ok(());
+        };
+        let growth = kick.growth(&self.model.steps[kick.step].name);
+        self.solver.log.notes.push(format!(
+            "{}: the mode with growth {:.6e} and frequency {:.6e} grew by {:.6e} with {:.6e}, over {:.1} cycles in which points stuck and opened as at the start; its amplitude ends at {:.3e}",
+            growth.step,
+            growth.growth,
+            growth.frequency,
+            growth.measured_growth,
+            growth.measured_frequency,
+            growth.cycles,
+            growth.amplitudes[1],
+        ));
+        self.summary.growth.push(growth);
+        self.tell_notes(observers)
+    }
+
     /// Finds the modes that the step at hand asks for. Its time passes, and nothing moves.
     ///
     /// # Errors
@@ -32,23 +112,28 @@ impl Simulation {
             return Ok(());
         };
         let end = step.end;
-        self.solver.seen.tell(&Work::Modes);
-        let Simulation {
-            model,
-            contact,
-            frame,
-            solver,
-            ..
-        } = self;
-        let outcome = modal::compute(model, frame, contact, solver, &plan)?;
+        let outcome = self.modes_about(&plan)?;
         let notes = outcome.notes.iter();
         let name = &outcome.step;
         (self.solver.log.notes).extend(notes.map(|note| format!("{name}: {note}")));
         self.frame.state.t = end;
         self.tell(observers, || Event::Modes(&outcome))?;
+        if let Some(fastest) = chosen(&outcome, None) {
+            let last = &mut self.summary.last;
+            last.insert("MODES.GROWTH".into(), fastest.growth);
+            last.insert("MODES.FREQUENCY".into(), fastest.frequency);
+        }
         self.summary.modes.push(outcome.figures());
         self.modes.push(outcome);
         self.tell_notes(observers)
+    }
+}
+
+/// The mode of a number, or the one that grows fastest.
+fn chosen(outcome: &ModalOutcome, number: Option<usize>) -> Option<&Mode> {
+    match number {
+        Some(number) => outcome.modes.get(number - 1),
+        None => (outcome.modes.iter()).max_by(|a, b| a.growth.total_cmp(&b.growth)),
     }
 }
 

@@ -117,6 +117,9 @@ impl Simulation {
         };
         let running = self.begin_block(running);
         self.steps.running = self.next_attempt(running, observers)?;
+        if self.steps.running.is_none() {
+            self.tell_growth(observers)?;
+        }
         Ok(true)
     }
 
@@ -185,7 +188,9 @@ impl Simulation {
 
     /// Begins a step.
     fn begin_step(&mut self, step: usize) -> Result<(), Error> {
+        let kick = self.find_kick(step)?;
         self.begin_sliding(step);
+        self.frame.kick = kick;
         let Simulation {
             model,
             contact,
@@ -256,15 +261,9 @@ impl Simulation {
         if let Some(error) = first.and_then(|trial| self.refuse_unbalanced(trial)) {
             return Err(error);
         }
-        let Simulation {
-            model,
-            contact,
-            frame,
-            solver,
-            ..
-        } = self;
-        solver.choose_candidates(model, frame, contact);
-        solver.condense(model, frame, contact);
+        let (model, frame) = (&self.model, &self.frame);
+        (self.solver).choose_candidates(model, frame, &mut self.contact);
+        (self.solver).condense(model, frame, &mut self.contact);
         Ok(())
     }
 

@@ -356,6 +356,71 @@ fn motion_grows_and_decays_as_eigenvalues_say() {
     }
 }
 
+/// A motion that begins along the unstable mode grows as the eigenvalue says from its first cycle on, and the other mode that was found decays with its own.
+#[test]
+fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
+    let run = |kick: &str| {
+        let steps = format!(
+            "{COMPLEX}[[step]]\nname = \"run\"\nduration = 8\nincrements.fixed = 3200\ndynamic = {{ scheme.newmark = {{}} }}\nkick = {{ {kick} }}\n"
+        );
+        let text = hoffmann(0.8, [0.0; 2], &steps).replacen("-1e-3", "-1", 1);
+        let mut simulation = build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        simulation
+    };
+    let fastest = run("amplitude = 1e-7");
+    let [told] = &fastest.summary.growth[..] else {
+        panic!("{:?}", fastest.summary.growth);
+    };
+    near(told.growth, 0.407292624, 1e-8);
+    near(told.measured_growth, 0.407292624, 1e-3 * 0.4);
+    near(told.measured_frequency, 4.600639877 / TAU, 1e-4);
+    near(told.cycles, 8.0 * told.frequency, 1e-2);
+    let grown = told.amplitudes[1] / told.amplitudes[0];
+    near(grown / (8.0 * told.growth).exp(), 1.0, 5e-3);
+    let last = &fastest.summary.last;
+    assert!(last["MODE.REST"] < 1e-3, "{last:?}");
+    // What the kick brought in is in the ledger.
+    let energy = &fastest.summary.energy;
+    assert!(
+        energy.residual.abs() < 1e-6 * energy.kinetic.max(energy.strain),
+        "{energy:?}"
+    );
+    let modes = &fastest.modes[0].modes;
+    let decaying = (0..modes.len()).min_by(|&a, &b| modes[a].growth.total_cmp(&modes[b].growth));
+    let number = decaying.unwrap() + 1;
+    let slowest = run(&format!("amplitude = 1e-3, mode = {number}"))
+        .summary
+        .growth;
+    near(slowest[0].growth, -0.407292624, 1e-8);
+    // Its partner comes up out of rounding.
+    let grown = slowest[0].amplitudes[1] / slowest[0].amplitudes[0];
+    assert!(grown < 0.1, "{slowest:?}");
+}
+
+#[test]
+fn a_motion_along_a_mode_needs_one_and_has_to_move() {
+    let along = |steps: &str| complaint(&hoffmann(0.8, [0.0; 2], steps));
+    let moving = "dynamic = { scheme.newmark = {} }\n";
+    for (steps, words) in [
+        (
+            format!("[[step]]\n{moving}kick = {{ amplitude = 1 }}\n"),
+            "no modes are known",
+        ),
+        (
+            format!("{COMPLEX}[[step]]\nkick = {{ amplitude = 1 }}\n"),
+            "by an implicit scheme",
+        ),
+        (
+            format!("{COMPLEX}[[step]]\n{moving}kick = {{ amplitude = 1, mode = 4 }}\n"),
+            "there is no mode 4",
+        ),
+    ] {
+        let text = along(&steps);
+        assert!(text.contains(words), "{steps}: {text}");
+    }
+}
+
 /// The map over the friction of 0.5.
 fn hoffmann_map(dashpots: [f64; 2]) -> ModalOutcome {
     let map = "[[step]]\ncomplex-modes = { count = 3, map = { to = 2, points = 21 } }\n";
@@ -419,6 +484,165 @@ fn mode_coupling_begins_at_the_closed_form() {
     let map = outcome.map.unwrap();
     near(0.5 * map.critical[0][0], 0.2541666667, 1e-9);
     near(TAU * map.critical[0][1], 1.3228757, 1e-5);
+}
+
+/// BENCHMARKS Q2, the form of Hultén: a mass between two belts at right angles, each of which drives what the other presses. `K = [[k₁, -μ k₂], [μ k₁, k₂]]` of a unit mass, with dashpots.
+fn hulten(mu: f64, [eta_1, eta_2]: [f64; 2], steps: &str) -> ModalOutcome {
+    let [w1, w2] = [TAU * 100.0, TAU * 75.0];
+    let dashpots: String = [("x", eta_1 * w1), ("y", eta_2 * w2)]
+        .iter()
+        .filter(|(_, c)| *c > 0.0)
+        .map(|(axis, c)| format!("coupling.d{axis}.dashpot = {{ coefficient = {c:?}, terms = [{{ set = \"centre\", component = \"{axis}\" }}] }}\n"))
+        .collect();
+    // It is pressed where the forces of both belts meet, so that nothing turns it.
+    let t = 0.5 * (1.0 - mu) / (1.0 + mu * mu);
+    let [x, y] = [t - 0.5, mu * t];
+    let text = format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ rigid = true, generate.rectangle = {{ x = [-0.5, {x:?}, 0, 0.5], y = [-0.5, 0, {y:?}, 0.5] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0.0, density = 1.0 }}
+set.centre = {{ of = "block", point = [0, 0] }}
+set.pressed = {{ of = "block", point = [{x:?}, {y:?}] }}
+obstacle.floor.plane = {{ point = [0, -0.5], normal = [0, 1] }}
+obstacle.wall.plane = {{ point = [-0.5, 0], normal = [1, 0] }}
+output.every = 0
+interface.floor = {{ secondary = "block.bottom", primary = "floor", normal.linear = {{ c = {k2:?} }}, friction.coulomb = {{ mu = {mu:?} }}, primary-velocity = [-1, 0] }}
+interface.wall = {{ secondary = "block.left", primary = "wall", normal.linear = {{ c = {k1:?} }}, friction.coulomb = {{ mu = {mu:?} }}, primary-velocity = [0, 1] }}
+{dashpots}
+load.press = {{ set = "pressed", nodal-force = {{ value = [{fx:?}, {fy:?}] }} }}
+[[step]]
+steady = {{}}
+{steps}
+"#,
+        k1 = w1 * w1,
+        k2 = w2 * w2,
+        fx = -(1.0 - mu) * 1e-3,
+        fy = -(1.0 + mu) * 1e-3,
+    );
+    modes(&text)
+}
+
+#[test]
+fn a_mass_between_two_belts_flutters_as_the_form_of_hulten_says() {
+    let map = "[[step]]\ncomplex-modes = { count = 3, map = { to = 1, points = 11 } }\n";
+    for (damping, critical) in [
+        ([0.0, 0.0], 0.291666667),
+        ([0.02, 0.02], 0.289367126),
+        ([0.02, 0.06], 0.271790034),
+    ] {
+        let outcome = hulten(0.4, damping, map);
+        let map = outcome.map.as_ref().unwrap();
+        assert_eq!(map.critical.len(), 1, "{:?}", map.critical);
+        near(0.4 * map.critical[0][0], critical, 1e-9);
+        let exact = match damping {
+            [0.0, 0.0] => [72.358621299, 560.054379155],
+            [0.02, 0.02] => [66.881360038, 559.191752923],
+            _ => continue,
+        };
+        let [g, w] = worst(&outcome);
+        near(g, exact[0], 1e-9 * exact[1]);
+        near(w, exact[1], 1e-9 * exact[1]);
+    }
+}
+
+/// VERIFICATION F1, the block of Oden and Martins: friction that pitches it and a pressure `c δ²` let it flutter. Its sums over contact points stand for the integrals.
+#[test]
+fn a_block_pitches_as_its_two_equations_say() {
+    let (mu, h, cells) = (0.7, 0.45, 8);
+    // Half the width, mass and weight are one.
+    let density = 1.0 / (4.0 * h);
+    let text = format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ rigid = true, generate.rectangle = {{ from = [-1, -{h}], to = [1, {h}], cells = [{cells}, 2] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0.0, density = {density:?} }}
+set.centre = {{ of = "block", point = [0, 0] }}
+obstacle.belt.plane = {{ point = [0, -{h}], normal = [0, 1] }}
+output.every = 0
+interface.rub = {{ secondary = "block.bottom", primary = "belt", normal.power-law = {{ c = 1.0, m = 2.0 }}, friction.coulomb = {{ mu = {mu} }}, primary-velocity = [1, 0] }}
+coupling.pull.spring = {{ stiffness = 50.0, terms = [{{ set = "centre", component = "x" }}] }}
+load.weight = {{ set = "centre", nodal-force = {{ value = [0, -1] }} }}
+[[step]]
+steady = {{}}
+[[step]]
+complex-modes = {{ count = 3 }}
+"#
+    );
+    let outcome = modes(&text);
+    let size = 2.0 / cells as f64;
+    let points: Vec<[f64; 2]> = (0..=cells)
+        .map(|i| {
+            let inside = i > 0 && i < cells;
+            [
+                -1.0 + size * i as f64,
+                if inside { size } else { 0.5 * size },
+            ]
+        })
+        .collect();
+    let sum = |of: &dyn Fn(f64) -> f64| points.iter().map(|[s, w]| w * of(*s)).sum::<f64>();
+    // Penetration d + e s in balance with the weight and the moment of friction, by Newton's method.
+    let (mut d, mut e) = (0.7, 0.0);
+    for _ in 0..50 {
+        let p = |s: f64| (d + e * s).powi(2);
+        let slope = |s: f64| 2.0 * (d + e * s);
+        let rest = [sum(&p) - 1.0, sum(&|s| p(s) * s) - mu * h];
+        let [a, b, c] = [0, 1, 2].map(|k| sum(&|s| slope(s) * s.powi(k)));
+        let determinant = a * c - b * b;
+        d -= (c * rest[0] - b * rest[1]) / determinant;
+        e -= (a * rest[1] - b * rest[0]) / determinant;
+    }
+    let [k0, k1, k2] = [0, 1, 2].map(|k| sum(&|s| 2.0 * (d + e * s) * s.powi(k)));
+    let inertia = (4.0 + 4.0 * h * h) / 12.0;
+    let (a, d) = (k0, (k2 - mu * h * k1) / inertia);
+    let product = k1 * (k1 - mu * h * k0) / inertia;
+    // (a - ω²)(d - ω²) = product.
+    let (mean, under) = (0.5 * (a + d), 0.25 * (a - d).powi(2) + product);
+    assert!(under < 0.0, "flutter");
+    let size = mean.hypot((-under).sqrt());
+    let (g, w) = ((0.5 * (size - mean)).sqrt(), (0.5 * (size + mean)).sqrt());
+    for exact in [[g, w], [-g, w]] {
+        let found = nearest(&outcome, exact);
+        near(found[0], exact[0], 1e-9);
+        near(found[1], exact[1], 1e-9);
+    }
+    let along = nearest(&outcome, [0.0, 50.0_f64.sqrt()]);
+    near(along[1], 50.0_f64.sqrt(), 1e-9);
+}
+
+/// Two pads that are equal, each on a belt of its own: every mode comes twice.
+#[test]
+fn modes_of_equal_bodies_come_as_often_as_there_are_bodies() {
+    let one = pad([0.6, 0.2], [100.0, 1e-2], "");
+    let (head, tail) = one.split_once("[[step]]").unwrap();
+    let copy: String = head
+        .lines()
+        .filter(|l| {
+            l.starts_with("body.") || l.starts_with("interface.") || l.starts_with("support.")
+        })
+        .map(|l| {
+            l.replace("body.", "body.second-")
+                .replace("interface.", "interface.second-")
+        })
+        .map(|l| {
+            l.replace("support.", "support.second-")
+                .replace("\"pad.", "\"second-pad.")
+                .replace("\"back.", "\"second-back.")
+        })
+        .map(|l| format!("{l}\n"))
+        .collect();
+    let asked = "[[step]]\ncomplex-modes = { count = 16 }\n";
+    let both = modes(&format!("{head}{copy}[[step]]{tail}{asked}"));
+    let single = modes(&format!("{head}[[step]]{tail}{}", asked.replace("16", "8")));
+    assert_eq!(both.modes.len(), 16);
+    for (k, mode) in both.modes.iter().enumerate() {
+        let other = &single.modes[k / 2];
+        let size = other.growth.hypot(TAU * other.frequency);
+        near(mode.growth, other.growth, 1e-7 * size);
+        near(mode.frequency, other.frequency, 1e-7 * size);
+    }
 }
 
 #[test]

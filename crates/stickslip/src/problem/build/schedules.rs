@@ -1,6 +1,6 @@
 //! When what acts, and with which factor.
 
-use super::super::{Cycles, Problem, SteadySliding};
+use super::super::{Cycles, Kick, Problem, SteadySliding};
 use crate::model::{Cycling, Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
@@ -290,6 +290,7 @@ impl Timeline {
                     }),
                     steady: step.steady.as_ref().map(SteadySliding::plan),
                     modal: step.modal(),
+                    kick: step.kick.map(Kick::plan),
                     changes: (step.change.iter())
                         .map(|(name, change)| (name.clone(), change.clone()))
                         .collect(),

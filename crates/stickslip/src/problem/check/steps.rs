@@ -6,6 +6,7 @@ use super::super::nearest::suggest;
 use super::super::{Cycles, Increments, Problem, Step};
 use super::cycles;
 use super::findings::Findings;
+use crate::time::scheme::Method;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     if problem.step.is_empty() {
@@ -55,6 +56,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         }
         modal(findings, &i, step);
         sliding(findings, &i, (problem, step));
+        kick(findings, &i, (problem, step));
     }
     output(problem, findings);
 }
@@ -97,6 +99,39 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
     {
         let message = format!("`from` ({}) is not below `to` ({})", map.from, map.to);
         findings.add(&["step", i, key, "map", "from"], message, "");
+    }
+}
+
+/// Rules of a motion that begins along a mode.
+fn kick(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+    let Some(kick) = &step.kick else {
+        return;
+    };
+    let before = i.parse::<usize>().ok().and_then(|i| i.checked_sub(1));
+    let before = before.and_then(|i| problem.step.get(i));
+    let count = before.and_then(|s| {
+        let real = s.modes.as_ref().map(|m| m.count);
+        real.or(s.complex_modes.as_ref().map(|m| m.count))
+    });
+    let at = ["step", i, "kick"];
+    let implicit = (step.dynamic.as_ref())
+        .is_some_and(|d| matches!(d.scheme.as_dyn().method(), Method::Implicit(_)));
+    if !implicit {
+        let message = "a step that begins along a mode moves, by an implicit scheme";
+        findings.add(&at, message, "`dynamic = { scheme.newmark = {} }`");
+    }
+    match (count, kick.mode) {
+        (None, _) => findings.add(
+            &at,
+            "no modes are known: the step before has to look for them",
+            "put a step with `complex-modes = {}` between this one and the steady one",
+        ),
+        (Some(count), Some(mode)) if mode > count => findings.add(
+            &["step", i, "kick", "mode"],
+            format!("there is no mode {mode}: the step before looks for {count}"),
+            "",
+        ),
+        _ => {}
     }
 }
 
