@@ -20,6 +20,7 @@ macro_rules! every_example {
             closing_gaps = "closing-gaps",
             compliance_bar = "compliance-bar",
             compliance_impact = "compliance-impact",
+            disc_brake = "disc-brake",
             flat_punch = "flat-punch",
             forced_slider = "forced-slider",
             free_slider = "free-slider",
