@@ -476,3 +476,59 @@ fn a_sweep_that_is_complete_runs_nothing_and_one_that_lacks_rows_is_refused() {
         "{said}"
     );
 }
+
+/// A mass on a belt whose friction falls with speed, and a dashpot: below a speed of 0.1 ln 10 it does not slide steadily.
+#[test]
+fn the_speed_at_which_sliding_becomes_unstable_is_found_between_runs() {
+    let place = Place::new("critical");
+    place.write_case(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = { rigid = true, generate.rectangle = { from = [-0.5, 0], to = [0.5, 0.1], cells = [2, 2] }, material = "any" }
+material.any.isotropic = { young = 1e6, poisson = 0.0, density = 10.0 }
+set.centre = { of = "block", point = [0, 0.05] }
+obstacle.belt.plane = { point = [0, 0], normal = [0, 1] }
+interface.rub = { secondary = "block.bottom", primary = "belt", friction.exponential-decay = { static = 0.5, kinetic = 0.3, decay = 10 }, primary-velocity = [1, 0] }
+load.press = { set = "centre", nodal-force = { value = [0, -10] } }
+coupling.k.spring = { stiffness = 100.0, terms = [{ set = "centre", component = "x" }] }
+coupling.d.dashpot = { coefficient = 2.0, terms = [{ set = "centre", component = "x" }] }
+support.guide = { set = "block", hold = ["y"] }
+[[step]]
+supports = []
+steady = {}
+[[step]]
+complex-modes = { count = 1 }
+"#,
+    );
+    let axis = "interface.rub.primary-velocity.0=0.1..0.4:4";
+    let asked = [
+        "--set",
+        axis,
+        "--critical",
+        "MODES.GROWTH",
+        "--column",
+        "MODES.GROWTH",
+    ];
+    let output = place.sweep(&asked);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(
+        err(&output).contains("goes through zero"),
+        "{}",
+        err(&output)
+    );
+    let read = |name: &str| csv::read(&place.folder.join(name)).expect("a table");
+    assert_eq!(read("case.sweep.csv").rows(), 4);
+    let critical = read("case.sweep.critical.csv");
+    assert_eq!(critical.rows(), 1);
+    let hopf = 0.1 * 10.0_f64.ln();
+    let found = critical.columns[0][0];
+    assert!((found - hopf).abs() < 1e-7, "{found} is not {hopf}");
+    let unknown = place.sweep(&["--set", axis, "--critical", "GROWTH"]);
+    assert_eq!(unknown.status.code(), Some(1));
+    assert!(
+        err(&unknown).contains("no run has a column"),
+        "{}",
+        err(&unknown)
+    );
+}

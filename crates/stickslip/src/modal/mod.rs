@@ -23,7 +23,7 @@ pub(crate) mod real;
 pub(crate) mod sensitivity;
 pub(crate) mod shifted;
 
-pub use outcome::{Export, FrictionMap, MapRow, ModalOutcome, Mode, Sensitivity};
+pub use outcome::{Export, FIGURES, FrictionMap, MapRow, ModalOutcome, Mode, Sensitivity};
 
 use crate::error::RunError;
 use crate::model::contact::Contact;

@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+/// Names of growth and frequency of the mode that grows fastest, beside the last row of the history.
+pub const FIGURES: [&str; 2] = ["MODES.GROWTH", "MODES.FREQUENCY"];
+
 /// Modes about a state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]

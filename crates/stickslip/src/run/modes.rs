@@ -119,9 +119,11 @@ impl Simulation {
         self.frame.state.t = end;
         self.tell(observers, || Event::Modes(&outcome))?;
         if let Some(fastest) = chosen(&outcome, None) {
-            let last = &mut self.summary.last;
-            last.insert("MODES.GROWTH".into(), fastest.growth);
-            last.insert("MODES.FREQUENCY".into(), fastest.frequency);
+            let figures = modal::FIGURES.map(String::from).into_iter();
+            let size = fastest.growth.hypot(TAU * fastest.frequency);
+            let grows = fastest.growth.abs() > modal::quadratic::UNSTABLE * size;
+            let values = [if grows { fastest.growth } else { 0.0 }, fastest.frequency];
+            self.summary.last.extend(figures.zip(values));
         }
         self.summary.modes.push(outcome.figures());
         self.modes.push(outcome);

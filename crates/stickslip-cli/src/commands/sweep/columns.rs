@@ -2,6 +2,7 @@
 
 use stickslip::Error;
 use stickslip::error::RunError;
+use stickslip::modal::FIGURES;
 use stickslip::results::compare::near;
 use stickslip::results::{Analysis, Event, Observer};
 
@@ -41,7 +42,7 @@ impl<'a> Columns<'a> {
 }
 
 impl Observer for Columns<'_> {
-    fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
+    fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {
         let Event::Increment(row) = event else {
             return Ok(());
         };
@@ -49,8 +50,11 @@ impl Observer for Columns<'_> {
             return Ok(());
         }
         self.names = row.names.clone();
+        if analysis.view.model.steps.iter().any(|s| s.modal.is_some()) {
+            self.names.extend(FIGURES.map(String::from));
+        }
         let mut wanted = self.wanted.iter();
-        self.unknown = wanted.find(|name| !row.names.contains(name)).cloned();
+        self.unknown = wanted.find(|name| !self.names.contains(name)).cloned();
         match &self.unknown {
             None => Ok(()),
             Some(name) => Err(Error::Run(RunError {

@@ -2,6 +2,7 @@
 
 mod begun;
 mod columns;
+mod critical;
 mod effort;
 mod merge;
 mod one;
@@ -73,6 +74,10 @@ pub struct Arguments {
     /// A quantity of the history that the table shall have; all if not given. Can be repeated.
     #[arg(long = "column", value_name = "NAME")]
     column: Vec<String>,
+    /// Look for values of the last axis where a column goes through zero between two runs, such as MODES.GROWTH: more runs between them, and
+    /// a table TABLE.critical.csv.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["shard", "zip", "merge"])]
+    critical: Option<String>,
     /// The table, TABLE.csv; `<file>.sweep.csv` beside the file if not given. It is complete after every run. Shards are in `TABLE.shards`.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -208,6 +213,9 @@ fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
         effort.write()?;
         table.push(over.row)?;
     }
+    if let Some(quantity) = &arguments.critical {
+        all.find_critical(&table, quantity)?;
+    }
     begun.end();
     all.tell(&format!(
         "{} in {:.3} s, the first in {first:.3} s; table in {}",
@@ -311,6 +319,53 @@ impl Runs<'_> {
         if others {
             self.wanted = &[];
         }
+    }
+
+    /// Looks between the runs of a table for where a quantity goes through zero.
+    fn find_critical(&mut self, table: &Table, quantity: &str) -> Result<(), Failure> {
+        if !table
+            .rows()
+            .iter()
+            .any(|row| row.last.contains_key(quantity))
+        {
+            return Err(Failure::Arguments(
+                format!("--critical: no run has a column `{quantity}`"),
+                "the table has all columns that there are".into(),
+            ));
+        }
+        let axes: Vec<String> = self.plan.axes.iter().map(|a| a.path.clone()).collect();
+        let (last, others) = axes.split_last().expect("a sweep has an axis");
+        let mut found = Vec::new();
+        for bracket in critical::brackets(table.rows(), quantity) {
+            let chosen = others.iter().zip(&bracket.others);
+            let mut fixed = self.plan.fixed().to_vec();
+            fixed.extend(chosen.map(|(axis, value)| format!("{axis}={value}")));
+            let mut run = |value: f64| {
+                let mut overrides = fixed.clone();
+                overrides.push(format!("{last}={value:?}"));
+                let mut columns = Columns::new(&[]);
+                let ended = analyse(
+                    self.case.input(&overrides),
+                    None,
+                    &mut columns,
+                    &self.shared,
+                );
+                match ended.error {
+                    Some(error) => Err(error),
+                    None => Ok(ended.summary.and_then(|s| s.last.get(quantity).copied())),
+                }
+            };
+            let [value, there] = critical::narrow(&bracket, &mut run)?;
+            let mut all = bracket.others.clone();
+            all.push(format!("{value:.9}"));
+            self.tell(&format!(
+                "{quantity} goes through zero at {last} = {}",
+                all.join("  ")
+            ));
+            found.push((bracket.others, [value, there]));
+        }
+        let path = table.path.with_extension("critical.csv");
+        critical::write(&path, &axes, quantity, &found)
     }
 
     /// Makes a run, counted from 0.

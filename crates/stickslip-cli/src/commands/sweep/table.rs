@@ -181,6 +181,11 @@ impl Table {
         write_atomically(&self.path, (self.header() + &self.text).as_bytes())
     }
 
+    /// The rows so far.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
     /// Adds a row.
     pub fn add(&mut self, row: Row) {
         self.text += &self.line(self.rows.len(), &row);
@@ -215,7 +220,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
     cells.join(",") + "\n"
 }
 
-fn quoted(cell: String) -> String {
+pub fn quoted(cell: String) -> String {
     if cell.contains([',', '"', '\n', '\r', '#']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {
