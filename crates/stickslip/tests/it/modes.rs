@@ -368,7 +368,7 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
         simulation
     };
-    let fastest = run("amplitude = 1e-7");
+    let fastest = run("amplitude = 1e-4");
     let [told] = &fastest.summary.growth[..] else {
         panic!("{:?}", fastest.summary.growth);
     };
@@ -380,12 +380,9 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
     near(grown / (8.0 * told.growth).exp(), 1.0, 5e-3);
     let last = &fastest.summary.last;
     assert!(last["MODE.REST"] < 1e-3, "{last:?}");
-    // What the kick brought in is in the ledger.
+    // What the kick brought in is in the ledger, but for what it stored in the contact.
     let energy = &fastest.summary.energy;
-    assert!(
-        energy.residual.abs() < 1e-6 * energy.kinetic.max(energy.strain),
-        "{energy:?}"
-    );
+    assert!(energy.residual.abs() < 1e-5 * energy.friction, "{energy:?}");
     let modes = &fastest.modes[0].modes;
     let decaying = (0..modes.len()).min_by(|&a, &b| modes[a].growth.total_cmp(&modes[b].growth));
     let number = decaying.unwrap() + 1;
@@ -565,6 +562,7 @@ output.every = 0
 interface.rub = {{ secondary = "block.bottom", primary = "belt", normal.power-law = {{ c = 1.0, m = 2.0 }}, friction.coulomb = {{ mu = {mu} }}, primary-velocity = [1, 0] }}
 coupling.pull.spring = {{ stiffness = 50.0, terms = [{{ set = "centre", component = "x" }}] }}
 load.weight = {{ set = "centre", nodal-force = {{ value = [0, -1] }} }}
+solver.tolerance = 1e-13
 [[step]]
 steady = {{}}
 [[step]]
