@@ -39,6 +39,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Demo(commands::demo::Arguments),
+    New(commands::new::Arguments),
     Run(commands::run::Arguments),
     Resume(commands::resume::Arguments),
     Sweep(commands::sweep::Arguments),
@@ -73,6 +74,7 @@ pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = 
     };
     let outcome = match arguments.command {
         Command::Demo(arguments) => commands::demo::run(&arguments),
+        Command::New(arguments) => commands::new::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Resume(arguments) => commands::resume::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),

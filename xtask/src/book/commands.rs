@@ -6,13 +6,20 @@ use std::process::Command;
 
 /// The page, from what the binary says of itself.
 pub fn page(binary: &Path) -> Result<String, String> {
-    let all = help(binary, &[])?;
     let mut page = String::from(
         "# The command line\n\n<!-- Generated from `stickslip COMMAND --help` by `cargo xtask book`. -->\n\n",
     );
     page += "Results and listings go to standard output, progress and diagnostics to standard error. Exit codes: 0 done; 1 the input is wrong, or runs of a \
         sweep failed; 2 a check of `compare` or the quality gate fails, results are kept; 3 the analysis did not finish; 130 interrupted.\n";
-    section(&mut page, "stickslip", &all);
+    sections(&mut page, binary, &[])?;
+    Ok(page)
+}
+
+/// The help of a command, and of the commands within it.
+fn sections(page: &mut String, binary: &Path, command: &[&str]) -> Result<(), String> {
+    let all = help(binary, command)?;
+    let name = [&["stickslip"], command].concat().join(" ");
+    section(page, &name, &all);
     let names = all
         .lines()
         .skip_while(|line| !line.starts_with("Commands:"))
@@ -20,14 +27,10 @@ pub fn page(binary: &Path) -> Result<String, String> {
         .take_while(|line| !line.trim().is_empty());
     for name in names.filter_map(|line| line.split_whitespace().next()) {
         if name != "help" {
-            section(
-                &mut page,
-                &format!("stickslip {name}"),
-                &help(binary, &[name])?,
-            );
+            sections(page, binary, &[command, &[name]].concat())?;
         }
     }
-    Ok(page)
+    Ok(())
 }
 
 fn section(page: &mut String, title: &str, help: &str) {

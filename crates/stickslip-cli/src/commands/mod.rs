@@ -10,6 +10,7 @@ pub mod explain;
 pub mod friction;
 pub mod man;
 pub mod models;
+pub mod new;
 pub mod plot;
 pub mod report;
 pub mod resume;

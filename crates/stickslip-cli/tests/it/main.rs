@@ -15,6 +15,7 @@ mod engine;
 #[cfg(unix)]
 mod faults;
 mod given;
+mod new;
 mod progress;
 mod reports;
 mod runs;

@@ -1,0 +1,210 @@
+use std::f64::consts::TAU;
+
+use super::Target;
+use super::quantity;
+use super::written::{Written, fill, number};
+use crate::failure::Failure;
+use crate::style::digits;
+
+/// A mass on a moving belt, held by a spring, with more friction at rest than in motion: stick-slip.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Mass.
+    #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::mass, allow_hyphen_values = true)]
+    mass: f64,
+    /// Force that presses it on the belt.
+    #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::force, allow_hyphen_values = true)]
+    load: f64,
+    /// Stiffness of the spring.
+    #[arg(long, value_name = "FORCE/LENGTH", default_value = "100N/m", value_parser = quantity::line_load, allow_hyphen_values = true)]
+    stiffness: f64,
+    /// Velocity of the belt.
+    #[arg(long, value_name = "VELOCITY", default_value = "0.1m/s", value_parser = quantity::speed, allow_hyphen_values = true)]
+    speed: f64,
+    /// Coefficient of friction at rest.
+    #[arg(long = "static", value_name = "MU", default_value = "0.5", value_parser = quantity::friction)]
+    rest: f64,
+    /// Coefficient of friction in motion, lower than at rest.
+    #[arg(long, value_name = "MU", default_value = "0.3", value_parser = quantity::friction)]
+    kinetic: f64,
+    /// Cycles of stick and slip.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    cycles: u32,
+    #[command(flatten)]
+    pub(super) target: Target,
+}
+
+const PROBLEM: &str = include_str!("belt.toml");
+
+/// The closed solution: the mass sticks to the belt, lets go at `F_s/k`, and swings about `F_k/k` until its velocity is that of the belt again.
+struct Cycle {
+    /// `F_k/k` `[m]`.
+    middle: f64,
+    /// `(F_s - F_k)/k` `[m]`.
+    reach: f64,
+    /// `[rad/s]`
+    omega: f64,
+    /// `[s]`
+    stick: f64,
+    /// `[s]`
+    slip: f64,
+    /// Amplitude of the swing about `middle` `[m]`.
+    swing: f64,
+}
+
+impl Cycle {
+    fn of(a: &Arguments) -> Self {
+        let middle = a.kinetic * a.load / a.stiffness;
+        let reach = (a.rest - a.kinetic) * a.load / a.stiffness;
+        let omega = (a.stiffness / a.mass).sqrt();
+        let stick = 2.0 * reach / a.speed;
+        let slip = (TAU - 2.0 * (omega * reach / a.speed).atan()) / omega;
+        let swing = reach.hypot(a.speed / omega);
+        Cycle {
+            middle,
+            reach,
+            omega,
+            stick,
+            slip,
+            swing,
+        }
+    }
+}
+
+/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not.
+const UNEVEN: f64 = 200.0;
+
+/// The problem and what is expected of it.
+///
+/// # Errors
+/// Friction that does not fall, and times of stick and slip that are too far apart.
+pub fn write(a: &Arguments) -> Result<Written, Failure> {
+    if a.kinetic >= a.rest {
+        return Err(Failure::Arguments(
+            format!(
+                "friction of {} in motion is no less than {} at rest: the mass would come to rest in the belt's pull",
+                a.kinetic, a.rest
+            ),
+            "a `--kinetic` below `--static`".into(),
+        ));
+    }
+    let cycle = Cycle::of(a);
+    let period = TAU / cycle.omega;
+    if cycle.stick > UNEVEN * period {
+        return Err(Failure::Arguments(
+            format!(
+                "the mass would stick for {} s and slip for {} s: too far apart for increments of one size",
+                digits(cycle.stick, 3),
+                digits(cycle.slip, 3)
+            ),
+            format!(
+                "a belt that is faster than {} m/s, or a softer spring",
+                digits(2.0 * cycle.reach / (UNEVEN * period), 3)
+            ),
+        ));
+    }
+    let title = format!(
+        "a mass of {} kg on a belt at {} m/s, held by {} N/m",
+        digits(a.mass, 4),
+        digits(a.speed, 4),
+        digits(a.stiffness, 4)
+    );
+    let mut written = Written {
+        problem: problem(a, &cycle, &title),
+        title,
+        ..Written::default()
+    };
+    tell(&mut written, &cycle);
+    checks(&mut written, a, &cycle);
+    Ok(written)
+}
+
+fn tell(written: &mut Written, c: &Cycle) {
+    written.tell(
+        "sticks",
+        format!("for {} s    2 (F_s - F_k) / (k V)", digits(c.stick, 4)),
+    );
+    written.tell(
+        "slips",
+        format!(
+            "for {} s    (2 pi - 2 atan(w (F_s - F_k)/(k V))) / w, w = sqrt(k/m) = {} rad/s",
+            digits(c.slip, 4),
+            digits(c.omega, 4)
+        ),
+    );
+    written.tell(
+        "moves",
+        format!(
+            "between {} and {} m    F_k/k -+ sqrt(((F_s - F_k)/k)^2 + (V/w)^2)",
+            digits(c.middle - c.swing, 4),
+            digits(c.middle + c.swing, 4)
+        ),
+    );
+    written.tell(
+        "increments",
+        "1/300 of a period of the spring, shorter where it sticks or lets go".into(),
+    );
+}
+
+fn duration(a: &Arguments, c: &Cycle) -> f64 {
+    // It begins as it begins to stick, and ends in the middle of a stick.
+    f64::from(a.cycles) * (c.stick + c.slip) + 0.5 * c.stick
+}
+
+fn problem(a: &Arguments, c: &Cycle, title: &str) -> String {
+    let duration = duration(a, c);
+    let period = TAU / c.omega;
+    // Tolerances are relative to body and pressure: both are of a size that suits the motion.
+    let width = 50.0 * c.reach;
+    let pressure = a.load / width;
+    fill(
+        PROBLEM,
+        &[
+            ("title", title.to_string()),
+            ("half", number(0.5 * width)),
+            ("height", number(0.2 * width)),
+            ("young", number(1e5 * pressure)),
+            ("density", number(a.mass / (0.2 * width * width))),
+            ("static", number(a.rest)),
+            ("kinetic", number(a.kinetic)),
+            ("speed", number(a.speed)),
+            ("pressure", number(pressure)),
+            ("spring", number(0.5 * a.stiffness)),
+            ("start", number(c.middle - c.reach)),
+            ("press", number(1e-5 * period)),
+            ("duration", number(duration)),
+            ("part", number(period / 300.0 / duration)),
+            ("least", number(1e-6 * period / duration)),
+            ("event", number(1e-5 * period)),
+        ],
+    )
+}
+
+fn checks(written: &mut Written, a: &Arguments, c: &Cycle) {
+    for (what, reduce, value) in [
+        ("furthest downstream", "max", c.middle + c.swing),
+        ("furthest upstream", "min", c.middle - c.swing),
+    ] {
+        let relative = 1e-3 * c.swing / value.abs().max(1e-3 * c.swing);
+        written.check(what, "m.U1", value, relative, "closed form");
+        if let Some(check) = written.checks.last_mut() {
+            check.at += &format!("\nreduce = \"{reduce}\"");
+        }
+    }
+    let slips = f64::from(a.cycles);
+    let loss = slips * a.kinetic * a.load * (a.speed * c.slip + 2.0 * c.reach);
+    written.check(
+        "what friction takes",
+        "ALLFD",
+        loss,
+        2e-3,
+        "F_k (V T_slip + 2 (F_s - F_k)/k) a cycle",
+    );
+    written.check(
+        "it rides on the belt at the end",
+        "m.V1",
+        a.speed,
+        1e-2,
+        "half way through a stick",
+    );
+}
