@@ -9,10 +9,10 @@ use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::print;
 
-/// Make a picture of results, PNG or SVG: the bodies, what an interface carries, or columns of the history.
+/// Make a picture of results, PNG or SVG: the bodies, what an interface carries, columns of the history, or what the runs of a sweep do.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder with the results of a run.
+    /// The folder with the results of a run; with --regimes the table of a sweep.
     #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
@@ -66,6 +66,9 @@ pub struct Arguments {
     /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
     #[arg(long, value_name = "FILE", requires = "history")]
     table: Option<String>,
+    /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "body", "history"])]
+    regimes: Option<Pair>,
     /// The column along the horizontal axis.
     #[arg(
         long,
@@ -145,6 +148,19 @@ fn place(text: &str) -> Result<Place, String> {
     }
 }
 
+/// The names of two columns.
+#[derive(Debug, Clone)]
+struct Pair([String; 2]);
+
+fn pair(text: &str) -> Result<Pair, String> {
+    match text.split_once(',') {
+        Some((a, b)) if !a.trim().is_empty() && !b.trim().is_empty() => {
+            Ok(Pair([a, b].map(|t| t.trim().to_string())))
+        }
+        _ => Err("the names of two columns with a comma between them".into()),
+    }
+}
+
 fn size(text: &str) -> Result<[u32; 2], String> {
     let pair = text.split_once('x').and_then(|(w, h)| {
         let n = |t: &str| t.trim().parse().ok();
@@ -164,8 +180,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// The files that were written, and what is to be said about them.
 pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failure> {
-    given::results(&arguments.directory)?;
     let output = arguments.output.as_deref();
+    if let Some(Pair([across, up])) = &arguments.regimes {
+        // Elsewhere a table is a file by mistake.
+        if !arguments.directory.is_file() {
+            given::file(&arguments.directory, &["csv"])?;
+        }
+        let file = plot::regimes(&arguments.directory, output, [across, up], arguments.size)?;
+        return Ok((vec![file], Vec::new()));
+    }
+    given::results(&arguments.directory)?;
     if let Some(interface) = arguments
         .along
         .as_ref()

@@ -11,6 +11,7 @@ mod legend;
 mod marks;
 mod picture;
 mod raster;
+mod regimes;
 mod scene;
 mod words;
 mod zoom;
@@ -107,6 +108,23 @@ pub fn table(
     let mut canvas = canvas(&file, size)?;
     let table = (&table, name);
     history::draw(&results, table, names, against, size, canvas.as_mut())?;
+    write_atomically(&file, &canvas.finish())?;
+    Ok(file)
+}
+
+/// Draws what the runs of a sweep do, from its table, over two columns; returns the file written, beside the table if none is named.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such table or column, or the file cannot be written.
+pub fn regimes(
+    table: &Path,
+    file: Option<&Path>,
+    axes: [&str; 2],
+    size: [u32; 2],
+) -> Result<PathBuf, Error> {
+    let file = file.map_or_else(|| table.with_extension("png"), Path::to_path_buf);
+    let mut canvas = canvas(&file, size)?;
+    regimes::draw(table, axes, size, canvas.as_mut())?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
 }

@@ -1,0 +1,224 @@
+//! Maps of what the runs of a sweep do: all sticks, part of it slips, all slides, over two values that were varied.
+
+use std::path::Path;
+
+use stickslip::Error;
+use stickslip::io::csv::{self, Table};
+use stickslip::results::compare::near;
+
+use super::axis;
+use super::words::{INK, SOFT, shorten};
+use crate::colour::{self, NOTHING, Rgb};
+use crate::draw::{Anchor, Canvas, Pen, text_width};
+use crate::results::fault;
+
+/// What the points that touch do, and its colour. That of partial slip lies between those of stick and slip.
+const REGIMES: [(&str, Rgb); 4] = [
+    ("all sticks", colour::STATUSES[1].1),
+    ("part slips, the yellower the more", [240, 228, 66]),
+    ("all slides", colour::STATUSES[2].1),
+    ("open", [222, 226, 232]),
+];
+
+/// The number of a regime, and the part of the points that touch which slip.
+type Regime = (usize, f64);
+
+/// The regime of a run by how many points stick and slip; `None` where that is not known.
+fn regime(stick: f64, slip: f64) -> Option<Regime> {
+    if !(stick.is_finite() && slip.is_finite()) {
+        return None;
+    }
+    Some(match (stick > 0.0, slip > 0.0) {
+        (true, false) => (0, 0.0),
+        (true, true) => (1, slip / (stick + slip)),
+        (false, true) => (2, 1.0),
+        (false, false) => (3, 0.0),
+    })
+}
+
+/// Its colour: where part slips, from that of stick on, the more slips.
+fn shade(regime: Option<Regime>) -> Rgb {
+    match regime {
+        None => NOTHING,
+        Some((1, part)) => colour::along(&[REGIMES[0].1, REGIMES[1].1], part),
+        Some((number, _)) => REGIMES[number].1,
+    }
+}
+
+/// Values of an axis in increasing order, and where the cell of each begins and ends.
+struct Axis {
+    values: Vec<f64>,
+    edges: Vec<f64>,
+}
+
+impl Axis {
+    fn of(column: &[f64]) -> Option<Self> {
+        let mut values: Vec<f64> = column.iter().copied().filter(|v| v.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let (&first, &last) = (values.first()?, values.last()?);
+        let between = values.windows(2).map(|w| 0.5 * (w[0] + w[1]));
+        let mut edges = vec![first];
+        edges.extend(between);
+        edges.push(last);
+        let n = edges.len();
+        // The outermost cells are as wide as to the other side; a single value has a cell of any width.
+        let half = |a: f64, b: f64| if b > a { b - a } else { 0.5 * a.abs().max(1.0) };
+        let ends = [half(first, edges[1]), half(edges[n - 2], last)];
+        edges[0] -= ends[0];
+        edges[n - 1] += ends[1];
+        Some(Axis { values, edges })
+    }
+
+    fn cell(&self, value: f64) -> Option<[f64; 2]> {
+        let i = self.values.iter().position(|v| *v == value)?;
+        Some([self.edges[i], self.edges[i + 1]])
+    }
+
+    fn ends(&self) -> [f64; 2] {
+        [self.edges[0], self.edges[self.edges.len() - 1]]
+    }
+}
+
+/// A column of the table of a sweep, by its name or the end of it.
+fn column<'t>(file: &Path, table: &'t Table, name: &str) -> Result<(&'t str, &'t [f64]), Error> {
+    let ends = |n: &&String| *n == name || n.ends_with(&format!(".{name}"));
+    let exact = table.names.iter().find(|n| *n == name);
+    let found = exact.or_else(|| table.names.iter().find(ends));
+    let values = found.and_then(|n| Some((n.as_str(), table.column(n)?)));
+    values.ok_or_else(|| {
+        let names = table.names.iter().map(String::as_str);
+        let message = format!("there is no column `{name}`{}", near(name, names));
+        fault(file, message)
+    })
+}
+
+/// Draws the map of a table with the columns STICK and SLIP over two other columns.
+///
+/// # Errors
+/// [`Error::Io`] if the table cannot be read, lacks a column, or has no numbers in those of the axes.
+pub fn draw(
+    file: &Path,
+    [across, up]: [&str; 2],
+    size: [u32; 2],
+    canvas: &mut dyn Canvas,
+) -> Result<(), Error> {
+    let table = csv::read(file)?;
+    let of = |name: &str| column(file, &table, name);
+    let ((x_name, x), (y_name, y)) = (of(across)?, of(up)?);
+    let ((_, stick), (_, slip)) = (of("STICK")?, of("SLIP")?);
+    let axis = |name: &str, values: &[f64]| {
+        Axis::of(values).ok_or_else(|| fault(file, format!("the column `{name}` holds no numbers")))
+    };
+    let axes = [axis(x_name, x)?, axis(y_name, y)?];
+    let rows = x.iter().zip(y).zip(stick.iter().zip(slip));
+    let cells: Vec<([f64; 2], Option<Regime>)> = rows
+        .map(|((&x, &y), (&stick, &slip))| ([x, y], regime(stick, slip)))
+        .collect();
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    picture(&stem, [x_name, y_name], &axes, &cells, size, canvas);
+    Ok(())
+}
+
+fn picture(
+    title: &str,
+    names: [&str; 2],
+    axes: &[Axis; 2],
+    cells: &[([f64; 2], Option<Regime>)],
+    size: [u32; 2],
+    canvas: &mut dyn Canvas,
+) {
+    let [width, height] = size.map(f64::from);
+    let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
+    let margin = 1.6 * em;
+    let title = shorten(title, 1.35 * em, width - 2.0 * margin);
+    let at = [margin, 2.1 * em];
+    canvas.text(at, &title, 1.35 * em, Anchor::Start, INK, false);
+    legend([margin, 3.2 * em], cells, em, canvas);
+    let [[x0, x1], [y0, y1]] = [axes[0].ends(), axes[1].ends()];
+    let labels = axis::ticks(y0, y1, 8)
+        .into_iter()
+        .map(|t| (t, axis::number(t, 4)));
+    let labels: Vec<(f64, String)> = labels.collect();
+    let widest = labels.iter().map(|(_, text)| text_width(text, em));
+    let left = margin + 2.0 * em + widest.fold(0.0, f64::max);
+    let (top, right, bottom) = (5.6 * em, width - margin, height - 4.2 * em);
+    let px = |v: f64| left + (v - x0) / (x1 - x0) * (right - left);
+    let py = |v: f64| bottom - (v - y0) / (y1 - y0) * (bottom - top);
+    for (place, regime) in cells {
+        let Some([cx, cy]) = axes[0]
+            .cell(place[0])
+            .zip(axes[1].cell(place[1]))
+            .map(|(a, b)| [a, b])
+        else {
+            continue;
+        };
+        let colour = shade(*regime);
+        let (from, to) = ([px(cx[0]), py(cy[1])], [px(cx[1]), py(cy[0])]);
+        // A hair of white between cells, so that they can be counted.
+        canvas.rectangle(from, [to[0] - from[0] - 1.0, to[1] - from[1] - 1.0], colour);
+    }
+    for (tick, label) in &labels {
+        let at = [left - 0.6 * em, py(*tick) + 0.36 * em];
+        canvas.text(at, label, em, Anchor::End, SOFT, false);
+    }
+    for tick in axis::ticks(x0, x1, 8) {
+        let at = [px(tick), bottom + 1.5 * em];
+        canvas.text(at, &axis::number(tick, 4), em, Anchor::Middle, SOFT, false);
+    }
+    canvas.line(
+        &[[left, top], [left, bottom], [right, bottom]],
+        Pen::new(SOFT, 0.1 * em),
+    );
+    let at = [(left + right) / 2.0, bottom + 3.2 * em];
+    canvas.text(at, names[0], 1.05 * em, Anchor::Middle, INK, false);
+    let at = [margin + 0.4 * em, (top + bottom) / 2.0];
+    canvas.text(at, names[1], 1.05 * em, Anchor::Middle, INK, true);
+}
+
+/// What the colours mean, and how many runs have each.
+fn legend(at: [f64; 2], cells: &[([f64; 2], Option<Regime>)], em: f64, canvas: &mut dyn Canvas) {
+    let number = |r: &Option<Regime>| r.map(|(number, _)| number);
+    let count = |wanted| cells.iter().filter(|(_, r)| number(r) == wanted).count();
+    let regimes = REGIMES.iter().enumerate();
+    let all = regimes.map(|(i, (name, colour))| (*name, *colour, count(Some(i))));
+    let mut x = at[0];
+    for (name, colour, count) in all.chain([("not known", NOTHING, count(None))]) {
+        if count == 0 {
+            continue;
+        }
+        let text = format!("{name} ({count})");
+        canvas.rectangle([x, at[1]], [em, em], colour);
+        let place = [x + 1.5 * em, at[1] + 0.85 * em];
+        canvas.text(place, &text, em, Anchor::Start, INK, false);
+        x += 3.0 * em + text_width(&text, em);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_meet_half_way_between_values() {
+        let axis = Axis::of(&[2.0, 1.0, 4.0, 2.0, f64::NAN]).expect("numbers");
+        assert_eq!(axis.cell(1.0), Some([0.5, 1.5]));
+        assert_eq!(axis.cell(2.0), Some([1.5, 3.0]));
+        assert_eq!(axis.ends(), [0.5, 5.0]);
+        assert!(Axis::of(&[f64::NAN]).is_none());
+        assert!(Axis::of(&[3.0]).is_some_and(|a| a.ends()[0] < 3.0));
+    }
+
+    #[test]
+    fn runs_are_told_apart_by_what_their_points_do() {
+        let found = [
+            (3.0, 0.0),
+            (3.0, 1.0),
+            (0.0, 2.0),
+            (0.0, 0.0),
+            (f64::NAN, 0.0),
+        ];
+        let found = found.map(|(stick, slip)| regime(stick, slip));
+        assert_eq!(found, [Some(0), Some(1), Some(2), Some(3), None]);
+    }
+}
