@@ -106,7 +106,7 @@ fn demanded(name: &str) -> (f64, bool) {
         // Multipliers of `fretting-wear` settle to the `error` of its enforcement, not to rounding.
         "closing-gaps" | "fretting-wear" => (1e-7, false),
         // What is in balance to the default tolerance agrees to that.
-        "shear-lag" | "lug" => (1e-8, false),
+        "shear-lag" | "lug" | "coated-flat" => (1e-8, false),
         _ => (1e-9, false),
     }
 }

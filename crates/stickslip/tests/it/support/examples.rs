@@ -19,6 +19,7 @@ macro_rules! every_example {
             bouncing_bar = "bouncing-bar",
             braking_block = "braking-block",
             closing_gaps = "closing-gaps",
+            coated_flat = "coated-flat",
             compliance_bar = "compliance-bar",
             compliance_impact = "compliance-impact",
             disc_brake = "disc-brake",
