@@ -3,7 +3,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::map::HeightMap;
-use super::model::{Heights, RoughnessModel, positive};
+use super::model::{Figures, Relief, RoughnessModel, positive};
+use super::statistics::Statistics;
 use super::{csv, sdf};
 use crate::error::{Error, IoError};
 use crate::io::input;
@@ -105,8 +106,8 @@ impl Measured {
 }
 
 impl RoughnessModel for Measured {
-    fn heights(&self, folder: &Path, profile: bool) -> Result<Box<dyn Heights>, Error> {
-        let (map, _) = self.map(folder)?;
+    fn heights(&self, folder: &Path, profile: bool) -> Result<Relief, Error> {
+        let (map, holes) = self.map(folder)?;
         if profile && map.rows > 1 {
             let message = format!(
                 "it is a map of {} lines; a plane model takes a profile",
@@ -115,7 +116,17 @@ impl RoughnessModel for Measured {
             let file = folder.join(&self.file);
             return Err(Error::Io(IoError { file, message }));
         }
-        Ok(Box::new(map))
+        let (columns, rows) = (map.columns, map.rows);
+        let figures = Figures {
+            columns,
+            rows,
+            holes,
+            statistics: Statistics::of(columns, rows, map.spacing, &map.heights),
+        };
+        Ok(Relief {
+            measured: Some(figures),
+            ..Relief::from(map)
+        })
     }
 
     fn faults(&self, _: usize) -> Vec<(&'static str, String)> {

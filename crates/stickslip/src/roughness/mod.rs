@@ -12,7 +12,7 @@ mod wave;
 
 pub use map::HeightMap;
 pub use measured::{Measured, Tilt};
-pub use model::{Heights, RoughnessModel};
+pub use model::{Figures, Heights, Relief, RoughnessModel};
 pub use self_affine::SelfAffine;
 pub use statistics::Statistics;
 pub use wave::Wave;

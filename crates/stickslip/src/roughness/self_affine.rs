@@ -3,7 +3,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Heights, RoughnessModel, positive};
+use super::model::{Heights, Relief, RoughnessModel, positive};
 use super::random::Random;
 use crate::error::Error;
 use crate::registry::Samples;
@@ -133,8 +133,8 @@ impl Heights for Waves {
 }
 
 impl RoughnessModel for SelfAffine {
-    fn heights(&self, _: &Path, profile: bool) -> Result<Box<dyn Heights>, Error> {
-        Ok(Box::new(self.waves(profile)))
+    fn heights(&self, _: &Path, profile: bool) -> Result<Relief, Error> {
+        Ok(self.waves(profile).into())
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
@@ -208,7 +208,10 @@ mod tests {
                 slope: Some(0.2),
                 seed: 5,
             };
-            let heights = surface.heights(Path::new(""), profile).expect("heights");
+            let heights = surface
+                .heights(Path::new(""), profile)
+                .expect("heights")
+                .heights;
             let rows = if profile { 1 } else { n };
             let h = 2.0 / n as f64;
             let at =
@@ -258,7 +261,10 @@ mod tests {
             let far = heights.at([0.3 + 4.0, 0.7 - 2.0]).expect("a height");
             assert!((far - heights.at([0.3, 0.7]).expect("a height")).abs() < 1e-9);
             let other = SelfAffine { seed: 6, ..surface };
-            let other = other.heights(Path::new(""), profile).expect("heights");
+            let other = other
+                .heights(Path::new(""), profile)
+                .expect("heights")
+                .heights;
             assert!((other.at([0.3, 0.7]).expect("a height") - far).abs() > 1e-3 * figures.rq);
         }
     }

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Heights, RoughnessModel, positive};
+use super::model::{Heights, Relief, RoughnessModel, positive};
 use crate::error::Error;
 use crate::registry::Samples;
 
@@ -32,8 +32,8 @@ impl Heights for Wave {
 }
 
 impl RoughnessModel for Wave {
-    fn heights(&self, _: &Path, _: bool) -> Result<Box<dyn Heights>, Error> {
-        Ok(Box::new(self.clone()))
+    fn heights(&self, _: &Path, _: bool) -> Result<Relief, Error> {
+        Ok(self.clone().into())
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

@@ -7,7 +7,7 @@ use super::fault::problem_error;
 use crate::contact::interface::Interface;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, sub};
-use crate::roughness::{Measured, RoughnessKind, Statistics};
+use crate::roughness::Figures;
 
 /// Cosine of the angle between an axis and the normal from which on the axis is none of the surface.
 const ACROSS: f64 = 0.9;
@@ -28,9 +28,9 @@ pub(super) fn apply(
             continue;
         };
         let profile = interface.dofs.dim == 2;
-        let heights = roughness.kind.as_dyn().heights(folder, profile)?;
+        let relief = roughness.kind.as_dyn().heights(folder, profile)?;
         let places = places(roughness, interface);
-        let found: Vec<Option<f64>> = places.iter().map(|&p| heights.at(p)).collect();
+        let found: Vec<Option<f64>> = places.iter().map(|&p| relief.heights.at(p)).collect();
         let beyond = found.iter().filter(|h| h.is_none()).count();
         if beyond > 0 {
             let key = format!("interface.{}.roughness", interface.name);
@@ -45,26 +45,25 @@ pub(super) fn apply(
         }
         interface.relief = found.into_iter().flatten().collect();
         notes.push(note(interface));
-        if let RoughnessKind::Measured(measured) = &roughness.kind {
-            notes.push(figures(&interface.name, measured, folder)?);
+        if let Some(measured) = &relief.measured {
+            notes.push(figures(&interface.name, measured));
         }
     }
     Ok(notes)
 }
 
 /// What is known of a measured surface, in the words of who measures and of the law that takes it as a statistic.
-fn figures(name: &str, measured: &Measured, folder: &Path) -> Result<String, Error> {
-    let (map, holes) = measured.map(folder)?;
-    let s = Statistics::of(map.columns, map.rows, map.spacing, &map.heights);
+fn figures(name: &str, map: &Figures) -> String {
+    let s = &map.statistics;
     let [density, radius, bandwidth] = s.summits().unwrap_or_default();
-    let holes = match holes {
+    let holes = match map.holes {
         0 => String::new(),
         n => format!("; {n} points had not been measured"),
     };
-    Ok(format!(
+    format!(
         "interface {name}: the map of {} by {} points has Sq {:.3e}, Sa {:.3e}, skewness {:.2}, kurtosis {:.2}, Sdq {:.3e}, {density:.3e} summits of radius {radius:.3e} an area, bandwidth {bandwidth:.3}; as a statistic it is normal.micro-contact with sigma = {:.4e}, slope = {:.4e}{holes}",
         map.columns, map.rows, s.rq, s.ra, s.skewness, s.kurtosis, s.slope, s.rq, s.mean_slope
-    ))
+    )
 }
 
 fn note(interface: &Interface) -> String {
