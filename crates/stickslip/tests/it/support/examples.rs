@@ -10,6 +10,7 @@ macro_rules! every_example {
             mindlin_sphere = "mindlin-sphere",
             fretting_sphere = "fretting-sphere",
             fretting_wear = "fretting-wear",
+            rough_block = "rough-block",
             running_condition = "running-condition",
             belt_block = "belt-block",
             belt_mass = "belt-mass",
