@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
-use super::Target;
 use super::quantity;
+use super::target::Target;
 use super::written::{Written, fill, number};
 use crate::failure::Failure;
 use crate::style::digits;

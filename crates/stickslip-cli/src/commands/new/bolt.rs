@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
-use super::Target;
 use super::quantity;
+use super::target::Target;
 use super::written::{MM, MPA, Written, fill, number};
 use crate::failure::Failure;
 use crate::style::digits;

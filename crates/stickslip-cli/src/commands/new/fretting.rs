@@ -1,9 +1,10 @@
 use std::f64::consts::PI;
 
+use super::grid;
 use super::hertz::{Hertz, Materials, Shape};
 use super::quantity;
+use super::target::Target;
 use super::written::{MM, MPA, Written, fill, number};
-use super::{Target, grid};
 use crate::failure::Failure;
 use crate::style::digits;
 

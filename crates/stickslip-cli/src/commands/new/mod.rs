@@ -7,6 +7,7 @@ mod grid;
 mod hertz;
 mod quantity;
 mod round;
+mod target;
 mod written;
 
 use std::path::{Path, PathBuf};
@@ -41,14 +42,6 @@ enum Kind {
     Fretting(fretting::Arguments),
     Bolt(bolt::Arguments),
     Belt(belt::Arguments),
-}
-
-/// Where it is written to.
-#[derive(Debug, clap::Args)]
-struct Target {
-    /// The problem file to write; what is expected goes beside it, to NAME.expected.toml. Default: the name of the kind.
-    #[arg(short, long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
-    output: Option<PathBuf>,
 }
 
 /// Writes the files and tells what is expected.

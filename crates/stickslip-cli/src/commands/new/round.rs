@@ -1,7 +1,8 @@
+use super::grid;
 use super::hertz::{Hertz, Materials, Shape};
 use super::quantity::{self, Load};
+use super::target::Target;
 use super::written::{MM, MPA, Written, fill, number};
-use super::{Target, grid};
 use crate::failure::Failure;
 use crate::style::digits;
 
