@@ -146,9 +146,8 @@ fn of(text: &str, (name, wanted, such): Kind) -> Result<f64, String> {
 
 /// Where the number at the start of a text ends: the longest start that is one.
 fn number_ends(text: &str) -> usize {
-    let ends = text.char_indices().map(|(i, c)| i + c.len_utf8());
-    ends.filter(|&end| text[..end].parse::<f64>().is_ok())
-        .last()
+    let mut ends = text.char_indices().map(|(i, c)| i + c.len_utf8());
+    ends.rfind(|&end| text[..end].parse::<f64>().is_ok())
         .unwrap_or(0)
 }
 
