@@ -218,7 +218,7 @@ mod tests {
             (0.0, 0.0),
             (f64::NAN, 0.0),
         ];
-        let found = found.map(|(stick, slip)| regime(stick, slip));
+        let found = found.map(|(stick, slip)| Some(regime(stick, slip)?.0));
         assert_eq!(found, [Some(0), Some(1), Some(2), Some(3), None]);
     }
 }
