@@ -103,10 +103,10 @@ fn demanded(name: &str) -> (f64, bool) {
         // A disc that could roll but for a holder: its reactions balance those of the flat to 6e-11 with the sparse matrix, to 6e-7 where it is condensed.
         "running-condition" => (1e-6, false),
         // Followed bodies are at rest when their anchors carry less than 1e-8 of the load.
-        // Multipliers of `fretting-wear` settle to the `error` of its enforcement, not to rounding.
-        "closing-gaps" | "fretting-wear" => (1e-7, false),
+        // Multipliers of the others settle to the `error` of their enforcement, not to rounding.
+        "closing-gaps" | "fretting-wear" | "coated-flat" => (1e-7, false),
         // What is in balance to the default tolerance agrees to that.
-        "shear-lag" | "lug" | "coated-flat" => (1e-8, false),
+        "shear-lag" | "lug" => (1e-8, false),
         _ => (1e-9, false),
     }
 }

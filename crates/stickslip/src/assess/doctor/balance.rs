@@ -35,7 +35,7 @@ pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
     let held = view.constraints(t).fixed;
     let loads = view.loads(t);
     let scale_of_loads = vector::norm(&loads);
-    for body in &model.bodies {
+    for (index, body) in model.bodies.iter().enumerate() {
         let mut dofs: Vec<usize> =
             (model.dofs.of(body.points.start, 0)..model.dofs.of(body.points.end, 0)).collect();
         if let Some(rigid) = body.rigid {
@@ -43,6 +43,10 @@ pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
             let link = &model.links.all()[rigid.link];
             dofs = link.motions(model.dofs).iter().map(|m| m.0).collect();
         }
+        // What holds or loads a reference point that is tied to it does so to the body.
+        let own = model.references.iter().filter(|r| r.body == Some(index));
+        let own = own.map(|r| &model.links.all()[r.link]);
+        dofs.extend(own.flat_map(|link| link.motions(model.dofs)).map(|m| m.0));
         let sprung = model.springs.iter().flat_map(|s| s.entries());
         let sprung = sprung
             .into_iter()
