@@ -179,7 +179,7 @@ impl Kick {
         let right = [0, 1].map(|i| square * along(shown[i], x) + along(speeds[i], v));
         let [a, b, d] = [gram(0, 0), gram(0, 1), gram(1, 1)];
         let determinant = a * d - b * b;
-        if !(determinant > 0.0) {
+        if determinant <= 0.0 || !determinant.is_finite() {
             return Share::default();
         }
         let c = [
