@@ -161,6 +161,7 @@ fn interface(
         kinematics,
         belt: Vec::new(),
         schedule: Schedule::always(),
+        frames: Default::default(),
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),

@@ -121,6 +121,16 @@ fn shortened(name: &str) -> &'static [&'static str] {
         // The ways back and forth are the way out again, twice as long.
         "fretting-sphere" => &["step.2.increments.fixed=8", "step.3.increments.fixed=8"],
         "fretting-wear" => &["step.2.cycles.count=200"],
+        "gear-pair" => &[
+            "step.2.increments.fixed=3",
+            "amplitude.drive.table=[[0,0],[1,9.25e-4],[2,0.059829861307179586]]",
+            "amplitude.driven.table=[[0,0],[1,0],[2,0.039269908169872414]]",
+        ],
+        "rolling-wheel" => &[
+            "step.3.increments.fixed=5",
+            "amplitude.way.table=[[0,0],[2,0],[3,0.0833]]",
+            "amplitude.turn.table=[[0,0],[1,0],[2,0.0016],[3,0.01417]]",
+        ],
         "press-and-slide" => &[
             "body.lower.generate.box.cells=[8,8,8]",
             "body.upper.generate.box.cells=[7,7,7]",

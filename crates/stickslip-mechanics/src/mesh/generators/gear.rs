@@ -211,7 +211,7 @@ impl Generate for Gear {
         }
         .lattice(polar)?;
         lattice.name_facets("bore", |k| k[1] == 0);
-        let gap = |k: &Key| k[0] % (2 * pitch) == 0 || k[0] % (2 * pitch) >= 2 * tooth;
+        let gap = |k: &Key| k[0].is_multiple_of(2 * pitch) || k[0] % (2 * pitch) >= 2 * tooth;
         lattice.name_facets("teeth", |k| {
             k[1] == 2 * (rim + flank) || k[1] >= 2 * rim && gap(k)
         });
