@@ -45,6 +45,23 @@ impl External {
         if !case.named("mass").is_empty() {
             return Err("point masses".into());
         }
+        if case
+            .named("body")
+            .iter()
+            .any(|(_, b)| b.contains_key("rotation"))
+        {
+            return Err("bodies that turn by any angle".into());
+        }
+        let unknown = ["wear", "roughness"];
+        let interfaces = case.named("interface");
+        let mut found = unknown
+            .iter()
+            .filter(|key| interfaces.iter().any(|(_, i)| i.contains_key(**key)));
+        if let Some(key) = found.next() {
+            return Err(format!(
+                "interfaces with `{key}`, whose gaps are not known here"
+            ));
+        }
         Ok(External {
             loads: of_loads,
             grounded,
