@@ -40,11 +40,14 @@ impl Simulation {
         let Some(plan) = self.model.steps[step].kick else {
             return Ok(None);
         };
-        let before = &self.model.steps[step - 1];
+        let Some(previous) = step.checked_sub(1) else {
+            return Ok(None);
+        };
+        let before = &self.model.steps[previous];
         let outcome = match (self.modes.last(), before.modal.clone()) {
             (Some(known), _) if known.step == before.name => known.clone(),
             (_, Some(modal)) => {
-                self.begin_sliding(step - 1);
+                self.begin_sliding(previous);
                 self.modes_about(&modal)?
             }
             (_, None) => return Ok(None),

@@ -448,6 +448,12 @@ fn what_bodies_that_turn_cannot_do_is_said_at_its_key() {
             "multigrid does not know",
         ),
         (
+            format!(
+                "{step}body.wall = {{ generate.rectangle = {{ from = [0, 1], to = [1, 2], cells = [2, 2] }}, material = \"steel\" }}\nsupport.wall = {{ set = \"wall.top\", x = 0, y = 0 }}\ninterface.joint = {{ secondary = \"wall.bottom\", primary = \"block.top\", kinematics.small-sliding = {{}} }}"
+            ),
+            "pairs are those of the start",
+        ),
+        (
             format!("{step}load.spring = {{ set = \"block.top\", spring.stiffness = [1, 1] }}"),
             "would turn with this body",
         ),

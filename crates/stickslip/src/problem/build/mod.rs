@@ -203,7 +203,7 @@ impl Problem {
         let held = mirrors::Held::new(&links, dofs, &supports, space);
         let mut interfaces =
             contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
-        turning::attach(&frames, &mut interfaces);
+        turning::attach(&frames, &mut interfaces)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;

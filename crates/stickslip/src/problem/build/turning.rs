@@ -28,13 +28,26 @@ pub(super) fn frames(problem: &Problem, sets: &Sets, bodies: &[Body], links: &Li
 }
 
 /// Tells the interfaces that bodies which turn take part in.
-pub(super) fn attach(frames: &Arc<BodyFrames>, interfaces: &mut [Interface]) {
+pub(super) fn attach(frames: &Arc<BodyFrames>, interfaces: &mut [Interface]) -> Result<(), Error> {
     for interface in interfaces {
         let mut nodes = interface.nodes.iter();
-        if nodes.any(|&n| frames.of_point(n).is_some()) {
-            interface.frames = Arc::clone(frames);
+        if nodes.all(|&n| frames.of_point(n).is_none()) {
+            continue;
         }
+        if interface.kinematics.as_dyn().frozen() {
+            let message =
+                "pairs are those of the start, and a body of this interface turns by any angle";
+            let key = format!("interface.{}.kinematics", interface.name);
+            let finding = Diagnostic::new(key, message).help("leave the key out");
+            return Err(problem_error(vec![finding]));
+        }
+        // A plane in which supports hold points goes with them.
+        for point in &mut interface.points {
+            point.across = Default::default();
+        }
+        interface.frames = Arc::clone(frames);
     }
+    Ok(())
 }
 
 /// What bodies that turn cannot bear.
