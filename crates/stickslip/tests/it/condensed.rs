@@ -122,12 +122,12 @@ fn shortened(name: &str) -> &'static [&'static str] {
         "fretting-sphere" => &["step.2.increments.fixed=8", "step.3.increments.fixed=8"],
         "fretting-wear" => &["step.2.cycles.count=200"],
         "gear-pair" => &[
-            "step.2.increments.fixed=3",
+            "step.1.increments.fixed=3",
             "amplitude.drive.table=[[0,0],[1,9.25e-4],[2,0.059829861307179586]]",
             "amplitude.driven.table=[[0,0],[1,0],[2,0.039269908169872414]]",
         ],
         "rolling-wheel" => &[
-            "step.3.increments.fixed=5",
+            "step.2.increments.fixed=5",
             "amplitude.way.table=[[0,0],[2,0],[3,0.0833]]",
             "amplitude.turn.table=[[0,0],[1,0],[2,0.0016],[3,0.01417]]",
         ],
