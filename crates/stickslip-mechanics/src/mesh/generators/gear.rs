@@ -2,6 +2,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::annulus::{Annulus, positive, some};
 use super::generate::Generate;
+use super::grading::affordable;
 use super::lattice::Key;
 use super::rectangle::quad4;
 use crate::error::MeshError;
@@ -121,6 +122,12 @@ impl Gear {
             ("cells across a tooth", tooth),
             ("cells across a gap", gap),
             ("cells of the rim", rim),
+        ])?;
+        // Before room is made for them.
+        affordable(&[
+            self.teeth,
+            tooth.saturating_add(gap),
+            flank.saturating_add(rim),
         ])?;
         let fault = |message: String, help: &str| Err(MeshError::new(message).help(help));
         if self.teeth < 5 {

@@ -2,6 +2,7 @@ use std::f64::consts::TAU;
 
 use super::annulus::{Annulus, positive, some};
 use super::generate::Generate;
+use super::grading::affordable;
 use super::rectangle::quad4;
 use crate::error::MeshError;
 use crate::mesh::Mesh;
@@ -45,6 +46,7 @@ impl Generate for Ring {
             ("ratio", self.ratio),
         ])?;
         some(&[("cells across", across)])?;
+        affordable(&self.cells)?;
         if around < 3 {
             return Err(
                 MeshError::new(format!("{around} cells do not go round a circle"))

@@ -519,5 +519,6 @@ fn flanks_of_gears_are_involutes() {
     assert!(bad(|g| g.bore = 0.02).contains("reaches the root circle"));
     assert!(bad(|g| g.addendum = 5.0).contains("ends in a point"));
     assert!(bad(|g| g.cells = [0, 1, 1, 1]).contains("no cells"));
+    assert!(!bad(|g| g.teeth = usize::MAX / 2).is_empty());
     assert!(bad(|g| g.backlash = f64::INFINITY).contains("heights"));
 }
