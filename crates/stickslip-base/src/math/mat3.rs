@@ -49,6 +49,31 @@ pub fn inverse(m: &Mat3) -> Option<(Mat3, f64)> {
     ))
 }
 
+/// Most iterations of the polar decomposition; a handful is enough for all that is not crushed.
+const MOST_ITERATIONS: usize = 60;
+
+/// The rotation in the polar decomposition of a matrix, by Newton's method `R ← (R + R⁻ᵀ) / 2`
+/// ([`higham_1986`](crate::references::higham_1986)); `None` where it mirrors or is singular.
+pub fn polar_rotation(m: &Mat3) -> Option<Mat3> {
+    let mut r = *m;
+    for _ in 0..MOST_ITERATIONS {
+        let (back, determinant) = inverse(&r)?;
+        if determinant <= 0.0 {
+            return None;
+        }
+        let next: Mat3 =
+            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (r[i][j] + back[j][i])));
+        let change = next.as_flattened().iter().zip(r.as_flattened());
+        let change = change.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        r = next;
+        // Quadratically: the next change is of the size of rounding.
+        if change < 1e-12 {
+            break;
+        }
+    }
+    Some(r)
+}
+
 /// The rotation by `angle` `[rad]` about the unit vector `axis` (Rodrigues' formula).
 pub fn rotation(axis: Vec3, angle: f64) -> Mat3 {
     let (s, c) = angle.sin_cos();

@@ -7,7 +7,9 @@ mod vec3;
 pub mod vector;
 
 pub use eigen::symmetric_eigen;
-pub use mat3::{Mat3, determinant, identity, inverse, mat_vec, outer, rotation, transpose_vec};
+pub use mat3::{
+    Mat3, determinant, identity, inverse, mat_vec, outer, polar_rotation, rotation, transpose_vec,
+};
 pub use nonnegative::rest_of_nonnegative;
 pub use vec3::{Vec3, add, add_scaled, angle, cross, distance, dot, norm, normalize, scale, sub};
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::geometry::{Table, by_nodes, coordinates, point};
 use super::{Elastic, Part};
-use crate::math::{Mat3, Vec3, identity, inverse, norm};
+use crate::math::{Mat3, Vec3, identity, norm, polar_rotation};
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
 
@@ -21,9 +21,6 @@ pub struct Turning {
 
 /// Cells that one thread looks at together. Fixed, so that sums do not depend on the number of threads.
 const CHUNK: usize = 512;
-
-/// Iterations of the polar decomposition; it converges quadratically.
-const MOST_ITERATIONS: usize = 60;
 
 /// What some cells have in common: the integral of the displacement gradient, their volume, and the one that has turned most.
 struct Sum {
@@ -127,25 +124,11 @@ fn axial(m: &Mat3) -> Vec3 {
     ]
 }
 
-/// The angle of the orthogonal factor of `1 + H`, by Newton's method for the polar decomposition `R ← (R + R⁻ᵀ) / 2`
-/// ([`higham_1986`](stickslip_base::references::higham_1986)); `None` where `1 + H` turns cells inside out.
+/// The angle of the orthogonal factor of `1 + H`; `None` where that turns cells inside out.
 fn polar(h: &Mat3) -> Option<f64> {
     let unit = identity();
-    let mut r: Mat3 = std::array::from_fn(|i| std::array::from_fn(|j| unit[i][j] + h[i][j]));
-    for _ in 0..MOST_ITERATIONS {
-        let (inverse, determinant) = inverse(&r)?;
-        if determinant <= 0.0 {
-            return None;
-        }
-        let next: Mat3 =
-            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (r[i][j] + inverse[j][i])));
-        let change = next.as_flattened().iter().zip(r.as_flattened());
-        let change = change.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        r = next;
-        if change < 1e-12 {
-            break;
-        }
-    }
+    let f: Mat3 = std::array::from_fn(|i| std::array::from_fn(|j| unit[i][j] + h[i][j]));
+    let r = polar_rotation(&f)?;
     let cosine = 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0);
     Some(norm(axial(&r)).atan2(cosine))
 }

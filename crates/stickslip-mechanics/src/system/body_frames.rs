@@ -21,17 +21,39 @@ use crate::math::{
     transpose_vec,
 };
 
-/// A body that is described in the frame that a reference point carries.
+/// A body that is described in a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyFrame {
     /// Its points.
     pub points: Range<usize>,
-    /// The hidden points of the reference point, as those of its link.
-    pub hidden: usize,
-    /// Where the reference point is at first `[m]`.
-    pub centre: Vec3,
-    /// The length that rotations are multiplied by `[m]`.
-    pub length: f64,
+    /// What the frame goes with.
+    pub carrier: Carrier,
+}
+
+/// What the frame of a body goes with.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Carrier {
+    /// A reference point: its motion is among the unknowns.
+    Reference {
+        /// Its hidden points, as those of its link.
+        hidden: usize,
+        /// Where it is at first `[m]`.
+        centre: Vec3,
+        /// The length that rotations are multiplied by `[m]`.
+        length: f64,
+    },
+    /// Nothing: it stands still there. Bodies that turn freely ([`Corotations`](super::Corotations)) are seen from such frames for an increment.
+    Still(FramePose),
+}
+
+impl BodyFrame {
+    /// The hidden points of the reference point that carries it, if one does.
+    pub fn hidden(&self) -> Option<usize> {
+        match self.carrier {
+            Carrier::Reference { hidden, .. } => Some(hidden),
+            Carrier::Still(_) => None,
+        }
+    }
 }
 
 /// Where a frame is.
@@ -48,6 +70,16 @@ pub struct FramePose {
 }
 
 impl FramePose {
+    /// Of a frame that stands still, turned about the place `centre`, which is at `now` in space.
+    pub fn still(turn: Mat3, centre: Vec3, now: Vec3) -> Self {
+        FramePose {
+            turn,
+            centre,
+            now,
+            spin: [[0.0; 3]; 3],
+        }
+    }
+
     /// The same with places counted from there.
     #[must_use]
     pub fn counted_from(self, origin: Vec3) -> Self {
@@ -120,7 +152,7 @@ impl BodyFrames {
 
     /// Whether a hidden point, or the one after it, is that of a frame.
     pub fn carries(&self, link: &Link) -> bool {
-        self.all.iter().any(|f| f.hidden == link.hidden)
+        self.all.iter().any(|f| f.hidden() == Some(link.hidden))
     }
 
     /// Where the frames are, at the displacements `u` by dof.
@@ -129,7 +161,15 @@ impl BodyFrames {
     }
 
     fn pose(&self, frame: &BodyFrame, u: &[f64]) -> FramePose {
-        let theta = scale(1.0 / frame.length, self.dofs.vector(u, frame.hidden + 1));
+        let (hidden, centre, length) = match frame.carrier {
+            Carrier::Still(pose) => return pose,
+            Carrier::Reference {
+                hidden,
+                centre,
+                length,
+            } => (hidden, centre, length),
+        };
+        let theta = scale(1.0 / length, self.dofs.vector(u, hidden + 1));
         let theta = match self.dofs.dim {
             2 => [0.0, 0.0, theta[0]],
             _ => theta,
@@ -137,8 +177,8 @@ impl BodyFrames {
         let (turn, spin) = exponential(theta);
         FramePose {
             turn,
-            centre: frame.centre,
-            now: add(frame.centre, self.dofs.vector(u, frame.hidden)),
+            centre,
+            now: add(centre, self.dofs.vector(u, hidden)),
             spin,
         }
     }
@@ -150,6 +190,25 @@ impl BodyFrames {
             for p in frame.points.clone() {
                 let place = pose.place(points[p], self.dofs.vector(u, p));
                 let moved = sub(place, points[p]);
+                out[self.dofs.of(p, 0)..self.dofs.of(p + 1, 0)]
+                    .copy_from_slice(&moved[..self.dofs.dim]);
+            }
+        }
+        out
+    }
+
+    /// Turns vectors by dof, such as forces, from the axes of space to those of frames.
+    pub fn turn_in(&self, u: &[f64], vectors: &mut [f64]) {
+        self.turn(u, vectors, |pose, v| transpose_vec(&pose.turn, v));
+    }
+
+    /// Displacements in frames by dof, from those in space: of frames that stand still.
+    pub fn in_frames(&self, points: &[Vec3], u: &[f64]) -> Vec<f64> {
+        let mut out = u.to_vec();
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            for p in frame.points.clone() {
+                let place = add(points[p], self.dofs.vector(u, p));
+                let moved = pose.displacement(points[p], place);
                 out[self.dofs.of(p, 0)..self.dofs.of(p + 1, 0)]
                     .copy_from_slice(&moved[..self.dofs.dim]);
             }
@@ -208,15 +267,20 @@ impl BodyFrames {
         let own = transpose_vec(&pose.turn, force);
         for c in 0..dim {
             forces[self.dofs.of(p, c)] = own[c];
-            forces[self.dofs.of(frame.hidden, c)] += force[c];
+        }
+        let Carrier::Reference { hidden, length, .. } = frame.carrier else {
+            return;
+        };
+        for c in 0..dim {
+            forces[self.dofs.of(hidden, c)] += force[c];
         }
         let moment = cross(sub(place, pose.now), force);
-        let moment = scale(1.0 / frame.length, transpose_vec(&pose.spin, moment));
+        let moment = scale(1.0 / length, transpose_vec(&pose.spin, moment));
         match dim {
-            2 => forces[self.dofs.of(frame.hidden + 1, 0)] += moment[2],
+            2 => forces[self.dofs.of(hidden + 1, 0)] += moment[2],
             _ => {
                 for (c, moment) in moment.into_iter().enumerate() {
-                    forces[self.dofs.of(frame.hidden + 1, c)] += moment;
+                    forces[self.dofs.of(hidden + 1, c)] += moment;
                 }
             }
         }
@@ -226,12 +290,19 @@ impl BodyFrames {
     fn row(&self, body: usize, pose: &FramePose, dof: usize, place: Vec3) -> Turned {
         let frame = &self.all[body];
         let (point, c) = self.dofs.locate(dof);
-        let first = self.dofs.of(frame.hidden, c);
+        let reference = match frame.carrier {
+            Carrier::Reference { hidden, length, .. } => Some((hidden, length)),
+            Carrier::Still(_) => None,
+        };
+        let first = reference.map_or(dof, |(hidden, _)| self.dofs.of(hidden, c));
         let mut row = [(first, 0.0); 7];
-        row[0] = (first, 1.0);
         for j in 0..self.dofs.dim {
             row[1 + j] = (self.dofs.of(point, j), pose.turn[c][j]);
         }
+        let Some((hidden, length)) = reference else {
+            return row;
+        };
+        row[0] = (first, 1.0);
         // δx = (spin δθ) × arm
         let arm = sub(place, pose.now);
         let axes: &[usize] = match self.dofs.dim {
@@ -240,8 +311,8 @@ impl BodyFrames {
         };
         for (k, &axis) in axes.iter().enumerate() {
             let column = [0, 1, 2].map(|i| pose.spin[i][axis]);
-            let moved = cross(column, arm)[c] / frame.length;
-            row[4 + k] = (self.dofs.of(frame.hidden + 1, k), moved);
+            let moved = cross(column, arm)[c] / length;
+            row[4 + k] = (self.dofs.of(hidden + 1, k), moved);
         }
         row
     }
@@ -269,6 +340,11 @@ impl InSpace {
             places: places.collect(),
             poses,
         }
+    }
+
+    /// Whether nothing is seen from a frame.
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
     }
 
     fn row(&self, dof: usize) -> Option<Turned> {
@@ -401,9 +477,11 @@ mod tests {
         let dofs = Dofs { dim, points: 7 };
         let frame = BodyFrame {
             points: 0..4,
-            hidden: 5,
-            centre: [0.3, -0.2, if dim == 3 { 0.5 } else { 0.0 }],
-            length: 0.8,
+            carrier: Carrier::Reference {
+                hidden: 5,
+                centre: [0.3, -0.2, if dim == 3 { 0.5 } else { 0.0 }],
+                length: 0.8,
+            },
         };
         let places = noise(15, 3.0);
         let points = places.chunks(3).map(|x| match dim {

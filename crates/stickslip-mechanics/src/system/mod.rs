@@ -4,6 +4,7 @@ mod amplitude;
 mod assembler;
 mod body_frames;
 mod constraints;
+mod corotation;
 mod dofs;
 mod failure;
 mod fields;
@@ -13,8 +14,9 @@ mod schedule;
 
 pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
-pub use body_frames::{BodyFrame, BodyFrames, FramePose, InSpace};
+pub use body_frames::{BodyFrame, BodyFrames, Carrier, FramePose, InSpace};
 pub use constraints::Constraints;
+pub use corotation::{BodyTurn, Corotations};
 pub use dofs::{Component, Dofs, Motion};
 pub use failure::{Cause, Culprit, Evidence, Otherwise, StepFailure};
 pub use fields::{Field, Fields, Location};

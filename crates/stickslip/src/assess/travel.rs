@@ -8,6 +8,7 @@ use crate::body::Turning;
 use crate::math::norm;
 use crate::model::definition::Body;
 use crate::model::limits::{GateMode, Limits};
+use crate::system::State;
 
 impl View<'_> {
     /// Takes note of how far bodies have turned, the most in `largest`, and moved.
@@ -22,9 +23,10 @@ impl View<'_> {
         let size = self.model.mesh.diameter() + self.prescribed_way();
         let t = self.frame.state.t;
         let mut far = Vec::new();
+        let strained = self.strained();
         for body in &self.model.bodies {
             let place = format!("body {}", body.name);
-            let turning = self.turning(body);
+            let turning = self.turning(body, &strained);
             *largest = largest.max(turning.mean);
             if !judged {
                 continue;
@@ -48,14 +50,17 @@ impl View<'_> {
     }
 
     /// How far a body has turned at the last accepted state.
-    fn turning(&self, body: &Body) -> Turning {
-        let u = &self.frame.state.u;
+    fn turning(&self, body: &Body, strained: &State) -> Turning {
         match body.rigid {
             Some(rigid) => Turning {
-                mean: norm(self.model.links.all()[rigid.link].rotation(self.model.dofs, u)),
+                mean: norm(
+                    self.model.links.all()[rigid.link]
+                        .rotation(self.model.dofs, &self.frame.state.u),
+                ),
                 ..Turning::default()
             },
-            None => body.elastic.turning(u),
+            // Of what turns freely that is what it is bent by.
+            None => body.elastic.turning(&strained.u),
         }
     }
 

@@ -39,6 +39,15 @@ impl<'a> View<'a> {
         out
     }
 
+    /// Momenta by dof with these velocities `[kg m/s]`.
+    pub(crate) fn momenta(&self, v: &[f64]) -> Vec<f64> {
+        match (self.explicit, self.inertia()) {
+            (Some(explicit), _) => explicit.mass.iter().zip(v).map(|(m, v)| m * v).collect(),
+            (None, Some(inertia)) => inertia.mass_times(v),
+            (None, None) => vec![0.0; v.len()],
+        }
+    }
+
     /// What resists acceleration, in an implicit step.
     pub(crate) fn inertia(&self) -> Option<&'a Inertia> {
         let moves = self.step().is_some_and(|s| s.dynamic.is_some());

@@ -83,7 +83,7 @@ impl Integrator for Explicit {
                 ..Flow::default()
             },
             kinetic: 0.5 * total.kinetic,
-            strain: 0.5 * total.strain,
+            strain: 0.5 * self.stored.unwrap_or(total.strain),
             state: at,
             ..Accepted::default()
         })
@@ -182,12 +182,9 @@ impl Explicit {
         contact: &mut Contact,
         (at, dt): (&State, f64),
     ) -> Result<(), StepFailure> {
-        self.internal.apply(&at.u, &mut self.force);
-        for &(dof, k) in &self.springs {
-            self.force[dof] += k * at.u[dof];
-        }
+        self.resist(model, &at.u);
         model.links.transfer(&mut self.force);
-        self.damp(&at.v);
+        self.damp(model, (&at.u, &at.v));
         self.out.reset(false);
         let stage = Stage {
             from: &frame.state,

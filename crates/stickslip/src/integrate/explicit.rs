@@ -4,6 +4,7 @@
 //! v½ = v₀ + dt/2 a₀,   u₁ = u₀ + dt v½,   a₁ = (F₁ - f(u₁) - C v½ - R(u₁)) / m,   v₁ = v½ + dt/2 a₁
 //! ```
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::onset::{AFTER, initial_contact};
@@ -35,6 +36,8 @@ pub(crate) struct Explicit {
     pub(crate) safety: f64,
     pub(crate) out: Assembler,
     pub(crate) force: Vec<f64>,
+    /// Twice the strain energy, where bodies have frames of their own: it is no product of forces and displacements.
+    pub(crate) stored: Option<f64>,
     /// Forces of Rayleigh damping, now and at the last accepted state; empty without damping.
     pub(crate) damped: Vec<f64>,
     pub(crate) damped_before: Vec<f64>,
@@ -105,6 +108,7 @@ impl Explicit {
             safety,
             out: Assembler::new(dofs.count()),
             force: vec![0.0; dofs.count()],
+            stored: None,
             damped: vec![0.0; dofs.count()],
             damped_before: vec![0.0; dofs.count()],
             still: None,
@@ -116,14 +120,42 @@ impl Explicit {
     }
 
     /// Works out the forces of Rayleigh damping at these velocities.
-    pub(crate) fn damp(&mut self, v: &[f64]) {
+    pub(crate) fn damp(&mut self, model: &Model, (u, v): (&[f64], &[f64])) {
         if self.rayleigh.is_empty() {
             return;
         }
-        let scaled: Vec<f64> = self.rayleigh.iter().zip(v).map(|(r, v)| r[1] * v).collect();
+        let bodies = &model.corotations;
+        let turns = bodies.turns(u);
+        let (mut local, mut v) = (Vec::new(), Cow::Borrowed(v));
+        if !bodies.is_empty() {
+            local = bodies.local(&turns, u);
+            v = Cow::Owned(bodies.deforming(&turns, &local, &v));
+        }
+        let both = self.rayleigh.iter().zip(v.iter());
+        let scaled: Vec<f64> = both.map(|(r, v)| r[1] * v).collect();
         self.internal.apply(&scaled, &mut self.damped);
         for (i, d) in self.damped.iter_mut().enumerate() {
             *d += self.rayleigh[i][0] * self.mass[i] * v[i];
+        }
+        bodies.outward(&turns, &local, &mut self.damped);
+    }
+
+    /// Works out the forces of bodies and springs at these displacements.
+    pub(crate) fn resist(&mut self, model: &Model, u: &[f64]) {
+        let bodies = &model.corotations;
+        if bodies.is_empty() {
+            self.internal.apply(u, &mut self.force);
+        } else {
+            let turns = bodies.turns(u);
+            let local = bodies.local(&turns, u);
+            self.internal.apply(&local, &mut self.force);
+            let stored = local.iter().zip(&self.force).map(|(u, f)| u * f);
+            let springs = self.springs.iter().map(|&(dof, k)| k * u[dof] * u[dof]);
+            self.stored = Some(stored.sum::<f64>() + springs.sum::<f64>());
+            bodies.outward(&turns, &local, &mut self.force);
+        }
+        for &(dof, k) in &self.springs {
+            self.force[dof] += k * u[dof];
         }
     }
 
@@ -249,20 +281,18 @@ impl Explicit {
 
     /// Elastic and damping forces at the start, and the strain energy there.
     fn start_forces(&mut self, model: &Model, frame: &mut Frame, contact: &Contact) {
-        self.internal.apply(&frame.state.u, &mut self.force);
         let u = &frame.state.u;
-        for &(dof, k) in &self.springs {
-            self.force[dof] += k * u[dof];
-        }
+        self.resist(model, u);
         // Without a matrix the energy of initial displacements is known only now.
         let both = self.force.iter().zip(u);
-        let strain: f64 = 0.5 * both.map(|(f, u)| f * u).sum::<f64>();
+        let strain: f64 = both.map(|(f, u)| f * u).sum();
+        let strain = 0.5 * self.stored.unwrap_or(strain);
         let energy = &mut frame.ledger;
         let strain = strain + contact.couplings.energy().stored + energy.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);
-        self.damp(&frame.state.v);
+        self.damp(model, (&frame.state.u, &frame.state.v));
     }
 
     /// Accelerations at the start, and what holds the dofs that have none.

@@ -3,6 +3,7 @@
 use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
+use super::turning::Sight;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
@@ -11,6 +12,7 @@ use crate::model::ledger::Flow;
 use crate::newton::{Converged, Origin};
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{check_candidates, check_change};
+use crate::solve::elastic::mix;
 use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
@@ -44,20 +46,22 @@ struct Solved {
     reactions: Vec<f64>,
     contact: Vec<f64>,
     external: Vec<f64>,
-    /// `K u`.
+    /// Elastic forces.
     internal: Vec<f64>,
+    /// Those of the scheme over the increment, less what was stored `[J]`.
+    elastic: f64,
 }
 
 /// The forces of the bulk at the guess of an increment.
-struct Guess {
+pub(super) struct Guess {
     /// Displacements.
     u: Vec<f64>,
-    /// `K u`.
+    /// Elastic forces.
     internal: Vec<f64>,
     /// Forces over the weight of the interfaces, without those of the interfaces at the end.
-    forces: Vec<f64>,
+    pub forces: Vec<f64>,
     /// Size of what balances in them.
-    scale: f64,
+    pub scale: f64,
 }
 
 impl Integrator for Implicit {
@@ -69,8 +73,51 @@ impl Integrator for Implicit {
         solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
-        let constraints = frame.constraints(model, trial.to);
-        let external = frame.external(model, trial.to);
+        match model.corotations.is_empty() {
+            true => {
+                let acting = Acting::new(model, frame, trial.to);
+                self.increment((model, frame), acting, contact, solver, trial)
+            }
+            false => self.turning((model, frame), contact, solver, trial),
+        }
+    }
+}
+
+/// What acts at the end of an increment.
+pub(super) struct Acting<'a> {
+    /// What is prescribed.
+    pub constraints: Constraints,
+    /// External forces `[N]`.
+    pub external: Vec<f64>,
+    /// From where bodies that turn freely are seen, if any do.
+    pub sight: Option<Sight<'a>>,
+}
+
+impl<'a> Acting<'a> {
+    fn new(model: &Model, frame: &Frame, t: f64) -> Acting<'a> {
+        Acting {
+            constraints: frame.constraints(model, t),
+            external: frame.external(model, t),
+            sight: None,
+        }
+    }
+}
+
+impl Implicit {
+    /// Tries an increment between states along the same axes.
+    pub(super) fn increment(
+        &self,
+        (model, frame): (&Model, &Frame),
+        acting: Acting,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let Acting {
+            constraints,
+            mut external,
+            sight,
+        } = acting;
         let fixed = constraints.fixed.clone();
         let inertia =
             (solver.inertia.as_mut()).expect("a step in motion has begun with its masses");
@@ -97,9 +144,19 @@ impl Integrator for Implicit {
             from: &from,
             plain: &plain,
         };
-        let task = (&constraints, external.as_slice());
-        let guess = scheme.guess(model, frame, solver, (&increment, weights), task);
-        let (gain, shift) = increment.rate();
+        let mut u = increment.predict();
+        if let Some(sight) = &sight {
+            sight.expect(model, &from, dt, &mut u);
+        }
+        constraints.impose(&mut u);
+        model.links.impose(&mut u);
+        let now = (&increment, weights);
+        let mut guess = scheme.guess(model, frame, solver, now, (u, &external));
+        let (gain, mut shift) = increment.rate();
+        if let Some(sight) = &sight {
+            // Contact is in space.
+            sight.turn_out(&mut shift);
+        }
         let rate = Rate {
             gain: &gain,
             shift: &shift,
@@ -109,9 +166,22 @@ impl Integrator for Implicit {
             u: guess.u.clone(),
             ..State::default()
         };
-        let task = (constraints, rate);
-        let (converged, internal) =
-            scheme.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
+        let mut passes = 0;
+        let (converged, internal) = loop {
+            let task = (constraints.clone(), rate);
+            let found = scheme.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
+            let Some(sight) = &sight else {
+                break found;
+            };
+            passes += 1;
+            sight.load(model, &at.u, trial.to, &mut external);
+            let next = scheme.guess(model, frame, solver, now, (at.u.clone(), &external));
+            let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
+            match sight.met(model, (&found.0, &next), (&fixed, diagonal), passes)? {
+                Some(converged) => break (converged, next.internal),
+                None => guess = next,
+            }
+        };
         let inertia = in_motion(&solver.inertia);
         (at.v, at.a) = increment.motion(&at.u);
         for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
@@ -123,6 +193,7 @@ impl Integrator for Implicit {
             reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
             contact: converged.contact.clone(),
             external,
+            elastic: scheme.elastic_work(model, frame, solver, (&at.u, &internal)),
             internal,
             state: at,
         };
@@ -131,7 +202,8 @@ impl Integrator for Implicit {
         scheme.locate(model, frame, contact, trial)?;
         let mut solved = solved;
         let weight = (weights[1], impulse);
-        let mut flow = scheme.flow(frame, inertia, (&fixed, &from.a, weight), &solved);
+        let mut flow = scheme.flow((model, frame), solver, (&fixed, &from.a, weight), &solved);
+        let inertia = in_motion(&solver.inertia);
         if impulse {
             let kick = kicked(model, inertia, &fixed, &solved.contact)?;
             let part = 0.5 / scheme.alphas.beta - 1.0;
@@ -154,7 +226,10 @@ impl Integrator for Implicit {
             flow,
             rate: Some((gain, shift)),
             kinetic: inertia.kinetic_energy(&solved.state.v),
-            strain: 0.5 * dot(&solved.state.u, &solved.internal),
+            strain: match model.corotations.is_empty() {
+                true => 0.5 * dot(&solved.state.u, &solved.internal),
+                false => solver.strain_energy(model, &solved.state.u),
+            },
             forces: solved.reactions,
             contact: solved.contact,
             external: solved.external,
@@ -165,9 +240,7 @@ impl Integrator for Implicit {
             ..Accepted::from_newton(&converged)
         })
     }
-}
 
-impl Implicit {
     /// The scheme of an increment: that of masses that meet has `β = γ/2`, see [`super::impulse`].
     fn meeting(&self, impulse: bool) -> Implicit {
         let mut scheme = self.clone();
@@ -192,23 +265,49 @@ impl Implicit {
         }
     }
 
-    /// Where the increment is expected to end, and the forces there.
+    /// Elastic forces at the stage, with displacements and their forces at the end.
+    fn elastic_at_stage(
+        &self,
+        (model, frame): (&Model, &Frame),
+        solver: &Solver,
+        u: &[f64],
+        internal: &[f64],
+    ) -> Vec<f64> {
+        let start = (frame.state.u.as_slice(), frame.motion.internal.as_slice());
+        solver.elastic_between(model, (self.alphas.alpha_f, start), (u, internal))
+    }
+
+    /// Work of the elastic forces of the scheme over the increment, less what is stored: for linear ones `(½ - α_f) Δuᵀ K Δu`.
+    fn elastic_work(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        solver: &Solver,
+        (u, internal): (&[f64], &[f64]),
+    ) -> f64 {
+        let du = difference(u, &frame.state.u);
+        if model.corotations.is_empty() {
+            let change = difference(internal, &frame.motion.internal);
+            return (0.5 - self.alphas.alpha_f) * dot(&du, &change);
+        }
+        let stage = self.elastic_at_stage((model, frame), solver, u, internal);
+        let stored = |u: &[f64]| solver.strain_energy(model, u);
+        dot(&du, &stage) - (stored(u) - stored(&frame.state.u))
+    }
+
+    /// The forces where the increment is expected to end.
     fn guess(
         &self,
         model: &Model,
         frame: &Frame,
         solver: &Solver,
         (increment, weights): (&Increment, [f64; 2]),
-        (constraints, external): (&Constraints, &[f64]),
+        (u, external): (Vec<f64>, &[f64]),
     ) -> Guess {
-        let mut u = increment.predict();
-        constraints.impose(&mut u);
-        model.links.impose(&mut u);
-        let internal = times(&solver.stiffness, &u);
-        let stage = mix(self.alphas.alpha_f, &frame.motion.internal, &internal);
-        let inertia = in_motion(&solver.inertia);
+        let internal = solver.elastic(model, &u);
+        let stage = self.elastic_at_stage((model, frame), solver, &u, &internal);
         let known = (stage.as_slice(), external, weights[0]);
-        let (mut forces, scale) = self.balance(frame, inertia, increment, &u, known);
+        let (mut forces, scale) = self.balance((model, frame), solver, increment, &u, known);
         let weight = weights[1];
         forces.iter_mut().for_each(|f| *f /= weight);
         Guess {
@@ -321,8 +420,8 @@ impl Implicit {
     /// stage, and the size of what balances in them.
     fn balance(
         &self,
-        frame: &Frame,
-        inertia: &Inertia,
+        (model, frame): (&Model, &Frame),
+        solver: &Solver,
         increment: &Increment,
         u: &[f64],
         (internal, external, old): (&[f64], &[f64], f64),
@@ -330,6 +429,7 @@ impl Implicit {
         let Alphas {
             alpha_m, alpha_f, ..
         } = self.alphas;
+        let inertia = in_motion(&solver.inertia);
         let from = increment.from;
         let (v, a) = increment.motion(u);
         let mut a = mix(alpha_m, &from.a, &a);
@@ -337,7 +437,8 @@ impl Implicit {
             *a = 0.0;
         }
         let inertial = inertia.mass_times(&a);
-        let damping = inertia.damping_force(&mix(alpha_f, &from.v, &v));
+        let stage = mix(alpha_f, &from.u, u);
+        let damping = solver.damping_force(model, &stage, &mix(alpha_f, &from.v, &v));
         let load = mix(alpha_f, &frame.load, external);
         let forces = (0..u.len())
             .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * frame.contact[i])
@@ -362,12 +463,13 @@ impl Implicit {
     /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
     fn flow(
         &self,
-        frame: &Frame,
-        inertia: &Inertia,
+        (model, frame): (&Model, &Frame),
+        solver: &Solver,
         (fixed, a, (weight, impulse)): (&[bool], &[f64], (f64, bool)),
         solved: &Solved,
     ) -> Flow {
         let alphas = self.alphas;
+        let inertia = in_motion(&solver.inertia);
         let (from, to) = (&frame.state, &solved.state);
         let du = difference(&to.u, &from.u);
         let dv = difference(&to.v, &from.v);
@@ -387,11 +489,16 @@ impl Implicit {
         let load = difference(&solved.external, &frame.load);
         let mut numerical = dot(&du, &inertia.mass_times(&stage_a))
             - dot(&mean_v, &inertia.mass_times(&dv))
-            + half * dot(&du, &difference(&solved.internal, &frame.motion.internal))
+            + solved.elastic
             + contact
             - half * dot(&load, &du);
         let mut damped = 0.0;
-        if let Some(damping) = &inertia.damping {
+        if !model.corotations.is_empty() {
+            // As it acts at the stage.
+            let stage = mix(alphas.alpha_f, &from.u, &to.u);
+            let v = mix(alphas.alpha_f, &from.v, &to.v);
+            damped = dot(&du, &solver.damping_force(model, &stage, &v));
+        } else if let Some(damping) = &inertia.damping {
             damped = dot(&du, &times(damping, &mean_v));
             numerical += half * dot(&dv, &times(damping, &du));
         }
@@ -402,14 +509,6 @@ impl Implicit {
             ..Flow::default()
         }
     }
-}
-
-/// `(1 - old) b + old a`.
-fn mix(old: f64, a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| old * a + (1.0 - old) * b)
-        .collect()
 }
 
 pub(crate) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {

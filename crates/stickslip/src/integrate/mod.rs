@@ -41,3 +41,4 @@ pub(crate) mod integration;
 pub(crate) mod integrator;
 pub(crate) mod onset;
 pub(crate) mod quasi_static;
+pub(crate) mod turning;

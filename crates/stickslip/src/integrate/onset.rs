@@ -112,9 +112,13 @@ impl Implicit {
         for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
             *u = *to;
         }
-        let internal = times(&solver.stiffness, &frame.state.u);
+        let internal = solver.elastic(model, &frame.state.u);
+        let strain = match model.corotations.is_empty() {
+            true => 0.5 * dot(&frame.state.u, &internal),
+            false => solver.strain_energy(model, &frame.state.u),
+        };
         let energy = &mut frame.ledger;
-        let strain = 0.5 * dot(&frame.state.u, &internal) + energy.thermal;
+        let strain = strain + energy.thermal;
         energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
         frame.motion.internal = internal;
         frame.motion.start.clone_from(&frame.state.u);
@@ -219,7 +223,7 @@ fn start_motion(
     energy.kinetic = inertia.kinetic_energy(&frame.state.v);
     energy.initial += energy.kinetic - before;
     frame.motion = Motion {
-        internal: times(&solver.stiffness, &frame.state.u),
+        internal: solver.elastic(model, &frame.state.u),
         start: frame.state.u.clone(),
         travel: 0.0,
     };
@@ -364,7 +368,7 @@ fn initial_acceleration(
 ) -> Result<(), StepFailure> {
     let inertia = in_motion(&solver.inertia);
     let internal = &frame.motion.internal;
-    let damping = inertia.damping_force(&frame.state.v);
+    let damping = solver.damping_force(model, &frame.state.u, &frame.state.v);
     let force: Vec<f64> = (0..internal.len())
         .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
         .collect();

@@ -49,7 +49,7 @@ impl Integrator for QuasiStatic {
                 transmitted: frame.transmitted(model, (&at.u, &converged.forces), &external),
                 ..Flow::default()
             },
-            strain: solver.strain_energy(&at.u),
+            strain: solver.strain_energy(model, &at.u),
             forces: converged.forces.clone(),
             contact: converged.contact.clone(),
             external,
@@ -88,7 +88,8 @@ impl Frame {
     ) -> f64 {
         let dofs = model.dofs;
         let frames = model.frames.all().iter();
-        let own = frames.flat_map(|f| dofs.of(f.hidden, 0)..dofs.of(f.hidden + 2, 0));
+        let carried = frames.filter_map(|f| f.hidden());
+        let own = carried.flat_map(|h| dofs.of(h, 0)..dofs.of(h + 2, 0));
         let work = own.map(|i| {
             let sum = self.load[i] + self.forces[i] + external[i] + forces[i];
             0.5 * sum * (u[i] - self.state.u[i])

@@ -99,7 +99,12 @@ impl Frame {
 
     /// External forces at a time and what temperatures press with, which acts like them.
     pub(crate) fn external(&self, model: &Model, t: f64) -> Vec<f64> {
-        let mut external = self.loads(model, t);
+        self.external_at(model, t, &self.state.u)
+    }
+
+    /// The same where loads that follow bodies with frames of their own act as displacements turn these.
+    pub(crate) fn external_at(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
+        let mut external = self.loads_at(model, t, u);
         model.add_thermal_forces(t, 1.0, &mut external);
         external
     }
@@ -107,6 +112,10 @@ impl Frame {
     /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on
     /// the bodies. They move bodies as wholes: what temperatures press with has no resultant but rounding.
     pub(crate) fn loads(&self, model: &Model, t: f64) -> Vec<f64> {
+        self.loads_at(model, t, &self.state.u)
+    }
+
+    fn loads_at(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
         for load in model.loads.iter().filter(|l| !l.follows) {
             load.external(t, &mut external);
@@ -115,8 +124,14 @@ impl Frame {
             let (points, u) = (&model.mesh.points, self.expected(model, t));
             model.frames.transfer(points, &u, &mut external);
         }
-        for load in model.loads.iter().filter(|l| l.follows) {
-            load.external(t, &mut external);
+        let mut following = model.loads.iter().filter(|l| l.follows).peekable();
+        if model.corotations.is_empty() {
+            following.for_each(|load| load.external(t, &mut external));
+        } else if following.peek().is_some() {
+            let mut own = vec![0.0; external.len()];
+            following.for_each(|load| load.external(t, &mut own));
+            (model.corotations).turn_out(&model.corotations.turns(u), &mut own);
+            external.iter_mut().zip(own).for_each(|(e, own)| *e += own);
         }
         model.links.transfer(&mut external);
         let step = &model.steps[self.step];

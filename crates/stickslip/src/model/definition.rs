@@ -15,7 +15,7 @@ use crate::math::{Mat3, Vec3};
 use crate::mesh::Mesh;
 use crate::newton::condensed::engine::EngineModel;
 use crate::newton::{BodyPoints, Settings};
-use crate::system::{BodyFrames, Dofs, Fields, Links, Motion, Schedule, State};
+use crate::system::{BodyFrames, Corotations, Dofs, Fields, Links, Motion, Schedule, State};
 use crate::time::Increments;
 use crate::time::scheme::Method;
 pub use crate::time::{ContactAt, ContactMass};
@@ -34,6 +34,8 @@ pub struct Model {
     pub links: Links,
     /// The bodies that turn by any angle. Their displacements and the forces on their points are along the axes of their frames.
     pub frames: Arc<BodyFrames>,
+    /// The bodies with frames of their own, which turn freely by any angle. Their displacements and forces are along the axes of space.
+    pub corotations: Arc<Corotations>,
     /// The bodies.
     pub bodies: Vec<Body>,
     /// The reference points.

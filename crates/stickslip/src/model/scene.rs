@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::contact::Contact;
 use super::definition::{Model, Step};
 use super::frame::Frame;
-use crate::system::{Constraints, Fields};
+use crate::system::{Constraints, Fields, State};
 
 /// What is simulated and where it stands: enough to say what acts.
 #[derive(Clone, Copy)]
@@ -33,8 +33,25 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// The state as bodies see it that know of no turn: what is left of displacements in their frames.
+    pub(crate) fn strained(&self) -> Cow<'a, State> {
+        let (bodies, state) = (&self.model.corotations, &self.frame.state);
+        match bodies.is_empty() {
+            true => Cow::Borrowed(state),
+            false => Cow::Owned(State {
+                t: state.t,
+                u: bodies.local(&bodies.turns(&state.u), &state.u),
+                ..State::default()
+            }),
+        }
+    }
+
     /// Turns stresses and strains of bodies that turn from the axes of their frames to those of space.
     pub(crate) fn turn_tensors(&self, fields: &mut Fields) {
+        let bodies = &self.model.corotations;
+        let turns = bodies.turns(&self.frame.state.u);
+        let tensors = fields.all.iter_mut().filter(|f| f.components == 6);
+        tensors.for_each(|f| bodies.turn_tensors(&turns, &mut f.values));
         for field in fields.all.iter_mut().filter(|f| f.components == 6) {
             (self.model.frames).turn_tensors(&self.frame.state.u, &mut field.values);
         }

@@ -55,6 +55,10 @@ pub enum BodyRotation {
     /// By a few degrees: displacements and rotations are those of the linear theory.
     #[default]
     Small,
+    /// By any angle, freely, in dynamic steps: the body has a frame of its own, which fits its points best, and strains are small in it. Supports hold its points
+    /// altogether or not at all. An implicit scheme keeps the angular momentum where it is `generalised-alpha` with `rho = 1`, and central
+    /// differences do; numerical dissipation takes spin as it does vibration.
+    Large,
     /// By any angle, with the `[reference.NAME]` that is named: `rotation.with = "axle"`. The body is described in a frame that the reference point carries, and
     /// strains are small in it. Supports of its sets act along the axes of the frame: they hold the body *on the axle*; the axle itself is supported and turned
     /// at the reference point. What the body presses on, and loads unless they `follow`, are in space. In quasi-static steps.
@@ -70,7 +74,7 @@ impl BodyRotation {
     /// The reference point that it turns with.
     pub fn reference(&self) -> Option<&str> {
         match self {
-            BodyRotation::Small => None,
+            BodyRotation::Small | BodyRotation::Large => None,
             BodyRotation::With(name) => Some(name),
         }
     }

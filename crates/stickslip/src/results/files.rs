@@ -362,8 +362,9 @@ pub fn fields(view: &View) -> Fields {
         components: 3,
         values: vectors(&reactions),
     });
+    let strained = view.strained();
     for body in &model.bodies {
-        body.fields(&view.frame.state, &mut fields);
+        body.fields(&strained, &mut fields);
     }
     view.turn_tensors(&mut fields);
     for interface in &view.contact.interfaces {

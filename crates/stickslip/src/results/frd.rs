@@ -268,8 +268,9 @@ fn own_fields(view: &View, quantities: &[Quantity]) -> Fields {
     let model = view.model;
     let strain = [Quantity::Strain, Quantity::Energy];
     if quantities.iter().any(|q| strain.contains(q)) {
+        let strained = view.strained();
         for body in &model.bodies {
-            body.strain_fields(&view.frame.state, &mut out);
+            body.strain_fields(&strained, &mut out);
         }
         view.turn_tensors(&mut out);
     }

@@ -1,5 +1,6 @@
 //! One row of numbers an increment: what happened, energies, interfaces, supports, probes.
 
+use super::free_bodies;
 use crate::assess::view::View;
 use crate::body::Around;
 use crate::contact::interface::Resultant;
@@ -119,6 +120,9 @@ pub(crate) fn row(
     for reference in &view.model.references {
         push_reference(&mut row, view, reference);
     }
+    for (name, value) in free_bodies::columns(view) {
+        row.push(name, value);
+    }
     push_probes(&mut row, view, around);
     row
 }
@@ -212,11 +216,18 @@ fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
         }
         // Only the cells that meet there are looked at: in an explicit step there is a row for every increment.
         let mut stress = match around {
+            Some(around) if model.corotations.of_point(point).is_some() => {
+                around.stress(model.dofs, &*view.strained())
+            }
             Some(around) => around.stress(model.dofs, &view.frame.state),
             None => [0.0; 6],
         };
         if let Some(body) = model.frames.of_point(point) {
             model.frames.poses(&view.frame.state.u)[body].turn_tensor(&mut stress);
+        }
+        if let Some(body) = model.corotations.of_point(point) {
+            let turns = model.corotations.turns(&view.frame.state.u);
+            turns[body].pose().turn_tensor(&mut stress);
         }
         for (k, name) in ["11", "22", "33", "12", "23", "13"].into_iter().enumerate() {
             if dim == 2 && k >= 4 {

@@ -5,6 +5,7 @@ pub mod compare;
 pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod frd;
+mod free_bodies;
 mod growth;
 pub(crate) mod history;
 pub(crate) mod lock;

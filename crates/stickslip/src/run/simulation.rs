@@ -266,7 +266,7 @@ fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
         load: vec![0.0; n],
         ..Frame::default()
     };
-    let strain = solver.strain_energy(&u) + contact.couplings.begin_analysis(t, &u);
+    let strain = solver.strain_energy(model, &u) + contact.couplings.begin_analysis(t, &u);
     frame.coupled = contact.couplings.energy().stored;
     frame.ledger.initial = strain;
     frame.ledger.strain = strain;

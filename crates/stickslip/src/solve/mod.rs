@@ -26,6 +26,7 @@ pub(crate) mod choice;
 mod closure;
 mod condensed;
 pub(crate) mod condenser;
+pub(crate) mod elastic;
 pub(crate) mod floating_bodies;
 mod follow;
 pub(crate) mod inertia;

@@ -6,10 +6,9 @@ use std::sync::Arc;
 
 use super::condenser::Condenser;
 use super::floating_bodies::Floating;
-use super::inertia::{Inertia, times};
+use super::inertia::Inertia;
 use super::work::Seen;
 use crate::linear::{BlockCsr, Digest, Engine};
-use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Body, Model, Solution, Step};
 use crate::newton::condensed::{Identity, Library};
@@ -121,11 +120,6 @@ impl Solver {
             bulk: &mut SparseBulk::new(matrix, external, fixed, origin, linearised),
         }
         .solve(task.constraints, task.rate, (task.from, at))
-    }
-
-    /// Strain energy of bodies and springs `[J]`.
-    pub fn strain_energy(&self, u: &[f64]) -> f64 {
-        0.5 * dot(u, &times(&self.stiffness, u))
     }
 }
 

@@ -22,6 +22,8 @@ impl Interface {
         if !self.frames.is_empty() {
             let places = self.nodes.iter().copied().zip(cache.x.iter().copied());
             cache.in_space = InSpace::new(&self.frames, self.frame_poses(&stage.at.u), places);
+        } else if !cache.in_space.is_empty() {
+            cache.in_space = InSpace::default();
         }
         if self.mortar.is_some() {
             self.integrate(cache, wants.holds_turns);

@@ -181,7 +181,8 @@ impl Problem {
             steps: &steps,
             frames: &frames,
         };
-        turning::refuse(self, &said)?;
+        let corotations = turning::corotations(self, &mesh, &bodies, dofs);
+        turning::refuse(self, &said, &corotations)?;
         let references = references::build(self, &said)?;
         let followers = references::followers(
             &mut couplings,
@@ -203,7 +204,7 @@ impl Problem {
         let held = mirrors::Held::new(&links, dofs, &supports, space);
         let mut interfaces =
             contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
-        turning::attach(&frames, &mut interfaces)?;
+        turning::attach((&frames, &corotations), &mut interfaces)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
@@ -217,6 +218,7 @@ impl Problem {
             dofs,
             links: links.with_followers(followers),
             frames,
+            corotations: Arc::new(corotations),
             bodies,
             references,
             loads,

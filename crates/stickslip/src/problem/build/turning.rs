@@ -1,15 +1,17 @@
 //! Bodies that turn with reference points.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::super::Problem;
+use super::super::{BodyRotation, Problem};
 use super::fault::problem_error;
 use super::references::Said;
 use super::sets::Sets;
 use crate::contact::interface::Interface;
 use crate::error::{Diagnostic, Error};
+use crate::mesh::Mesh;
 use crate::model::Body;
-use crate::system::{BodyFrame, BodyFrames, Links};
+use crate::system::{BodyFrame, BodyFrames, Carrier, Corotations, Dofs, Links};
 
 /// The bodies that turn, with the reference points that carry their frames.
 pub(super) fn frames(problem: &Problem, sets: &Sets, bodies: &[Body], links: &Links) -> BodyFrames {
@@ -19,19 +21,44 @@ pub(super) fn frames(problem: &Problem, sets: &Sets, bodies: &[Body], links: &Li
         let link = &links.all()[links.of_hidden(hidden)?];
         Some(BodyFrame {
             points: body.points.clone(),
-            hidden,
-            centre: link.centre,
-            length: link.length,
+            carrier: Carrier::Reference {
+                hidden,
+                centre: link.centre,
+                length: link.length,
+            },
         })
     });
     BodyFrames::new(links.dofs(), turning.collect())
 }
 
+/// The bodies that turn freely, with frames that fit the masses of their points.
+pub(super) fn corotations(
+    problem: &Problem,
+    mesh: &Mesh,
+    bodies: &[Body],
+    dofs: Dofs,
+) -> Corotations {
+    let free = |b: &&Body| problem.body[&b.name].rotation == BodyRotation::Large;
+    let each = bodies.iter().filter(free).map(|body| {
+        let mut masses = vec![0.0; dofs.points];
+        body.elastic.add_lumped_mass(&mut masses);
+        let mut weights = masses[body.points.clone()].to_vec();
+        if weights.iter().any(|w| *w <= 0.0) {
+            weights.fill(1.0);
+        }
+        (body.points.clone(), weights)
+    });
+    Corotations::new(dofs, &mesh.points, each.collect())
+}
+
 /// Tells the interfaces that bodies which turn take part in.
-pub(super) fn attach(frames: &Arc<BodyFrames>, interfaces: &mut [Interface]) -> Result<(), Error> {
+pub(super) fn attach(
+    (frames, corotations): (&Arc<BodyFrames>, &Corotations),
+    interfaces: &mut [Interface],
+) -> Result<(), Error> {
     for interface in interfaces {
         let mut nodes = interface.nodes.iter();
-        if nodes.all(|&n| frames.of_point(n).is_none()) {
+        if nodes.all(|&n| frames.of_point(n).is_none() && corotations.of_point(n).is_none()) {
             continue;
         }
         if interface.kinematics.as_dyn().frozen() {
@@ -51,9 +78,9 @@ pub(super) fn attach(frames: &Arc<BodyFrames>, interfaces: &mut [Interface]) -> 
 }
 
 /// What bodies that turn cannot bear.
-pub(super) fn refuse(problem: &Problem, said: &Said) -> Result<(), Error> {
+pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Result<(), Error> {
     let frames = said.frames;
-    if frames.is_empty() {
+    if frames.is_empty() && free.is_empty() {
         return Ok(());
     }
     let dofs = frames.dofs();
@@ -62,6 +89,31 @@ pub(super) fn refuse(problem: &Problem, said: &Said) -> Result<(), Error> {
         let finding = Diagnostic::new(key, message.to_string()).help(help.to_string());
         Err(problem_error(vec![finding]))
     };
+    let freely = |dof: usize| free.of_point(dofs.locate(dof).0).is_some();
+    for coupling in said.couplings {
+        let mut rows = coupling.rows.iter().flat_map(|r| &r.dofs);
+        if rows.any(|&dof| freely(dof)) {
+            return fault(
+                format!("coupling.{}", coupling.name),
+                "it acts on a body that turns freely by any angle",
+                "tie surfaces by an interface (`tied = true`), or hold points of the body by a support",
+            );
+        }
+    }
+    for support in said.supports {
+        let held: BTreeSet<usize> = support.entries.iter().map(|e| e.dof).collect();
+        let mut loose = held.iter().filter(|&&dof| freely(dof)).flat_map(|&dof| {
+            let point = dofs.locate(dof).0;
+            dofs.of(point, 0)..dofs.of(point + 1, 0)
+        });
+        if loose.any(|dof| !held.contains(&dof)) {
+            return fault(
+                format!("support.{}", support.name),
+                "it holds points of a body that turns freely by any angle, and not in all directions",
+                "hold the points in all directions, or let a frictionless interface guide the body",
+            );
+        }
+    }
     for coupling in said.couplings {
         for row in &coupling.rows {
             let mut bodies = row.dofs.iter().map(|&dof| of(dof));
@@ -80,14 +132,14 @@ pub(super) fn refuse(problem: &Problem, said: &Said) -> Result<(), Error> {
             && matches!(load.kind, crate::body::loads::LoadKind::Spring(_));
         let own = springs
             && said.bodies.iter().any(|b| {
-                let turns = problem.body[&b.name].rotation.reference().is_some();
+                let turns = !problem.body[&b.name].rotation.is_small();
                 turns && (load.set == b.name || load.set.split('.').next() == Some(&b.name))
             });
         if own {
             return fault(
                 format!("load.{name}.set"),
                 "springs to ground would turn with this body",
-                "put them at the reference point that carries it",
+                "put them at the reference point that carries it, or press another body against it",
             );
         }
     }

@@ -1,11 +1,12 @@
 //! Bodies that turn by any angle, and what they cannot do yet.
 
-use super::super::{Problem, SpaceKind};
+use super::super::{BodyRotation, Problem, SpaceKind};
 use super::findings::Findings;
 use super::names;
 use crate::model::Solution;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
+    check_free(problem, findings);
     let turning: Vec<(&String, &str)> = (problem.body.iter())
         .filter_map(|(name, body)| Some((name, body.rotation.reference()?)))
         .collect();
@@ -54,5 +55,58 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
                 "begin with a step that leads there",
             );
         }
+    }
+}
+
+/// Bodies with frames of their own.
+fn check_free(problem: &Problem, findings: &mut Findings) {
+    let free: Vec<&String> = (problem.body.iter())
+        .filter_map(|(name, body)| (body.rotation == BodyRotation::Large).then_some(name))
+        .collect();
+    let Some(first) = free.first() else {
+        return;
+    };
+    for name in &free {
+        let key = ["body", name.as_str(), "rotation"];
+        if problem.model.space == SpaceKind::Axisymmetric {
+            let message = "around an axis of symmetry nothing turns";
+            findings.add(&key, message, "model the body in 3D, or remove the key");
+        }
+        if problem.body[*name].rigid {
+            let message = "the rotation of a rigid body is linearised";
+            findings.add(&key, message, "make it elastic: it may be stiff");
+        }
+    }
+    for (i, _) in problem
+        .step
+        .iter()
+        .enumerate()
+        .filter(|(_, s)| s.dynamic.is_none())
+    {
+        findings.add(
+            &["step", &i.to_string()],
+            format!("body `{first}` turns freely by any angle, which is known to dynamic steps alone"),
+            "make the step dynamic, or let the body turn with a reference point: `rotation.with = \"NAME\"`",
+        );
+    }
+    let warm = problem
+        .initial
+        .iter()
+        .find(|(_, i)| i.temperature.is_some());
+    if let Some((name, _)) = warm {
+        findings.add(
+            &["initial", name, "temperature"],
+            format!(
+                "body `{first}` turns freely by any angle, and temperatures do not turn with it"
+            ),
+            "leave temperatures out, or `rotation` of the body",
+        );
+    }
+    if let Some(with) = (problem.body.values()).find_map(|b| b.rotation.reference()) {
+        findings.add(
+            &["body", first.as_str(), "rotation"],
+            format!("it turns freely in dynamic steps, and a body turns with `{with}` in quasi-static ones"),
+            "let all bodies turn in one way",
+        );
     }
 }

@@ -45,8 +45,13 @@ impl Solver {
                 along: travel,
                 span: [step.start, step.end],
             };
+            let turns = |node: &usize| model.corotations.of_point(*node).is_some();
             for interface in &mut contact.interfaces {
-                interface.restrict_to_candidates(&frame.state.u, range, &mut kept);
+                match interface.nodes.iter().any(turns) {
+                    // In turn all of its points come round.
+                    true => interface.include_all(&mut kept),
+                    false => interface.restrict_to_candidates(&frame.state.u, range, &mut kept),
+                }
             }
         }
         for point in self.floating.points() {
