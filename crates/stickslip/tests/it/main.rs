@@ -15,6 +15,7 @@ mod dynamics;
 mod elements;
 mod exact;
 mod examples;
+mod flying;
 mod frd;
 mod fretting;
 mod heat;
