@@ -1,6 +1,6 @@
 //! The tables of the model and of its bodies.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use stickslip::io::abaqus::{self, Integration, Space};
@@ -10,7 +10,7 @@ use super::job::Job;
 use super::sets::Sets;
 use super::toml;
 use crate::card::Place;
-use crate::deck::Section;
+use crate::deck::{Action, Section, Step};
 
 fn space_name(space: Space) -> &'static str {
     match space {
@@ -87,6 +87,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
             job.out.line(&format!("thickness = {}", toml::number(t)));
         }
     }
+    let held = held(job);
     for body in &bodies.all {
         let formulation = formulation(job, body);
         job.table("body", &body.name, body.place);
@@ -126,9 +127,51 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
         }
         if body.rigid.is_some() {
             job.out.line("rigid = true");
+        } else if turns_freely(job, (&held, bodies.space), body) {
+            job.out.line("rotation = \"large\"");
+            let message = format!(
+                "NLGEOM: body {} is held by nothing and may turn by any angle; its strains are taken as small",
+                body.name
+            );
+            job.note(body.place, message);
         }
         damping(job, bodies, body);
     }
+}
+
+/// Nodes that supports hold.
+fn held(job: &Job) -> BTreeSet<u64> {
+    let deck = job.deck;
+    let actions = deck.steps.iter().flat_map(|s| &s.actions);
+    let later = actions.filter_map(|action| match action {
+        Action::Boundary(b) => Some(b),
+        _ => None,
+    });
+    let all = deck.supports.iter().chain(later);
+    all.flat_map(|b| job.nodes(&b.target)).collect()
+}
+
+/// Whether a body may turn by any angle: where motion is asked for with `NLGEOM`, and nothing holds its points one by one or ties them to others.
+fn turns_freely(job: &Job, (held, space): (&BTreeSet<u64>, Space), body: &Body) -> bool {
+    let deck = job.deck;
+    let moving = |s: &Step| s.nonlinear && s.is_dynamic();
+    let joined = !deck.equations.is_empty()
+        || !deck.couplings.is_empty()
+        || !deck.constraints.is_empty()
+        || !deck.springs.is_empty()
+        || !deck.dashpots.is_empty()
+        || !deck.gaps.is_empty()
+        || !deck.pretensions.is_empty()
+        || !deck.temperatures.is_empty()
+        || !deck.ties.is_empty();
+    let elements = body.elements.iter().filter_map(|e| deck.elements.get(e));
+    let mut nodes = elements.flat_map(|e| &e.nodes);
+    !deck.steps.is_empty()
+        && deck.steps.iter().all(moving)
+        && !joined
+        && space != Space::Axisymmetric
+        && deck.pairs.iter().all(|p| !p.small_sliding)
+        && nodes.all(|n| !held.contains(n))
 }
 
 fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {

@@ -488,3 +488,52 @@ fn what_frequency_steps_cannot_say_is_refused() {
     ));
     assert!(said.contains("take PERTURBATION out"), "{said}");
 }
+
+#[test]
+fn free_bodies_turn_by_any_angle_where_motion_is_nonlinear() {
+    // A cube far above another, turned by a couple that keeps its directions: θ'' = 24 F cos θ for a mass of one.
+    let text = |step: &str| {
+        let turn: String = [
+            (11, -1),
+            (14, -1),
+            (15, -1),
+            (18, -1),
+            (12, 1),
+            (13, 1),
+            (16, 1),
+            (17, 1),
+        ]
+        .iter()
+        .map(|(node, sign)| format!("{node}, 2, {}\n", 0.125 * f64::from(*sign)))
+        .collect();
+        format!(
+            "{}{}{}*SURFACE, NAME=SLAVE\nEB, S1\n*SURFACE, NAME=MASTER\nEA, S2\n*SURFACE INTERACTION, NAME=SI\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1E4\n\
+             *CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n*BOUNDARY\nA, 1, 3\n\
+             *STEP, INC=1000{step}\n*DYNAMIC, DIRECT\n.01, 1.\n*CLOAD\n{turn}*NODE PRINT, NSET=B, FREQUENCY=1000\nU\n*END STEP\n",
+            cube("A", 1, 0.0),
+            cube("B", 11, 6.0),
+            sections(&["EA", "EB"]),
+        )
+    };
+    let free = translate(&text(", NLGEOM"));
+    assert_eq!(free.toml.matches("rotation = \"large\"").count(), 1);
+    assert!(!translate(&text("")).toml.contains("rotation"));
+    let run = run("tumble", &text(", NLGEOM"));
+    let (_, _, rows) = run.blocks.last().expect("a table");
+    // From node 11 to node 12, along x at first.
+    let edge: Vec<f64> = (1..4)
+        .map(|i| rows[1][i] - rows[0][i] + if i == 1 { 1.0 } else { 0.0 })
+        .collect();
+    let length = edge.iter().map(|e| e * e).sum::<f64>().sqrt();
+    assert!((length - 1.0).abs() < 5e-3, "{edge:?}");
+    // θ'' = 3 cos θ from rest, at t = 1 by a fine Runge-Kutta rule.
+    let (mut angle, mut spin, n) = (0.0_f64, 0.0, 10_000);
+    let h = 1.0 / f64::from(n);
+    for _ in 0..n {
+        let middle = angle + 0.5 * h * spin;
+        spin += h * 3.0 * middle.cos();
+        angle = middle + 0.5 * h * spin;
+    }
+    let found = edge[1].atan2(edge[0]);
+    assert!((found - angle).abs() < 5e-3, "{found} {angle}");
+}

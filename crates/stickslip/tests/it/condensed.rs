@@ -131,6 +131,7 @@ fn shortened(name: &str) -> &'static [&'static str] {
             "amplitude.way.table=[[0,0],[2,0],[3,0.0833]]",
             "amplitude.turn.table=[[0,0],[1,0],[2,0.0016],[3,0.01417]]",
         ],
+        "tumbling-block" => &["step.0.duration=0.06"],
         "press-and-slide" => &[
             "body.lower.generate.box.cells=[8,8,8]",
             "body.upper.generate.box.cells=[7,7,7]",

@@ -39,6 +39,7 @@ macro_rules! every_example {
             patch_taylor = "patch-taylor",
             press_and_slide = "press-and-slide",
             rolling_wheel = "rolling-wheel",
+            tumbling_block = "tumbling-block",
             shear_column = "shear-column",
             shear_lag = "shear-lag",
             shrink_fit = "shrink-fit",
