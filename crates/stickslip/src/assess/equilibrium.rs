@@ -111,7 +111,15 @@ impl View<'_> {
             Some(link) => link.hidden..link.hidden + 2,
             None => body.points.clone(),
         };
-        let place = |p: usize| model.mesh.points.get(p).copied().unwrap_or_default();
+        // Of what turns freely the moment is that about where points are.
+        let turns = (model.corotations).of_point(body.points.start).is_some();
+        let place = |p: usize| {
+            let place = model.mesh.points.get(p).copied().unwrap_or_default();
+            match turns {
+                true => add(place, dofs.vector(&self.frame.state.u, p)),
+                false => place,
+            }
+        };
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for p in body.points.clone() {
             for c in 0..3 {

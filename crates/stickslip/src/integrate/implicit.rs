@@ -3,7 +3,7 @@
 use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
-use super::turning::Sight;
+use super::sight::Acting;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
@@ -53,15 +53,15 @@ struct Solved {
 }
 
 /// The forces of the bulk at the guess of an increment.
-pub(super) struct Guess {
+struct Guess {
     /// Displacements.
     u: Vec<f64>,
     /// Elastic forces.
     internal: Vec<f64>,
     /// Forces over the weight of the interfaces, without those of the interfaces at the end.
-    pub forces: Vec<f64>,
+    forces: Vec<f64>,
     /// Size of what balances in them.
-    pub scale: f64,
+    scale: f64,
 }
 
 impl Integrator for Implicit {
@@ -79,26 +79,6 @@ impl Integrator for Implicit {
                 self.increment((model, frame), acting, contact, solver, trial)
             }
             false => self.turning((model, frame), contact, solver, trial),
-        }
-    }
-}
-
-/// What acts at the end of an increment.
-pub(super) struct Acting<'a> {
-    /// What is prescribed.
-    pub constraints: Constraints,
-    /// External forces `[N]`.
-    pub external: Vec<f64>,
-    /// From where bodies that turn freely are seen, if any do.
-    pub sight: Option<Sight<'a>>,
-}
-
-impl<'a> Acting<'a> {
-    fn new(model: &Model, frame: &Frame, t: f64) -> Acting<'a> {
-        Acting {
-            constraints: frame.constraints(model, t),
-            external: frame.external(model, t),
-            sight: None,
         }
     }
 }
@@ -177,7 +157,8 @@ impl Implicit {
             sight.load(model, &at.u, trial.to, &mut external);
             let next = scheme.guess(model, frame, solver, now, (at.u.clone(), &external));
             let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
-            match sight.met(model, (&found.0, &next), (&fixed, diagonal), passes)? {
+            let end = (next.forces.as_slice(), next.scale);
+            match sight.met(model, (&found.0, end), (&fixed, diagonal), passes)? {
                 Some(converged) => break (converged, next.internal),
                 None => guess = next,
             }

@@ -41,4 +41,5 @@ pub(crate) mod integration;
 pub(crate) mod integrator;
 pub(crate) mod onset;
 pub(crate) mod quasi_static;
+mod sight;
 pub(crate) mod turning;

@@ -27,6 +27,9 @@ impl Integrator for QuasiStatic {
         if let Some(broken) = solver.condenser.broken() {
             return Err(broken.clone());
         }
+        if !model.corotations.is_empty() {
+            return self.turning((model, frame), contact, solver, trial);
+        }
         let external = frame.external(model, trial.to);
         let constraints = frame.constraints(model, trial.to);
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);

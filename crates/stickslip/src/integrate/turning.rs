@@ -1,40 +1,25 @@
-//! Increments in motion of bodies that turn freely by any angle.
+//! Increments of bodies that turn freely by any angle.
 //!
-//! For an increment such a body is seen from a frame that stands still where its own will be at the stage of the scheme: there it turns by as little as that is wrong,
-//! so that the matrix of the increment, factored once for the whole analysis, is a good derivative. It is none of what bodies resist with: forces are found
-//! again where the increment has ended, and it is solved again from there until they balance. Nodal masses do not depend on direction, so that the motion
-//! has the same equations along the axes of any frame that stands still.
+//! Such a body is seen from a frame that stands still ([`super::sight`]) where its own will be: in motion at the stage of the scheme, as it goes on by its spin, at rest at the
+//! end, as the pass before has left it. The matrix, factored once for the whole analysis, is a good derivative there, but none of what bodies resist with: forces are found
+//! again where the increment has ended, and it is solved again from there until they balance.
 
 use std::sync::Arc;
 
-use super::implicit::{Acting, Guess, Implicit};
-use crate::contact::interface::Interface;
-use crate::math::{norm, scale};
+use super::implicit::{Implicit, difference};
+use super::quasi_static::{QuasiStatic, pairs};
+use super::sight::{Acting, Sight, in_space, leave};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
-use crate::model::frame::{Frame, Motion};
-use crate::newton::Converged;
+use crate::model::frame::Frame;
+use crate::model::ledger::Flow;
 use crate::solve::accepted::Accepted;
+use crate::solve::checks::check_change;
+use crate::solve::inertia::times;
+use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
-use crate::system::{BodyFrame, BodyFrames, Carrier, Cause, Constraints, State, StepFailure};
+use crate::system::{State, StepFailure};
 use crate::time::Trial;
-
-/// Most times that an increment is solved again with forces that have been found where it ended. Each leaves the part of the imbalance by which bodies are
-/// strained, and by which they have turned otherwise than expected.
-const MOST_PASSES: usize = 40;
-
-/// Roundings of places by which the forces on points may be off.
-const ROUNDINGS: f64 = 4.0;
-
-/// How much more than Newton's method left may be out of balance where that cannot do better.
-const LEFT: f64 = 2.0;
-
-/// From where bodies that turn freely are seen in an increment.
-pub(super) struct Sight<'a> {
-    /// The start, along the axes of space.
-    outer: &'a Frame,
-    frames: Arc<BodyFrames>,
-}
 
 impl Implicit {
     /// Tries an increment in which bodies turn freely.
@@ -51,15 +36,7 @@ impl Implicit {
         let mut external = Vec::new();
         sight.load(model, &inside.state.u, trial.to, &mut external);
         let constraints = sight.constraints(model, trial.to);
-        let turns = |i: &Interface| {
-            let mut nodes = i.nodes.iter();
-            nodes.any(|&n| model.corotations.of_point(n).is_some())
-        };
-        let mut before = Vec::new();
-        for interface in contact.interfaces.iter_mut().filter(|i| turns(i)) {
-            let frames = Arc::clone(&sight.frames);
-            before.push(std::mem::replace(&mut interface.frames, frames));
-        }
+        let before = sight.enter(model, contact);
         let frames = Arc::clone(&sight.frames);
         let acting = Acting {
             constraints,
@@ -67,161 +44,90 @@ impl Implicit {
             sight: Some(sight),
         };
         let found = self.increment((model, &inside), acting, contact, solver, trial);
-        let interfaces = contact.interfaces.iter_mut().filter(|i| turns(i));
-        interfaces
-            .zip(before)
-            .for_each(|(i, before)| i.frames = before);
+        leave(model, contact, before);
         found.map(|accepted| in_space(model, &frames, accepted))
     }
 }
 
-impl<'a> Sight<'a> {
-    /// From where the frames of the bodies will be after this time, if they go on as they do.
-    fn new(model: &Model, frame: &'a Frame, after: f64) -> Self {
-        let bodies = &model.corotations;
-        let turns = bodies.turns(&frame.state.u);
-        let spins = bodies.spins(&turns, &frame.state.v);
-        let each = bodies.points().zip(turns.iter().zip(spins));
-        let all = each.map(|(points, (turn, [spin, velocity]))| BodyFrame {
-            points,
-            carrier: Carrier::Still(
-                turn.moved(scale(after, spin), scale(after, velocity))
-                    .pose(),
-            ),
-        });
-        Sight {
-            outer: frame,
-            frames: Arc::new(BodyFrames::new(model.dofs, all.collect())),
-        }
-    }
-
-    /// The start as it is seen.
-    fn inside(&self, model: &Model) -> Frame {
-        let (outer, points) = (self.outer, &model.mesh.points);
-        let turned = |values: &[f64]| {
-            let mut values = values.to_vec();
-            if !values.is_empty() {
-                self.frames.turn_in(&[], &mut values);
-            }
-            values
-        };
-        Frame {
-            state: State {
-                t: outer.state.t,
-                u: self.frames.in_frames(points, &outer.state.u),
-                v: turned(&outer.state.v),
-                a: turned(&outer.state.a),
-            },
-            forces: turned(&outer.forces),
-            contact: turned(&outer.contact),
-            load: turned(&outer.load),
-            motion: Motion {
-                internal: turned(&outer.motion.internal),
-                start: self.frames.in_frames(points, &outer.motion.start),
-                travel: outer.motion.travel,
-            },
-            ..outer.clone()
-        }
-    }
-
-    /// Where bodies that turn freely are expected to end. Their accelerations have no part in it: those of a scheme without dissipation ring.
-    pub fn expect(&self, model: &Model, start: &State, dt: f64, u: &mut [f64]) {
-        model.corotations.go_on((&start.u, &start.v), dt, u);
-    }
-
-    /// What acts from outside at a time, where displacements are as seen.
-    pub fn load(&self, model: &Model, u: &[f64], t: f64, out: &mut Vec<f64>) {
-        let still = !model.loads.iter().any(|l| l.follows);
-        if still && !out.is_empty() {
-            return;
-        }
-        let u = self.frames.in_space(&model.mesh.points, u);
-        *out = self.outer.external_at(model, t, &u);
-        self.frames.turn_in(&[], out);
-    }
-
-    /// What is prescribed: points of bodies that turn are held altogether.
-    fn constraints(&self, model: &Model, t: f64) -> Constraints {
-        let mut constraints = self.outer.constraints(model, t);
-        let (dofs, points) = (model.dofs, &model.mesh.points);
-        let placed = self.frames.in_frames(points, &constraints.values);
-        for p in model.corotations.points().flatten() {
-            for dof in dofs.of(p, 0)..dofs.of(p + 1, 0) {
-                if constraints.fixed[dof] {
-                    constraints.values[dof] = placed[dof];
-                }
-            }
-        }
-        constraints
-    }
-
-    /// Turns vectors by dof from how they are seen to space.
-    pub fn turn_out(&self, vectors: &mut [f64]) {
-        self.frames.turn_out(&[], vectors);
-    }
-
-    /// Whether an increment that Newton's method has found balances with the forces of the bodies where it ended, `next`; with these, if it does.
-    pub fn met(
+impl QuasiStatic {
+    /// Tries an increment in which bodies turn freely. Each pass sees them from where the one before has left them: nothing but their strain is missed then.
+    pub(super) fn turning(
         &self,
-        model: &Model,
-        (converged, next): (&Converged, &Guess),
-        (fixed, diagonal): (&[bool], &[f64]),
-        passes: usize,
-    ) -> Result<Option<Converged>, StepFailure> {
-        let size = |forces: &[f64]| {
-            let free = forces.iter().zip(fixed).filter(|(_, fixed)| !**fixed);
-            free.map(|(f, _)| f * f).sum::<f64>().sqrt()
-        };
-        let both = next.forces.iter().zip(&converged.contact);
-        let forces: Vec<f64> = both.map(|(a, b)| a + b).collect();
-        let off = size(&forces);
-        // Of places: what strains is a difference of these.
-        let places = model
-            .mesh
-            .points
-            .iter()
-            .zip(diagonal.chunks(model.dofs.dim));
-        let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
-        let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
-        let scale = next.scale.max(size(&converged.contact));
-        let enough = (model.settings.tolerance * scale)
-            .max(LEFT * size(&converged.forces))
-            .max(rounding);
-        if off <= enough {
-            return Ok(Some(Converged {
-                forces,
-                ..converged.clone()
-            }));
+        (model, frame): (&Model, &Frame),
+        contact: &mut Contact,
+        solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let mut u = frame.state.u.clone();
+        for passes in 1.. {
+            let turns = model.corotations.turns(&u);
+            let sight = Sight::from(model, frame, &turns);
+            let before = sight.enter(model, contact);
+            let seen = sight.frames.in_frames(&model.mesh.points, &u);
+            let found = pass(&sight, model, contact, solver, (trial, passes), seen);
+            leave(model, contact, before);
+            let (met, accepted) = found?;
+            let accepted = in_space(model, &sight.frames, accepted);
+            if met {
+                check_change(model, pairs(&accepted.state.u, &frame.state.u))?;
+                return Ok(accepted);
+            }
+            u = accepted.state.u;
         }
-        if off.is_nan() || passes >= MOST_PASSES {
-            return Err(StepFailure::new(
-                Cause::NotConverged,
-                format!(
-                    "bodies that turn are out of balance by {:.1e} of the forces in play after {passes} passes",
-                    off / scale.max(f64::MIN_POSITIVE)
-                ),
-            )
-            .help("take smaller increments; bodies must not be strained by more than a few per cent"));
-        }
-        Ok(None)
+        unreachable!("passes end")
     }
 }
 
-/// An increment that was found as bodies are seen, along the axes of space.
-fn in_space(model: &Model, frames: &BodyFrames, mut accepted: Accepted) -> Accepted {
-    let state = &mut accepted.state;
-    state.u = frames.in_space(&model.mesh.points, &state.u);
-    let vectors = [
-        &mut state.v,
-        &mut state.a,
-        &mut accepted.forces,
-        &mut accepted.contact,
-        &mut accepted.external,
-    ];
-    for vector in vectors.into_iter().chain(accepted.internal.as_mut()) {
-        if !vector.is_empty() {
-            frames.turn_out(&[], vector);
-        }
-    }
-    accepted
+/// Solves a quasi-static increment with the forces that bodies have at the displacements `u`, as far as the stiffness does not give them; whether these hold
+/// where it ends, too.
+fn pass(
+    sight: &Sight,
+    model: &Model,
+    contact: &mut Contact,
+    solver: &mut Solver,
+    (trial, passes): (Trial, usize),
+    u: Vec<f64>,
+) -> Result<(bool, Accepted), StepFailure> {
+    let inside = sight.inside(model);
+    let constraints = sight.constraints(model, trial.to);
+    let fixed = constraints.fixed.clone();
+    (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
+    let mut external = Vec::new();
+    sight.load(model, &u, trial.to, &mut external);
+    let missed = difference(&solver.elastic(model, &u), &times(&solver.stiffness, &u));
+    let mut at = State {
+        t: trial.to,
+        u,
+        ..State::default()
+    };
+    let task = Task {
+        load: Load::External(difference(&external, &missed)),
+        constraints,
+        rate: None,
+        from: &inside.state,
+    };
+    let converged = solver.solve_sparse(model, contact, task, &mut at)?;
+    external.clear();
+    sight.load(model, &at.u, trial.to, &mut external);
+    let internal = solver.elastic(model, &at.u);
+    let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let left = difference(&internal, &external);
+    let end = (left.as_slice(), size(&external).max(size(&internal)));
+    let ends = (&fixed[..], &solver.diagonal[..]);
+    let met = sight.met(model, (&converged, end), ends, passes)?;
+    let found = met.as_ref().unwrap_or(&converged);
+    let forces = found.forces.clone();
+    let accepted = Accepted {
+        flow: Flow {
+            work: inside.work(&fixed, (&at.u, &forces), &external),
+            ..Flow::default()
+        },
+        strain: solver.strain_energy(model, &at.u),
+        forces,
+        contact: found.contact.clone(),
+        external,
+        state: at,
+        ..Accepted::from_newton(found)
+    };
+    Ok((met.is_some(), accepted))
 }

@@ -396,7 +396,7 @@ fn what_such_bodies_cannot_bear_is_refused() {
         };
         assert!(found.contains(part), "{found}");
     };
-    expect("\n[[step]]\nduration = 1\n", "dynamic steps alone");
+    expect("\n[[step]]\nmodes.count = 3\n", "does not know of");
     expect(
         "\n[support.rail]\nset = \"tyre.bore\"\ny = 0\n",
         "all directions",
@@ -405,4 +405,149 @@ fn what_such_bodies_cannot_bear_is_refused() {
         "\n[load.spring]\nset = \"tyre.bore\"\nspring.stiffness = [1, 1]\n",
         "would turn",
     );
+}
+
+#[test]
+fn a_heavy_top_precesses_with_its_axis_level() {
+    // A square slab on a pin at the middle of its face: Ω = m g d / (I₃ ω), exact for an axis that stays level, with which the motion begins.
+    let (spin, d) = (50.0, 0.05);
+    let turn = 9.81 * d / (0.04 / 6.0 * spin);
+    let text = format!(
+        r#"
+        format = 1
+        model.space = "solid"
+        [body.top]
+        material = "m"
+        rotation = "large"
+        generate.box = {{ from = [0, -0.1, -0.1], to = [0.1, 0.1, 0.1], cells = [2, 4, 4] }}
+        [material.m]
+        isotropic = {{ young = 1e9, poisson = 0.3, density = 1000 }}
+        [set.pin]
+        of = "top"
+        point = [0, 0, 0]
+        [support.pin]
+        set = "pin"
+        x = 0
+        y = 0
+        z = 0
+        [load.weight]
+        set = "top"
+        gravity.acceleration = [0, 0, -9.81]
+        [initial.spin]
+        set = "top"
+        spin = [{spin}, 0, {turn}]
+        velocity = [0, {}, 0]
+        [[step]]
+        duration = 0.4
+        dynamic = {MIDPOINT}
+        increments = {{ initial = 0.004, largest = 0.004 }}
+        "#,
+        turn * d
+    );
+    let record = run(&text);
+    let way = |i: usize| last(&record, &format!("top.U{i}")) / d;
+    let axis = [1.0 + way(1), way(2), way(3)];
+    let found = axis[1].atan2(axis[0]);
+    assert!(
+        (found / (0.4 * turn) - 1.0).abs() < 1e-3,
+        "{found} {}",
+        0.4 * turn
+    );
+    assert!(axis[2].abs() < 1e-3, "{axis:?}");
+}
+
+/// A roller between a floor and a lid that is pressed down and then drawn along. They overlap from the start, by 1e-8: touching without a force holds nothing.
+fn roller(large: bool, increments: usize) -> String {
+    let rotation = if large { "rotation = \"large\"" } else { "" };
+    format!(
+        r#"
+        format = 1
+        model.space = "plane-strain"
+        [body.roller]
+        material = "m"
+        {rotation}
+        generate.ring = {{ bore = 0.03, radius = 0.1, cells = [120, 4] }}
+        [body.floor]
+        material = "m"
+        generate.rectangle = {{ from = [-0.1, -0.15], to = [0.3, -0.09999999], cells = [80, 4] }}
+        [body.lid]
+        material = "m"
+        generate.rectangle = {{ from = [-0.3, 0.09999999], to = [0.2, 0.15], cells = [100, 4] }}
+        [material.m]
+        isotropic = {{ young = 1e7, poisson = 0.3 }}
+        [support.floor]
+        set = "floor.bottom"
+        x = 0
+        y = 0
+        [support.press]
+        set = "lid.top"
+        y = -1e-3
+        amplitude = "press"
+        [support.drag]
+        set = "lid.top"
+        x = 0.2
+        amplitude = "drag"
+        [amplitude.press]
+        table = [[0, 0], [1, 1]]
+        [amplitude.drag]
+        table = [[0, 0], [1, 0], [2, 1]]
+        [interface.below]
+        secondary = "roller.rim"
+        primary = "floor.top"
+        normal.linear.c = 1e11
+        friction.coulomb.mu = 0.3
+        [interface.above]
+        secondary = "roller.rim"
+        primary = "lid.bottom"
+        normal.linear.c = 1e11
+        friction.coulomb.mu = 0.3
+        [[step]]
+        duration = 2
+        increments = {{ initial = {0}, largest = {0} }}
+        "#,
+        2.0 / increments as f64
+    )
+}
+
+#[test]
+fn a_roller_goes_half_the_way_of_what_it_carries_and_turns_with_it() {
+    let record = run(&roller(true, 40));
+    let way = column(&record, "roller.U1");
+    let angle = column(&record, "roller.UR3");
+    let (end, middle) = (way.len() - 1, way.len() / 2 - 1);
+    // All of it is symmetric about the centre: the lid goes by 0.2.
+    assert!((way[end] - way[middle] - 0.1).abs() < 2e-4, "{way:?}");
+    // Its radius is what the lid leaves of it, or a little more: the rim between the contacts keeps its length.
+    let radius = -(way[end] - way[middle]) / (angle[end] - angle[middle]);
+    assert!((0.0995..0.1002).contains(&radius), "{radius}");
+    let (below, above) = (last(&record, "below.CFN2"), last(&record, "above.CFN2"));
+    assert!((below + above).abs() < 1e-6 * below, "{below} {above}");
+    // Pressed by as much whatever the angle, but for the sides of the polygon.
+    let pressed = column(&record, "below.CFN2");
+    assert!(
+        (pressed[end] / pressed[middle] - 1.0).abs() < 0.06,
+        "{pressed:?}"
+    );
+}
+
+#[test]
+fn a_roller_goes_on_where_it_was_stopped() {
+    let problem = support::problem(&roller(true, 20));
+    restart::check("roller", &problem, Path::new("."), 3);
+}
+
+#[test]
+fn small_rotations_are_those_of_the_linear_theory() {
+    let press = |large| {
+        let text = roller(large, 40).replace("duration = 2", "duration = 1");
+        let text = text
+            .replace("y = -1e-3", "y = -1e-6")
+            .replace("1e11", "1e9");
+        run(&text)
+    };
+    let (large, small) = (press(true), press(false));
+    for name in ["below.CFN2", "above.CFN2", "ALLSE", "ALLCE"] {
+        let (a, b) = (last(&large, name), last(&small, name));
+        assert!((a / b - 1.0).abs() < 1e-4, "{name}: {a} {b}");
+    }
 }

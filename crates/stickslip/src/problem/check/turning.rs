@@ -77,17 +77,21 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
             findings.add(&key, message, "make it elastic: it may be stiff");
         }
     }
-    for (i, _) in problem
-        .step
-        .iter()
-        .enumerate()
-        .filter(|(_, s)| s.dynamic.is_none())
-    {
-        findings.add(
-            &["step", &i.to_string()],
-            format!("body `{first}` turns freely by any angle, which is known to dynamic steps alone"),
-            "make the step dynamic, or let the body turn with a reference point: `rotation.with = \"NAME\"`",
-        );
+    for (i, step) in problem.step.iter().enumerate() {
+        let kinds = [
+            ("steady", step.steady.is_some()),
+            ("modes", step.modes.is_some()),
+            ("complex-modes", step.complex_modes.is_some()),
+        ];
+        for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
+            findings.add(
+                &["step", &i.to_string(), kind],
+                format!(
+                    "body `{first}` turns freely by any angle, which such a step does not know of"
+                ),
+                "leave this step out, or `rotation` of the body",
+            );
+        }
     }
     let warm = problem
         .initial
@@ -105,7 +109,7 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
     if let Some(with) = (problem.body.values()).find_map(|b| b.rotation.reference()) {
         findings.add(
             &["body", first.as_str(), "rotation"],
-            format!("it turns freely in dynamic steps, and a body turns with `{with}` in quasi-static ones"),
+            format!("it turns freely, and another body with `{with}`"),
             "let all bodies turn in one way",
         );
     }

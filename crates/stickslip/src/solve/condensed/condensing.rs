@@ -25,7 +25,8 @@ use crate::solve::work::Work;
 impl Solver {
     /// Makes the bodies ready for a quasi-static step.
     pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
-        if !self.method.condenses() {
+        // What turns freely would change the load patterns of all interiors in every pass.
+        if !self.method.condenses() || !model.corotations.is_empty() {
             return;
         }
         let step = &model.steps[frame.step];

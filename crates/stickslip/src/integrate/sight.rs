@@ -1,0 +1,235 @@
+//! From where bodies that turn freely are seen in an increment.
+//!
+//! Nodal masses do not depend on direction, so that motion has the same equations along the axes of any frame that stands still. From one that stands where the
+//! body will be, it turns by as little as that is wrong, so that matrices that were factored once are good derivatives.
+
+use std::sync::Arc;
+
+use crate::contact::interface::Interface;
+use crate::math::{norm, scale};
+use crate::model::contact::Contact;
+use crate::model::definition::Model;
+use crate::model::frame::{Frame, Motion};
+use crate::newton::Converged;
+use crate::solve::accepted::Accepted;
+use crate::system::{
+    BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, State, StepFailure,
+};
+
+/// Most times that an increment is solved again with forces that have been found where it ended. Each leaves the part of the imbalance by which bodies are
+/// strained, and by which they have turned otherwise than expected.
+const MOST_PASSES: usize = 40;
+
+/// Roundings of places by which the forces on points may be off.
+const ROUNDINGS: f64 = 4.0;
+
+/// How much more than Newton's method left may be out of balance where that cannot do better.
+const LEFT: f64 = 2.0;
+
+/// What acts at the end of an increment.
+pub(super) struct Acting<'a> {
+    /// What is prescribed.
+    pub constraints: Constraints,
+    /// External forces `[N]`.
+    pub external: Vec<f64>,
+    /// From where bodies that turn freely are seen, if any do.
+    pub sight: Option<Sight<'a>>,
+}
+
+impl<'a> Acting<'a> {
+    pub fn new(model: &Model, frame: &Frame, t: f64) -> Acting<'a> {
+        Acting {
+            constraints: frame.constraints(model, t),
+            external: frame.external(model, t),
+            sight: None,
+        }
+    }
+}
+
+/// From where bodies that turn freely are seen in an increment.
+pub(super) struct Sight<'a> {
+    /// The start, along the axes of space.
+    pub outer: &'a Frame,
+    pub frames: Arc<BodyFrames>,
+}
+
+impl<'a> Sight<'a> {
+    /// From where the frames of the bodies will be after this time, if they go on as they do.
+    pub fn new(model: &Model, frame: &'a Frame, after: f64) -> Self {
+        let bodies = &model.corotations;
+        let turns = bodies.turns(&frame.state.u);
+        let spins = bodies.spins(&turns, &frame.state.v);
+        let each = turns.iter().zip(spins);
+        let ahead = each
+            .map(|(turn, [spin, velocity])| turn.moved(scale(after, spin), scale(after, velocity)));
+        Sight::from(model, frame, &ahead.collect::<Vec<_>>())
+    }
+
+    /// From frames that are there.
+    pub fn from(model: &Model, frame: &'a Frame, turns: &[BodyTurn]) -> Self {
+        let each = model.corotations.points().zip(turns);
+        let all = each.map(|(points, turn)| BodyFrame {
+            points,
+            carrier: Carrier::Still(turn.pose()),
+        });
+        Sight {
+            outer: frame,
+            frames: Arc::new(BodyFrames::new(model.dofs, all.collect())),
+        }
+    }
+
+    /// Lets interfaces see bodies from here; the frames that they had.
+    pub fn enter(&self, model: &Model, contact: &mut Contact) -> Vec<Arc<BodyFrames>> {
+        let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
+        let each = interfaces.map(|i| std::mem::replace(&mut i.frames, Arc::clone(&self.frames)));
+        each.collect()
+    }
+
+    /// The start as it is seen.
+    pub fn inside(&self, model: &Model) -> Frame {
+        let (outer, points) = (self.outer, &model.mesh.points);
+        let turned = |values: &[f64]| {
+            let mut values = values.to_vec();
+            if !values.is_empty() {
+                self.frames.turn_in(&[], &mut values);
+            }
+            values
+        };
+        Frame {
+            state: State {
+                t: outer.state.t,
+                u: self.frames.in_frames(points, &outer.state.u),
+                v: turned(&outer.state.v),
+                a: turned(&outer.state.a),
+            },
+            forces: turned(&outer.forces),
+            contact: turned(&outer.contact),
+            load: turned(&outer.load),
+            motion: Motion {
+                internal: turned(&outer.motion.internal),
+                start: match outer.motion.start.is_empty() {
+                    true => Vec::new(),
+                    false => self.frames.in_frames(points, &outer.motion.start),
+                },
+                travel: outer.motion.travel,
+            },
+            ..outer.clone()
+        }
+    }
+
+    /// Where bodies that turn freely are expected to end. Their accelerations have no part in it: those of a scheme without dissipation ring.
+    pub fn expect(&self, model: &Model, start: &State, dt: f64, u: &mut [f64]) {
+        model.corotations.go_on((&start.u, &start.v), dt, u);
+    }
+
+    /// What acts from outside at a time, where displacements are as seen.
+    pub fn load(&self, model: &Model, u: &[f64], t: f64, out: &mut Vec<f64>) {
+        let still = !model.loads.iter().any(|l| l.follows);
+        if still && !out.is_empty() {
+            return;
+        }
+        let u = self.frames.in_space(&model.mesh.points, u);
+        *out = self.outer.external_at(model, t, &u);
+        self.frames.turn_in(&[], out);
+    }
+
+    /// What is prescribed: points of bodies that turn are held altogether.
+    pub fn constraints(&self, model: &Model, t: f64) -> Constraints {
+        let mut constraints = self.outer.constraints(model, t);
+        let (dofs, points) = (model.dofs, &model.mesh.points);
+        let placed = self.frames.in_frames(points, &constraints.values);
+        for p in model.corotations.points().flatten() {
+            for dof in dofs.of(p, 0)..dofs.of(p + 1, 0) {
+                if constraints.fixed[dof] {
+                    constraints.values[dof] = placed[dof];
+                }
+            }
+        }
+        constraints
+    }
+
+    /// Turns vectors by dof from how they are seen to space.
+    pub fn turn_out(&self, vectors: &mut [f64]) {
+        self.frames.turn_out(&[], vectors);
+    }
+
+    /// Whether an increment that Newton's method has found balances with the forces where it ended without those of interfaces, and the size of what
+    /// balances in them; with these, if it does.
+    pub fn met(
+        &self,
+        model: &Model,
+        (converged, (end, size_there)): (&Converged, (&[f64], f64)),
+        (fixed, diagonal): (&[bool], &[f64]),
+        passes: usize,
+    ) -> Result<Option<Converged>, StepFailure> {
+        let size = |forces: &[f64]| {
+            let free = forces.iter().zip(fixed).filter(|(_, fixed)| !**fixed);
+            free.map(|(f, _)| f * f).sum::<f64>().sqrt()
+        };
+        let both = end.iter().zip(&converged.contact);
+        let forces: Vec<f64> = both.map(|(a, b)| a + b).collect();
+        let off = size(&forces);
+        // Of places: what strains is a difference of these.
+        let places = model
+            .mesh
+            .points
+            .iter()
+            .zip(diagonal.chunks(model.dofs.dim));
+        let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
+        let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
+        let scale = size_there.max(size(&converged.contact));
+        let enough = (model.settings.tolerance * scale)
+            .max(LEFT * size(&converged.forces))
+            .max(rounding);
+        if off <= enough {
+            return Ok(Some(Converged {
+                forces,
+                ..converged.clone()
+            }));
+        }
+        if off.is_nan() || passes >= MOST_PASSES {
+            return Err(StepFailure::new(
+                Cause::NotConverged,
+                format!(
+                    "bodies that turn are out of balance by {:.1e} of the forces in play after {passes} passes",
+                    off / scale.max(f64::MIN_POSITIVE)
+                ),
+            )
+            .help("take smaller increments; bodies must not be strained by more than a few per cent"));
+        }
+        Ok(None)
+    }
+}
+
+/// Gives interfaces their frames back.
+pub(super) fn leave(model: &Model, contact: &mut Contact, before: Vec<Arc<BodyFrames>>) {
+    let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
+    interfaces
+        .zip(before)
+        .for_each(|(i, before)| i.frames = before);
+}
+
+/// Whether a body that turns freely takes part in it.
+fn turns(model: &Model, interface: &Interface) -> bool {
+    let mut nodes = interface.nodes.iter();
+    nodes.any(|&n| model.corotations.of_point(n).is_some())
+}
+
+/// An increment that was found as bodies are seen, along the axes of space.
+pub(super) fn in_space(model: &Model, frames: &BodyFrames, mut accepted: Accepted) -> Accepted {
+    let state = &mut accepted.state;
+    state.u = frames.in_space(&model.mesh.points, &state.u);
+    let vectors = [
+        &mut state.v,
+        &mut state.a,
+        &mut accepted.forces,
+        &mut accepted.contact,
+        &mut accepted.external,
+    ];
+    for vector in vectors.into_iter().chain(accepted.internal.as_mut()) {
+        if !vector.is_empty() {
+            frames.turn_out(&[], vector);
+        }
+    }
+    accepted
+}
