@@ -60,7 +60,11 @@ impl QuasiStatic {
     ) -> Result<Accepted, StepFailure> {
         let mut u = frame.state.u.clone();
         for passes in 1.. {
-            let turns = model.corotations.turns(&u);
+            // Springs that follow loose bodies are along the axes of space.
+            let turns = match solver.floating.anchored() {
+                true => model.corotations.turns(&vec![0.0; u.len()]),
+                false => model.corotations.turns(&u),
+            };
             let sight = Sight::from(model, frame, &turns);
             let before = sight.enter(model, contact);
             let seen = sight.frames.in_frames(&model.mesh.points, &u);

@@ -56,7 +56,7 @@ pub enum BodyRotation {
     #[default]
     Small,
     /// By any angle, freely, in motion and at rest: the body has a frame of its own, which fits its points best, and strains are small in it. Supports hold its points
-    /// altogether or not at all. At rest contact must hold it from the start, and systems are solved sparse. An implicit scheme keeps the angular momentum where it is `generalised-alpha` with `rho = 1`, and central
+    /// altogether or not at all. At rest systems are solved sparse. An implicit scheme keeps the angular momentum where it is `generalised-alpha` with `rho = 1`, and central
     /// differences do; numerical dissipation takes spin as it does vibration.
     Large,
     /// By any angle, with the `[reference.NAME]` that is named: `rotation.with = "axle"`. The body is described in a frame that the reference point carries, and

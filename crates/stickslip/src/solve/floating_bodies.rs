@@ -107,6 +107,11 @@ impl Floating {
         self.known.as_ref().map_or(&[], |(_, bodies)| bodies)
     }
 
+    /// Whether springs hold bodies that nothing else does.
+    pub fn anchored(&self) -> bool {
+        self.anchors.is_some()
+    }
+
     /// Energy left in anchors over the strain energy of the model.
     pub fn artificial_energy(&self, strain: f64) -> f64 {
         if self.left == 0.0 {

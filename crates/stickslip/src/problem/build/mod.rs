@@ -181,7 +181,7 @@ impl Problem {
             steps: &steps,
             frames: &frames,
         };
-        let corotations = Arc::new(turning::corotations(self, &mesh, &bodies, dofs));
+        let corotations = turning::corotations(self, &mesh, &bodies, dofs);
         turning::refuse(self, &said, &corotations)?;
         let references = references::build(self, &said)?;
         let followers = references::followers(
@@ -218,7 +218,7 @@ impl Problem {
             dofs,
             links: links.with_followers(followers),
             frames,
-            corotations: Arc::clone(&corotations),
+            corotations: Arc::new(corotations),
             bodies,
             references,
             loads,
@@ -249,8 +249,7 @@ impl Problem {
             method: self.solver.method,
             engine: self.solver.engine.clone(),
             energy_limit: self.solver.energy_limit,
-            // Springs that follow a body do not turn with it.
-            follow: self.solver.follow_loose_bodies && corotations.is_empty(),
+            follow: self.solver.follow_loose_bodies,
             unused: unused::tables(self),
             quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),

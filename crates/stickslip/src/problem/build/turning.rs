@@ -43,7 +43,8 @@ pub(super) fn corotations(
         let mut masses = vec![0.0; dofs.points];
         body.elastic.add_lumped_mass(&mut masses);
         let mut weights = masses[body.points.clone()].to_vec();
-        if weights.iter().any(|w| *w <= 0.0) {
+        // Without a density there is none, or what dividing by it makes.
+        if !weights.iter().all(|w| *w > 0.0) {
             weights.fill(1.0);
         }
         (body.points.clone(), weights)
