@@ -565,12 +565,29 @@ pub enum Procedure {
         /// Lowest and highest frequency, 0 where not given.
         range: [f64; 2],
     },
+    /// `*COMPLEX FREQUENCY` (Abaqus).
+    ComplexFrequency {
+        /// How many modes.
+        count: usize,
+        /// Highest frequency, 0 if not given.
+        highest: f64,
+        /// `FRICTION DAMPING`.
+        friction_damping: bool,
+    },
 }
 
 impl Step {
     /// Whether inertia has a part in it.
     pub fn is_dynamic(&self) -> bool {
         matches!(self.procedure, Procedure::Dynamic { .. })
+    }
+
+    /// Whether it looks for modes, and nothing moves in it.
+    pub fn is_modal(&self) -> bool {
+        matches!(
+            self.procedure,
+            Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. }
+        )
     }
 }
 
@@ -625,6 +642,8 @@ pub enum Action {
         /// Where.
         place: Place,
     },
+    /// A line of `*MOTION`.
+    Motion(MaterialMotion),
     /// `*CHANGE FRICTION`.
     ChangeFriction(String, Friction, Place),
     /// `*CHANGE SURFACE BEHAVIOR`.
@@ -649,6 +668,26 @@ pub enum Action {
         /// Where.
         place: Place,
     },
+}
+
+/// A line of `*MOTION`: material that runs through the mesh at nodes (Abaqus).
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialMotion {
+    /// Nodes.
+    pub target: Target,
+    /// How fast, and which way.
+    pub velocity: MaterialVelocity,
+    /// Where.
+    pub place: Place,
+}
+
+/// Velocity of material that runs through the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MaterialVelocity {
+    /// Along directions, 0 to 2.
+    Along(Vec<usize>, f64),
+    /// About an axis: a point of it, angular velocity.
+    About([f64; 3], [f64; 3]),
 }
 
 /// A distributed load.

@@ -72,6 +72,8 @@ const CARDS: &[(&str, Read)] = &[
     ("STATIC", |r, c| r.statics(c)),
     ("DYNAMIC", |r, c| r.dynamics(c)),
     ("FREQUENCY", |r, c| r.frequency(c)),
+    ("COMPLEXFREQUENCY", |r, c| r.complex_frequency(c)),
+    ("MOTION", |r, c| r.material_motion(c)),
     ("BOUNDARY", |r, c| r.boundary(c)),
     ("CLOAD", |r, c| r.forces(c)),
     ("TEMPERATURE", |r, c| r.temperature(c)),
@@ -105,7 +107,7 @@ pub(super) const BENEATH: [&str; 7] = [
 ];
 
 /// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
-pub(super) const NAMES: [&str; 23] = [
+pub(super) const NAMES: [&str; 24] = [
     "PART",
     "ENDPART",
     "ASSEMBLY",
@@ -129,14 +131,14 @@ pub(super) const NAMES: [&str; 23] = [
     "STATIC",
     "DYNAMIC",
     "FREQUENCY",
+    "COMPLEXFREQUENCY",
 ];
 
 /// Procedures that are refused.
-pub(super) const OTHER_PROCEDURES: [&str; 23] = [
+pub(super) const OTHER_PROCEDURES: [&str; 22] = [
     "ANNEAL",
     "BUCKLE",
     "CFD",
-    "COMPLEXFREQUENCY",
     "COUPLEDTEMPERATURE-DISPLACEMENT",
     "CRACKPROPAGATION",
     "DIRECTCYCLIC",

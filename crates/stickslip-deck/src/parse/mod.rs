@@ -14,6 +14,7 @@ mod judge;
 mod links;
 mod loads;
 mod material;
+mod material_motion;
 mod names;
 mod nodes;
 mod orientation;

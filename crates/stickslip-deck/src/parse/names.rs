@@ -180,6 +180,7 @@ impl Missing<'_> {
                     ..
                 } => self.target(target, *place),
                 Action::Temperature { of, .. } => self.target(&of.target, of.place),
+                Action::Motion(motion) => self.target(&motion.target, motion.place),
                 _ => {}
             }
         }

@@ -112,7 +112,10 @@ impl Reader<'_> {
             );
             return;
         }
-        let frequency = matches!(procedure, Procedure::Frequency { .. });
+        let frequency = matches!(
+            procedure,
+            Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. }
+        );
         if self.deck.steps.last().is_some_and(|s| s.perturbation) && !frequency {
             self.error(
                 card.place,
@@ -207,6 +210,59 @@ impl Reader<'_> {
         self.proceed(card, Procedure::Frequency { count, range });
     }
 
+    pub(super) fn complex_frequency(&mut self, card: &Card) {
+        let fields = card.data.first();
+        let [asked, from, highest, shift] =
+            [0, 1, 2, 3].map(|i| fields.map_or(0.0, |data| self.number(data, i, 0.0)));
+        let place = fields.map_or(card.place, |data| data.place);
+        if from != 0.0 || shift != 0.0 {
+            self.error(
+                place,
+                "*COMPLEX FREQUENCY: modes are found from the lowest frequency on",
+                "leave the lowest frequency and the shift out, and ask for as many modes as reach that far",
+            );
+        }
+        let known = |s: &Step| match s.procedure {
+            Procedure::Frequency { count, .. } => Some(count),
+            _ => None,
+        };
+        let before = self.deck.steps.iter().rev().find_map(known);
+        let count = match (asked == 0.0, before) {
+            (true, Some(count)) => count,
+            (true, None) => {
+                self.error(
+                    place,
+                    "*COMPLEX FREQUENCY does not say how many modes, and no *FREQUENCY before it does",
+                    "write number of modes, , highest frequency",
+                );
+                1
+            }
+            (false, _) => asked.clamp(1.0, 1e6) as usize,
+        };
+        if asked < 0.0 || highest < 0.0 {
+            self.error(
+                place,
+                "the number of modes and their highest frequency are not negative",
+                "write number of modes, , highest frequency",
+            );
+        }
+        let friction_damping = match card.get("FRICTIONDAMPING") {
+            None | Some("NO") => false,
+            Some("YES") => true,
+            Some(other) => {
+                let message = format!("FRICTION DAMPING={} is not known", clip(other));
+                self.error(card.place, message, "FRICTION DAMPING is YES or NO");
+                false
+            }
+        };
+        let procedure = Procedure::ComplexFrequency {
+            count,
+            highest,
+            friction_damping,
+        };
+        self.proceed(card, procedure);
+    }
+
     pub(super) fn act(&mut self, action: Action) {
         if let Some(step) = self.deck.steps.last_mut() {
             step.actions.push(action);
@@ -219,7 +275,7 @@ impl Reader<'_> {
             self.error(
                 place,
                 "the step does not say how it is solved",
-                "write *STATIC, *DYNAMIC or *FREQUENCY in it",
+                "write *STATIC, *DYNAMIC, *FREQUENCY or *COMPLEX FREQUENCY in it",
             );
         }
     }

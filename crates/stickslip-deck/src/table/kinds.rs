@@ -21,12 +21,13 @@ pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
         "MEMBRANESECTION" => MEMBRANES,
         "FLUIDSECTION" | "FLUIDSECTIONS" => NETWORKS,
         "CONNECTORSECTION" | "CONNECTORBEHAVIOR" => CONNECTORS,
-        "COMPLEXFREQUENCY" => "modes of steady sliding as decks say them",
         "COHESIVESECTION" => COHESIVE,
         "USERELEMENT" | "UEL" | "USERSECTION" => USER_ELEMENTS,
         _ if help == LAW => "materials that are not linear elastic",
         _ if help == HEAT_HELP => HEAT,
-        _ if help == TIME => "analyses other than *STATIC, *DYNAMIC and *FREQUENCY",
+        _ if help == TIME => {
+            "analyses other than *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY"
+        }
         _ => return None,
     })
 }

@@ -2,8 +2,8 @@
 
 use super::row::{Row, refused_card};
 
-pub(super) const TIME: &str = "only *STATIC, *DYNAMIC and *FREQUENCY steps are computed";
-const COMPLEX: &str = "decks do not say which way surfaces slide: convert the deck without it, and give the problem file `primary-velocity`, `steady` and `complex-modes`";
+pub(super) const TIME: &str =
+    "only *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY steps are computed";
 pub(super) const HEAT: &str = "heat does not flow here: give the temperatures themselves, by *TEMPERATURE in a *STATIC or *DYNAMIC step";
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 pub(super) const LAW: &str =
@@ -50,7 +50,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("MODALDYNAMIC", TIME),
     refused_card("MODALDAMPING", TIME),
     refused_card("STEADYSTATEDYNAMICS", TIME),
-    refused_card("COMPLEXFREQUENCY", COMPLEX),
     refused_card("GREEN", TIME),
     refused_card("SENSITIVITY", TIME),
     refused_card("CFD", TIME),

@@ -12,6 +12,7 @@ const FREQUENCY: &str = "loads of steady vibrations are not computed";
 const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
 const FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";
 const ZERO: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
+const GYROSCOPIC: &str = "what turns does so slowly here, without gyroscopic forces; modes of steady sliding are found by *COMPLEX FREQUENCY alone, after a *STATIC step with *MOTION";
 const ACCURACY: &str = "it controls the lengths of increments; those are stickslip's own, in the bounds of the data line";
 
 pub(super) const ROWS: &[Row] = &[
@@ -110,6 +111,47 @@ pub(super) const ROWS: &[Row] = &[
             refused("GLOBAL", "matrices are not written: leave GLOBAL out"),
             refused("CYCMPC", CYCLIC),
             refused("ALPHA", CYCLIC),
+        ],
+    ),
+    card(
+        "COMPLEXFREQUENCY",
+        Data::Line("number of modes, lowest frequency, highest frequency, shift"),
+        &[
+            read("FRICTIONDAMPING"),
+            idle("NORMALIZATION", "shapes have the mass one"),
+            idle(
+                "PROPERTYEVALUATION",
+                "nothing that is read depends on the frequency",
+            ),
+            harmless("UNSTABLEMODESONLY", "all modes are in the table"),
+            harmless("LEFTEIGENVECTORS", "shapes are the right ones"),
+            idle("RIGHTEIGENVECTORS", "shapes are the right ones"),
+            idle("SOLVER", NUMERICS),
+            refused(
+                "STIFFNESSPROJECTION",
+                "friction is in the stiffness: leave STIFFNESS PROJECTION out",
+            ),
+            refused("CORIOLIS", GYROSCOPIC),
+            refused("FLUTTER", GYROSCOPIC),
+        ],
+    ),
+    card(
+        "MOTION",
+        Data::Any,
+        &[
+            read("ROTATION"),
+            read("TRANSLATION"),
+            read("TYPE"),
+            refused(
+                "AMPLITUDE",
+                "sliding lasts and has one velocity in a step: leave AMPLITUDE out, and write the velocity that counts",
+            ),
+            refused(
+                "DEFINITION",
+                "give two points of the axis, DEFINITION=COORDINATES, and leave it out",
+            ),
+            refused("ELEMENT", "currents are not computed: name nodes"),
+            refused("USER", SUBROUTINE),
         ],
     ),
     card(

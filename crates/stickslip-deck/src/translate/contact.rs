@@ -204,6 +204,22 @@ fn by_points(job: &mut Job, surface: &str) -> bool {
     nodes
 }
 
+/// The nodes of a surface.
+pub(super) fn surface_nodes(deck: &Deck, bodies: &Bodies, name: &str) -> BTreeSet<u64> {
+    let Some(surface) = deck.surfaces.get(name) else {
+        return BTreeSet::new();
+    };
+    if let SurfaceParts::Nodes(nodes) = &surface.parts {
+        return nodes.iter().copied().collect();
+    }
+    let facets: Vec<_> = (bodies.faces(&surface.parts).into_values())
+        .flatten()
+        .collect();
+    let mesh = bodies.mesh();
+    let points = mesh.points_of_facets(&facets);
+    points.into_iter().map(|p| mesh.point_ids[p]).collect()
+}
+
 /// Whether the parts of two surfaces that belong to one body have nodes in common, where nothing can be tied or touch; it is an error if so.
 fn meet(
     job: &mut Job,
@@ -211,18 +227,10 @@ fn meet(
     (slave, master): (&str, &str),
     (body, place): (usize, Place),
 ) -> bool {
-    let nodes = |name: &str| -> BTreeSet<u64> {
-        let Some(surface) = job.deck.surfaces.get(name) else {
-            return BTreeSet::new();
-        };
-        let own = |n: &u64| bodies.of_node.get(n) == Some(&body);
-        if let SurfaceParts::Nodes(nodes) = &surface.parts {
-            return nodes.iter().copied().filter(own).collect();
-        }
-        let facets = bodies.faces(&surface.parts).remove(&body);
-        let mesh = bodies.mesh();
-        let points = mesh.points_of_facets(&facets.unwrap_or_default());
-        points.into_iter().map(|p| mesh.point_ids[p]).collect()
+    let nodes = |name: &str| {
+        let mut nodes = surface_nodes(job.deck, bodies, name);
+        nodes.retain(|n| bodies.of_node.get(n) == Some(&body));
+        nodes
     };
     let (ours, theirs) = (nodes(slave), nodes(master));
     let Some(first) = ours.intersection(&theirs).next() else {

@@ -22,6 +22,8 @@ pub(super) struct Job<'a> {
     pub(super) active: Vec<(&'static str, String, Vec<bool>)>,
     /// Changes of laws: step, interface, key and value.
     pub(super) changes: Vec<(usize, String, String)>,
+    /// Sliding that lasts: step and line.
+    pub(super) sliding: Vec<(usize, String)>,
     /// What steps do with pretensions: step and line.
     pub(super) tensions: Vec<(usize, String)>,
     /// Starts and lengths of the steps.
@@ -46,6 +48,7 @@ impl<'a> Job<'a> {
             pairs: Vec::new(),
             active: Vec::new(),
             changes: Vec::new(),
+            sliding: Vec::new(),
             tensions: Vec::new(),
             spans: spans.collect(),
         }

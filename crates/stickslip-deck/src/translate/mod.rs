@@ -15,6 +15,7 @@ mod multi_point;
 mod pretensions;
 mod references;
 mod sets;
+mod sliding;
 mod spans;
 mod steps;
 mod supports;
@@ -63,6 +64,7 @@ impl Deck {
         materials::write(&mut job, &bodies);
         references::write(&mut job, &bodies, &mut sets);
         contact::write(&mut job, &bodies, &mut sets);
+        sliding::write(&mut job, &bodies);
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
         temperatures::write(&mut job, &bodies, &mut sets);

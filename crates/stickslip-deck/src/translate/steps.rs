@@ -16,7 +16,7 @@ pub(super) fn write(job: &mut Job) {
         job.error(
             Default::default(),
             "the deck has no step",
-            "a deck needs *STEP with *STATIC, *DYNAMIC or *FREQUENCY",
+            "a deck needs *STEP with *STATIC, *DYNAMIC, *FREQUENCY or *COMPLEX FREQUENCY",
         );
         return;
     }
@@ -38,6 +38,8 @@ pub(super) fn write(job: &mut Job) {
         if let Some(line) = motion(step) {
             job.out.line(&line);
         }
+        let slides = job.sliding.iter().filter(|(s, _)| *s == i);
+        slides.for_each(|(_, line)| job.out.line(line));
         changes(job, i);
         let tensions = job.tensions.iter().filter(|(s, _)| *s == i);
         tensions.for_each(|(_, line)| job.out.line(line));
@@ -79,7 +81,7 @@ fn increments(step: &Step) -> Vec<String> {
         Procedure::Dynamic {
             direct, explicit, ..
         } => (direct, explicit),
-        Procedure::Frequency { .. } => (false, false),
+        Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. } => (false, false),
     };
     let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
     let mut sizes = Vec::new();
@@ -112,8 +114,22 @@ fn increments(step: &Step) -> Vec<String> {
 
 /// Which modes a step looks for, where it does.
 fn modes(step: &Step) -> Option<String> {
-    let Procedure::Frequency { count, range } = step.procedure else {
-        return None;
+    let (count, range) = match step.procedure {
+        Procedure::Frequency { count, range } => (count, range),
+        Procedure::ComplexFrequency {
+            count,
+            highest,
+            friction_damping,
+        } => {
+            let to = match highest > 0.0 {
+                true => format!(", to = {}", toml::number(highest)),
+                false => String::new(),
+            };
+            return Some(format!(
+                "complex-modes = {{ count = {count}{to}, friction-damping = {friction_damping} }}"
+            ));
+        }
+        Procedure::Static { .. } | Procedure::Dynamic { .. } => return None,
     };
     let ends = ["from", "to"].into_iter().zip(range);
     let ends = ends.filter(|(_, f)| *f > 0.0);

@@ -42,7 +42,7 @@ fn networks_heat_and_other_analyses_are_one_line_each() {
         &[
             "job.inp:5: error: networks of flows are not computed: 2 elements of type D, 1 *FLUID SECTION",
             "job.inp:16: error: temperatures by heat transfer are not computed: 1 *HEAT TRANSFER, 1 *DFLUX",
-            "job.inp:25: error: analyses other than *STATIC, *DYNAMIC and *FREQUENCY are not computed: 1 *BUCKLE, 1 *STEADY STATE DYNAMICS",
+            "job.inp:25: error: analyses other than *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY are not computed: 1 *BUCKLE, 1 *STEADY STATE DYNAMICS",
             "what else there is to say",
         ],
     );

@@ -16,6 +16,7 @@ mod orientations;
 mod points;
 mod pretension;
 mod reading;
+mod squeal;
 mod steps;
 mod styles;
 mod support;

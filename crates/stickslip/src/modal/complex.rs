@@ -163,7 +163,7 @@ fn notes(linear: &Linear) -> Vec<String> {
     let mut notes = Vec::new();
     let [stick, steady, others] = linear.points;
     if steady == 0 {
-        notes.push("nothing slides all the time: give an interface a `primary-velocity`, or `steady.turning`, and press its surfaces in a step with `steady` before".into());
+        notes.push("nothing slides all the time: give an interface a `primary-velocity`, `steady.velocity` or `steady.turning`, and press its surfaces in a step with `steady` before".into());
     }
     if others > 0 {
         notes.push(format!(

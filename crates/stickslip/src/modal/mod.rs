@@ -43,7 +43,10 @@ pub(crate) fn compute(
     solver: &Solver,
     plan: &Modal,
 ) -> Result<ModalOutcome, RunError> {
-    let linear = linear::Linear::new(model, frame, contact, solver)?;
+    let mut linear = linear::Linear::new(model, frame, contact, solver)?;
+    if matches!(plan, Modal::Complex(plan) if !plan.friction_damping) {
+        linear.drag.clear();
+    }
     match plan {
         Modal::Real(plan) => real::modes(model, frame, &linear, plan),
         Modal::Complex(plan) => complex::modes(model, frame, &linear, plan),

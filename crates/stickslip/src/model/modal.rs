@@ -31,6 +31,8 @@ pub struct ComplexPlan {
     pub to: f64,
     /// Whether shapes are written.
     pub shapes: bool,
+    /// Whether friction has a part in the damping.
+    pub friction_damping: bool,
     /// Growth rates for other friction.
     pub map: Option<MapPlan>,
     /// Whether matrices are written.
@@ -60,14 +62,14 @@ pub struct KickPlan {
 /// Sliding that lasts, by interface.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SteadyPlan {
-    /// How surfaces turn beside their belts.
-    pub turning: Vec<(String, Steady)>,
+    /// How surfaces move beside their belts.
+    pub surfaces: Vec<(String, Steady)>,
 }
 
 impl SteadyPlan {
     /// How an interface is told.
     pub fn of(&self, interface: &str) -> Steady {
-        let mut all = self.turning.iter();
+        let mut all = self.surfaces.iter();
         all.find(|(name, _)| name == interface)
             .map_or(Steady::default(), |(_, steady)| *steady)
     }

@@ -62,6 +62,9 @@ pub struct ComplexModes {
     pub to: Option<f64>,
     /// Whether shapes are written as fields, real and imaginary parts.
     pub shapes: bool,
+    /// Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and what Abaqus takes
+    /// if not told otherwise.
+    pub friction_damping: bool,
     /// Frequencies and growth for other friction: the contact state is kept, and what friction adds to the equations is multiplied.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<FrictionRange>,
@@ -77,6 +80,7 @@ impl Default for ComplexModes {
             count: 20,
             to: None,
             shapes: true,
+            friction_damping: true,
             map: None,
             sensitivity: false,
             export: false,
@@ -91,6 +95,7 @@ impl ComplexModes {
             count: self.count,
             to: self.to.unwrap_or(f64::INFINITY),
             shapes: self.shapes,
+            friction_damping: self.friction_damping,
             map: self.map.as_ref().map(|m| MapPlan {
                 range: [m.from, m.to],
                 points: m.points,
@@ -162,6 +167,9 @@ pub struct SteadySliding {
     /// slowly, without centrifugal and gyroscopic forces.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub turning: BTreeMap<String, Turning>,
+    /// Velocities `[length/time]` of surfaces of primaries in this step, by interface, beside their `primary-velocity`: `velocity.pad = [2, 0, 0]`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity: BTreeMap<String, Vec<f64>>,
 }
 
 /// How a surface turns.
@@ -182,19 +190,25 @@ pub struct Turning {
 impl SteadySliding {
     /// How interfaces are told.
     pub(super) fn plan(&self) -> SteadyPlan {
-        let turning = self.turning.iter();
+        let mut surfaces: BTreeMap<String, Steady> = BTreeMap::new();
+        for (name, turning) in &self.turning {
+            surfaces.insert(name.clone(), turning.steady());
+        }
+        for (name, velocity) in &self.velocity {
+            surfaces.entry(name.clone()).or_default().velocity = vector(velocity);
+        }
         SteadyPlan {
-            turning: turning
-                .map(|(name, t)| (name.clone(), t.steady()))
-                .collect(),
+            surfaces: surfaces.into_iter().collect(),
         }
     }
 }
 
+fn vector(v: &[f64]) -> Vec3 {
+    std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))
+}
+
 impl Turning {
     fn steady(&self) -> Steady {
-        let vector =
-            |v: &[f64]| -> Vec3 { std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0)) };
         let axis = match self.axis.is_empty() {
             true => [0.0, 0.0, 1.0],
             false => vector(&self.axis),
@@ -203,6 +217,7 @@ impl Turning {
         Steady {
             centre: vector(&self.centre),
             turning: axis.map(|a| scale * a),
+            ..Steady::default()
         }
     }
 }

@@ -45,7 +45,7 @@ pub struct Step {
     /// Goes through the step again and again, for fretting and wear: amplitude tables give one cycle, which has to end as it begins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<Cycles>,
-    /// Sliding that lasts: `steady = {}`. Where the surface of a primary moves by itself (`primary-velocity`, or `turning` here), points that touch slide along
+    /// Sliding that lasts: `steady = {}`. Where the surface of a primary moves by itself (`primary-velocity`, or `velocity` and `turning` here), points that touch slide along
     /// that motion from the first increment on, whatever their displacements, as after a long way; others stick and slip as ever.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadySliding>,

@@ -8,7 +8,7 @@ use stickslip::modal::{Export, ModalOutcome};
 use support::{build, complaint, problem};
 
 /// What the last step without increments of a problem has found.
-fn modes(text: &str) -> ModalOutcome {
+pub fn modes(text: &str) -> ModalOutcome {
     let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
     simulation
         .run(&mut [])
@@ -16,7 +16,7 @@ fn modes(text: &str) -> ModalOutcome {
     simulation.modes.pop().expect("modes")
 }
 
-fn near(found: f64, expected: f64, tolerance: f64) {
+pub fn near(found: f64, expected: f64, tolerance: f64) {
     assert!(
         (found - expected).abs() <= tolerance,
         "{found:.12} is not {expected:.12}: {:e} apart",
@@ -44,7 +44,7 @@ fn dense(outcome: &ModalOutcome, name: &str) -> (usize, Vec<f64>) {
 }
 
 /// `K`, `C` and `M` with friction, written out, from exported parts.
-fn matrices(outcome: &ModalOutcome) -> (usize, [Vec<f64>; 3]) {
+pub fn matrices(outcome: &ModalOutcome) -> (usize, [Vec<f64>; 3]) {
     let (n, mut k) = dense(outcome, "stiffness");
     let (_, m) = dense(outcome, "mass");
     let has = outcome.export.iter().any(|e| e.name == "damping");
@@ -675,7 +675,7 @@ complex-modes = { count = 1 }
 }
 
 /// A pad that a belt drags along, of which friction falls with speed, and one that sticks to a wall.
-fn pad([mu, fall]: [f64; 2], [young, press]: [f64; 2], asked: &str) -> String {
+pub fn pad([mu, fall]: [f64; 2], [young, press]: [f64; 2], asked: &str) -> String {
     format!(
         r#"
 format = 1
@@ -886,6 +886,11 @@ fn what_has_no_meaning_in_a_step_without_increments_is_refused() {
             "is not among the interfaces",
         ),
         (
+            "steady.velocity.rub = [1, 0]",
+            "is not among the interfaces",
+        ),
+        ("steady.velocity.rub = [1]", "has 2 components"),
+        (
             "steady.turning.rub = { speed = 0, axis = [0, 0, 1] }",
             "across the plane",
         ),
@@ -901,7 +906,7 @@ fn what_has_no_meaning_in_a_step_without_increments_is_refused() {
 }
 
 /// A rigid block of mass 1 that a surface drags along x while a spring holds it across: only across it may move.
-fn dragged_across(sliding: &str, steady: &str) -> [f64; 2] {
+fn dragged_across(sliding: &str, steady: &str, asked: &str) -> [f64; 2] {
     let text = format!(
         r#"
 format = 1
@@ -917,7 +922,7 @@ support.guide = {{ set = "block", x = 0, z = -5e-4 }}
 [[step]]
 steady = {steady}
 [[step]]
-complex-modes = {{ count = 1 }}
+complex-modes = {{ count = 1{asked} }}
 "#
     );
     worst(&modes(&text))
@@ -928,12 +933,23 @@ fn friction_damps_what_moves_across_the_sliding() {
     // λ² + λ μ N / v + 100 = 0 with μ N = 2 and v = 0.5.
     let c: f64 = 0.4 * 5.0 / 0.5;
     let exact = [-0.5 * c, (100.0 - 0.25 * c * c).sqrt()];
-    let belt = dragged_across(", primary-velocity = [0.5, 0, 0.1]", "{}");
+    let belt = dragged_across(", primary-velocity = [0.5, 0, 0.1]", "{}", "");
+    // The velocity of the step beside that of the belt.
+    let step = "{ velocity.rub = [0.2, 0, 0.1] }";
+    let both = dragged_across(", primary-velocity = [0.3, 0, 0]", step, "");
     // About an axis so far away that all points go the same way.
     let disc = "{ turning.rub = { centre = [0, -1e6, 0], axis = [0, 0, -2], speed = 5e-7 } }";
-    let disc = dragged_across("", disc);
+    let disc = dragged_across("", disc, "");
     for q in 0..2 {
         near(belt[q], exact[q], 1e-9);
+        near(both[q], exact[q], 1e-9);
         near(disc[q], exact[q], 1e-5);
     }
+    let [growth, omega] = dragged_across(
+        ", primary-velocity = [0.5, 0, 0.1]",
+        "{}",
+        ", friction-damping = false",
+    );
+    near(growth, 0.0, 1e-9);
+    near(omega, 10.0, 1e-9);
 }

@@ -24,7 +24,7 @@ impl Interface {
             None => belt,
             Some(steady) => {
                 let arm = sub(add(self.origin, x), steady.centre);
-                add(belt, cross(steady.turning, arm))
+                add(add(belt, steady.velocity), cross(steady.turning, arm))
             }
         }
     }

@@ -9,9 +9,15 @@ pub struct Steady {
     pub centre: Vec3,
     /// Its angular velocity `[rad/s]`.
     pub turning: Vec3,
+    /// Its velocity beside that of its belt `[m/s]`.
+    pub velocity: Vec3,
 }
 
-crate::keep!(Steady { centre, turning });
+crate::keep!(Steady {
+    centre,
+    turning,
+    velocity
+});
 
 /// How an interface is to act at present.
 #[derive(Debug, Clone, Default)]

@@ -145,14 +145,24 @@ fn sliding(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step))
         findings.add(&["step", i, "steady"], message, "leave it out");
     }
     let dim = problem.model.space.dim();
-    for (name, turning) in &steady.turning {
-        let at = |last| ["step", i, "steady", "turning", name.as_str(), last];
+    let velocities = steady.velocity.keys().map(|name| ("velocity", name));
+    let turning = steady.turning.keys().map(|name| ("turning", name));
+    for (key, name) in turning.chain(velocities) {
         if !problem.interface.contains_key(name) {
             let names: Vec<&str> = problem.interface.keys().map(String::as_str).collect();
             let message = format!("`{name}` is not among the interfaces");
             let help = suggest(name, "interfaces", &names);
-            findings.add(&at("")[..5], message, help);
+            findings.add(&["step", i, "steady", key, name], message, help);
         }
+    }
+    for (name, velocity) in &steady.velocity {
+        if velocity.len() != dim || velocity.iter().any(|v| !v.is_finite()) {
+            let message = format!("a velocity has {dim} components here, all finite");
+            findings.add(&["step", i, "steady", "velocity", name], message, "");
+        }
+    }
+    for (name, turning) in &steady.turning {
+        let at = |last| ["step", i, "steady", "turning", name.as_str(), last];
         if !turning.centre.is_empty() && turning.centre.len() != dim {
             let message = format!("a place has {dim} coordinates here");
             findings.add(&at("centre"), message, "");
