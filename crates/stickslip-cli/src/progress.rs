@@ -131,6 +131,14 @@ impl Progress {
     /// The table of modes.
     fn modes(&mut self, outcome: &ModalOutcome) {
         self.line(&format!("  {}", outcome.step));
+        if let Some(response) = &outcome.response {
+            self.line(&format!(
+                "  {} frequencies in a space of {} displacements",
+                response.rows.len(),
+                response.dimension
+            ));
+            return;
+        }
         self.line("  mode      frequency         growth  damping ratio   residual");
         for (k, mode) in outcome.modes.iter().enumerate() {
             self.line(&format!(

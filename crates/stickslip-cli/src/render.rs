@@ -97,7 +97,7 @@ mod tests {
              | ^^^^^^^\n  \
              |\n  \
              = help: did you mean `duration`? allowed here: change, complex-modes, couplings, cycles, duration, dynamic, \
-             increments, interfaces, kick, loads, modes, name, pretension, steady, supports, temperatures"
+             harmonic, increments, interfaces, kick, loads, modes, name, pretension, steady, supports, temperatures"
         );
     }
 

@@ -6,45 +6,29 @@
 
 use std::f64::consts::TAU;
 
-use super::linear::{Pair, add_pairs, product};
 use super::outcome::{FrictionMap, MapRow};
 use super::quadratic::{Eigen, UNSTABLE, by_frequency, residuals};
 use super::real::lowest;
+use super::reduced::{Reduced, extend, images};
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, DenseLu, eigenvalues, general};
-use crate::math::vector::{dot, norm};
+use crate::math::vector::norm;
 use crate::model::modal::MapPlan;
 
 /// Rounds in which what modes leave open is added, at most.
-const ROUNDS: usize = 5;
+pub(super) const ROUNDS: usize = 5;
 
 /// Residual of modes in the equations of all dofs that is good enough: eigenvalues are better by about its size again.
-const GOOD: f64 = 1e-5;
+pub(super) const GOOD: f64 = 1e-5;
 
 /// The residual of unstable modes above which a note says so.
 const DOUBTFUL: f64 = 1e-4;
-
-/// Part of a vector that has to be left after orthogonalisation.
-const DEPENDENT: f64 = 1e-9;
 
 /// How far from a critical factor its slope is looked for, relative to the largest.
 const NEAR: f64 = 1e-6;
 
 /// Width to which a critical factor is known, relative to the largest.
 const WIDTH: f64 = 1e-13;
-
-/// The model in a space of few displacements, orthonormal in the product of the factored matrix.
-struct Reduced {
-    basis: Vec<Vec<f64>>,
-    stiffness: Vec<f64>,
-    mass: Vec<f64>,
-    damping: Vec<f64>,
-    friction: Vec<f64>,
-    drag: Vec<f64>,
-    sigma: f64,
-    /// By what velocities are divided.
-    pace: f64,
-}
 
 /// A map over friction of the modes of least frequency.
 pub(crate) fn friction(
@@ -144,82 +128,7 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     notes
 }
 
-/// Displacements at rest under the friction of others.
-fn images(shifted: &Shifted, block: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<f64>> {
-    let linear = shifted.linear;
-    let mut columns = Vec::new();
-    for x in block {
-        for pairs in [&linear.friction, &linear.drag] {
-            if !pairs.is_empty() {
-                let mut column = vec![0.0; linear.size()];
-                add_pairs(pairs, 1.0, x, &mut column);
-                columns.push(column);
-            }
-        }
-    }
-    *solves += columns.len();
-    shifted.solved(&columns)
-}
-
-/// Adds vectors to a basis; returns those parts of them that are new.
-fn extend(shifted: &Shifted, basis: &mut Vec<Vec<f64>>, more: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let product = |x: &[f64]| shifted.times(x);
-    let images: Vec<Vec<f64>> = basis.iter().map(|x| product(x)).collect();
-    let mut pairs: Vec<(Vec<f64>, Vec<f64>)> =
-        std::mem::take(basis).into_iter().zip(images).collect();
-    let first = pairs.len();
-    for mut x in more {
-        let before = dot(&x, &product(&x)).max(0.0).sqrt();
-        for _ in 0..2 {
-            for (q, aq) in &pairs {
-                let part = dot(aq, &x);
-                x.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
-            }
-        }
-        let left = dot(&x, &product(&x)).max(0.0).sqrt();
-        if left > DEPENDENT * before && pairs.len() < shifted.linear.free() {
-            x.iter_mut().for_each(|v| *v /= left);
-            let image = product(&x);
-            pairs.push((x, image));
-        }
-    }
-    *basis = pairs.into_iter().map(|(x, _)| x).collect();
-    basis[first..].to_vec()
-}
-
 impl Reduced {
-    fn new(shifted: &Shifted, basis: Vec<Vec<f64>>, pace: f64) -> Self {
-        let linear = shifted.linear;
-        let r = basis.len();
-        let symmetric = |image: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<f64> {
-            let images: Vec<Vec<f64>> = basis.iter().map(|x| image(x)).collect();
-            (0..r * r)
-                .map(|k| dot(&basis[k / r], &images[k % r]))
-                .collect()
-        };
-        let of = |pairs: &[Pair]| -> Vec<f64> {
-            let mut out = vec![0.0; r * r];
-            for pair in pairs {
-                let left: Vec<f64> = basis.iter().map(|x| product(&pair.left, x)).collect();
-                let right: Vec<f64> = basis.iter().map(|x| product(&pair.right, x)).collect();
-                for (row, l) in out.chunks_exact_mut(r).zip(left) {
-                    row.iter_mut().zip(&right).for_each(|(o, x)| *o += l * x);
-                }
-            }
-            out
-        };
-        Reduced {
-            stiffness: symmetric(&|x| linear.times(&linear.stiffness, x)),
-            mass: symmetric(&|x| linear.times(&linear.mass, x)),
-            damping: symmetric(&|x| linear.damped(x)),
-            friction: of(&linear.friction),
-            drag: of(&linear.drag),
-            sigma: shifted.sigma,
-            pace,
-            basis,
-        }
-    }
-
     /// The companion form about the shift, velocities over the pace.
     fn companion(&self, factor: f64) -> Vec<f64> {
         let r = self.basis.len();
@@ -300,7 +209,7 @@ impl Reduced {
     }
 
     /// The mode that grows fastest, relative to its size.
-    fn fastest(&self, factor: f64, asked: (usize, f64)) -> Complex {
+    pub(super) fn fastest(&self, factor: f64, asked: (usize, f64)) -> Complex {
         let modes = self.modes(factor, asked, false);
         let rate = |v: &Complex| v[0] / v[0].hypot(v[1]).max(f64::MIN_POSITIVE);
         let values = modes.into_iter().map(|e| e.value);

@@ -32,6 +32,9 @@ pub struct ModalOutcome {
     pub map: Option<FrictionMap>,
     /// How eigenvalues change.
     pub sensitivities: Vec<Sensitivity>,
+    /// The answer to forces at frequencies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response: Option<Response>,
     /// Matrices by name, to be written.
     #[serde(skip)]
     pub export: Vec<Export>,
@@ -47,7 +50,12 @@ impl ModalOutcome {
             shape: [Vec::new(), Vec::new()],
             ..mode.clone()
         });
+        let mut response = self.response.clone();
+        for row in response.iter_mut().flat_map(|r| &mut r.rows) {
+            row.shape = [Vec::new(), Vec::new()];
+        }
         ModalOutcome {
+            response,
             modes: modes.collect(),
             export: Vec::new(),
             ..self.clone()
@@ -107,6 +115,33 @@ pub struct MapRow {
     pub modes: Vec<[f64; 2]>,
 }
 
+/// Displacements under forces that go with `e^(i ω t)`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Response {
+    /// Displacements of probes, as in the history: `tip.U1`.
+    pub columns: Vec<String>,
+    /// Dimension of the space in which they were found.
+    pub dimension: usize,
+    /// Rows by frequency.
+    pub rows: Vec<ResponseRow>,
+}
+
+/// The answer at a frequency.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct ResponseRow {
+    /// Cycles per unit of time.
+    pub frequency: f64,
+    /// What is left of the equations of motion of all dofs, relative to what is in the answer, as that of a mode.
+    pub residual: f64,
+    /// Real and imaginary part by column `[length]`: what goes with the cosine of the forces, and with minus their sine.
+    pub values: Vec<[f64; 2]>,
+    /// Displacements by dof, real and imaginary part.
+    #[serde(skip)]
+    pub shape: [Vec<f64>; 2],
+}
+
 /// How the eigenvalue of a mode changes with a quantity, per relative change of it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -147,6 +182,7 @@ crate::keep!(ModalOutcome {
     shapes,
     map,
     sensitivities,
+    response,
     notes
 } and {
     export: Vec::new(),
@@ -168,6 +204,17 @@ crate::keep!(FrictionMap {
     critical,
     residual,
     undamped
+});
+crate::keep!(Response {
+    columns,
+    dimension,
+    rows
+});
+crate::keep!(ResponseRow {
+    frequency,
+    residual,
+    values,
+    shape
 });
 crate::keep!(MapRow { factor, modes });
 crate::keep!(Sensitivity {

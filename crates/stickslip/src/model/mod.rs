@@ -30,6 +30,6 @@ pub use heat::Heat;
 pub use kick::{Growth, Kick, Share};
 pub use ledger::{EnergyLedger, EnergyQuality};
 pub use limits::{GateMode, Limits};
-pub use modal::{ComplexPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+pub use modal::{ComplexPlan, HarmonicPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
 pub use scene::Scene;
 pub use setup::Setup;

@@ -9,6 +9,8 @@ pub enum Modal {
     Real(RealPlan),
     /// Modes of steady sliding.
     Complex(ComplexPlan),
+    /// The answer to forces at frequencies.
+    Harmonic(HarmonicPlan),
 }
 
 /// Which modes, in cycles per unit of time.
@@ -39,6 +41,19 @@ pub struct ComplexPlan {
     pub export: bool,
     /// Whether it is asked how growth rates change with friction, moduli and densities.
     pub sensitivity: bool,
+}
+
+/// Which forces, and at which frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HarmonicPlan {
+    /// Loads by name, with the phases by which they lead `[rad]`.
+    pub loads: Vec<(String, f64)>,
+    /// Frequencies `[1/s]`.
+    pub frequencies: Vec<f64>,
+    /// Most modes of the space in which it is found.
+    pub count: usize,
+    /// Whether displacements of all points are written.
+    pub shapes: bool,
 }
 
 /// Friction relative to that of the step.

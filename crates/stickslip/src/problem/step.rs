@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ComplexModes, Dynamic, Kick, Modes, SteadySliding, Tension};
+use super::{ComplexModes, Dynamic, Harmonic, Kick, Modes, SteadySliding, Tension};
 use crate::contact::interface::Change;
 use crate::model::Jump;
 
@@ -56,6 +56,9 @@ pub struct Step {
     /// Modes of steady sliding about that state: frequencies and growth rates, with friction and damping. No increments either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub complex_modes: Option<ComplexModes>,
+    /// The answer to harmonic loads about that state, by superposition of modes: amplitudes and phases over the frequency. No increments either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub harmonic: Option<Harmonic>,
     /// How the step is divided, or where it has `cycles` each of them.
     #[serde(default)]
     pub increments: Increments,
@@ -96,7 +99,9 @@ impl Step {
     /// What is looked for in a step without increments.
     pub(super) fn modal(&self) -> Option<crate::model::Modal> {
         let real = self.modes.as_ref().map(Modes::plan);
-        real.or_else(|| self.complex_modes.as_ref().map(ComplexModes::plan))
+        let complex = self.complex_modes.as_ref().map(ComplexModes::plan);
+        let harmonic = self.harmonic.as_ref().map(Harmonic::plan);
+        real.or(complex).or(harmonic)
     }
 }
 

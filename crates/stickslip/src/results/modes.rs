@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::io::csv::Table;
 use crate::io::vtu::PackedMesh;
 use crate::io::{csv, pvd, write_atomically};
-use crate::modal::{Export, FrictionMap, ModalOutcome, Mode};
+use crate::modal::{Export, FrictionMap, ModalOutcome, Mode, Response, ResponseRow};
 use crate::model::kick::Growth;
 use crate::system::{Field, Fields, Location};
 
@@ -36,6 +36,15 @@ pub(crate) fn write(
     outcome: &ModalOutcome,
 ) -> Result<(), Error> {
     let stem = format!("{STEM}{}", analysis.frame.step + 1);
+    if let Some(response) = &outcome.response {
+        let path = directory.join(format!("{stem}-response.csv"));
+        csv::write(&path, &response_table(response))?;
+        if outcome.shapes {
+            let rows = response.rows.iter().map(|row| (row.frequency, &row.shape));
+            write_shapes((directory, &stem), analysis, mesh, rows)?;
+        }
+        return Ok(());
+    }
     csv::write(&directory.join(format!("{stem}.csv")), &table(outcome))?;
     if let Some(map) = &outcome.map {
         csv::write(&directory.join(format!("{stem}-map.csv")), &map_table(map))?;
@@ -51,11 +60,23 @@ pub(crate) fn write(
     if !outcome.shapes {
         return Ok(());
     }
+    let modes = outcome.modes.iter().enumerate();
+    let modes = modes.map(|(k, mode)| (k as f64 + 1.0, &mode.shape));
+    write_shapes((directory, &stem), analysis, mesh, modes)
+}
+
+/// Writes shapes with a list of them, by number or frequency.
+fn write_shapes<'a>(
+    (directory, stem): (&Path, &str),
+    analysis: &Analysis,
+    mesh: &PackedMesh,
+    shapes: impl Iterator<Item = (f64, &'a [Vec<f64>; 2])>,
+) -> Result<(), Error> {
     let mut list = pvd::Collection::new(&directory.join(format!("{stem}.pvd")));
-    for (k, mode) in outcome.modes.iter().enumerate() {
+    for (k, (at, parts)) in shapes.enumerate() {
         let name = format!("{stem}_{:05}.vtu", k + 1);
-        mesh.write(&directory.join(&name), &shape(analysis, mode))?;
-        list.push(k as f64 + 1.0, &name)?;
+        mesh.write(&directory.join(&name), &shape(analysis, parts))?;
+        list.push(at, &name)?;
     }
     Ok(())
 }
@@ -133,6 +154,28 @@ fn map_table(map: &FrictionMap) -> Table {
     table
 }
 
+/// A row for each frequency: amplitude and phase of displacements, the phase in degrees ahead of the loads.
+fn response_table(response: &Response) -> Table {
+    let rows = &response.rows;
+    let mut table = Table::default();
+    let mut column = |name: String, of: &dyn Fn(&ResponseRow) -> f64| {
+        table.names.push(name);
+        table.columns.push(rows.iter().map(of).collect());
+    };
+    column("frequency".into(), &|r| r.frequency);
+    column("residual".into(), &|r| r.residual);
+    for (k, name) in response.columns.iter().enumerate() {
+        let part = |r: &ResponseRow, q: usize| r.values[k][q];
+        column(format!("{name}.AMPLITUDE"), &|r| {
+            part(r, 0).hypot(part(r, 1))
+        });
+        column(format!("{name}.PHASE"), &|r| {
+            part(r, 1).atan2(part(r, 0)).to_degrees()
+        });
+    }
+    table
+}
+
 fn sensitivities(outcome: &ModalOutcome) -> String {
     let mut text = String::from("mode,of,growth,frequency\n");
     for s in &outcome.sensitivities {
@@ -162,10 +205,10 @@ fn matrix_market(matrix: &Export) -> String {
 }
 
 /// The shape of a mode as fields: `PHI`, and `PHI_IMAGINARY` of a complex one.
-fn shape(analysis: &Analysis, mode: &Mode) -> Fields {
+fn shape(analysis: &Analysis, parts: &[Vec<f64>; 2]) -> Fields {
     let model = analysis.model;
     let mut fields = Fields::default();
-    for (name, values) in ["PHI", "PHI_IMAGINARY"].into_iter().zip(&mode.shape) {
+    for (name, values) in ["PHI", "PHI_IMAGINARY"].into_iter().zip(parts) {
         if values.is_empty() {
             continue;
         }

@@ -45,4 +45,5 @@ mod surfaces;
 mod threads;
 mod turning;
 mod units;
+mod vibrations;
 mod wear;

@@ -866,7 +866,7 @@ fn damping_by_mass_stabilises_a_layer_where_the_closed_form_says() {
 fn what_has_no_meaning_in_a_step_without_increments_is_refused() {
     let block = "format = 1\nmodel.space = \"plane-strain\"\nbody.a = { generate.rectangle = { to = [1, 1], cells = [1, 1] }, material = \"m\" }\nmaterial.m.isotropic = { young = 1.0, poisson = 0.3, density = 1.0 }\n";
     for (step, words) in [
-        ("modes = {}\ncomplex-modes = {}", "not for both"),
+        ("modes = {}\ncomplex-modes = {}", "not both"),
         (
             "modes = {}\nincrements.fixed = 2",
             "`increments` has no meaning",

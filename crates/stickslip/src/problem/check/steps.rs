@@ -6,6 +6,7 @@ use super::super::nearest::suggest;
 use super::super::{Cycles, Increments, Problem, Step};
 use super::cycles;
 use super::findings::Findings;
+use crate::body::loads::LoadKind;
 use crate::time::scheme::Method;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
@@ -55,6 +56,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             cycles::check(findings, &at("cycles"), problem, span);
         }
         modal(findings, &i, step);
+        harmonic(findings, &i, (problem, step));
         sliding(findings, &i, (problem, step));
         kick(findings, &i, (problem, step));
     }
@@ -63,16 +65,20 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 
 /// Rules of steps without increments.
 fn modal(findings: &mut Findings, i: &str, step: &Step) {
-    let key = match (&step.modes, &step.complex_modes) {
-        (Some(_), Some(_)) => {
-            let message = "a step looks for real modes or for complex ones, not for both";
-            let help = "give each a step of its own: they follow each other at the same state";
-            return findings.add(&["step", i, "complex-modes"], message, help);
-        }
-        (Some(_), None) => "modes",
-        (None, Some(_)) => "complex-modes",
-        (None, None) => return,
+    let given = [
+        ("modes", step.modes.is_some()),
+        ("complex-modes", step.complex_modes.is_some()),
+        ("harmonic", step.harmonic.is_some()),
+    ];
+    let mut given = given.iter().filter(|(_, given)| *given);
+    let Some((key, _)) = given.next() else {
+        return;
     };
+    if let Some((other, _)) = given.next() {
+        let message = format!("a step has `{key}` or `{other}`, not both");
+        let help = "give each a step of its own: they follow each other at the same state";
+        return findings.add(&["step", i, other], message, help);
+    }
     let of_motion = [
         ("dynamic", step.dynamic.is_some()),
         ("cycles", step.cycles.is_some()),
@@ -99,6 +105,64 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
     {
         let message = format!("`from` ({}) is not below `to` ({})", map.from, map.to);
         findings.add(&["step", i, key, "map", "from"], message, "");
+    }
+}
+
+/// Rules of the answer to harmonic loads.
+fn harmonic(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+    let Some(harmonic) = &step.harmonic else {
+        return;
+    };
+    let at = |key| ["step", i, "harmonic", key];
+    if harmonic.loads.is_empty() {
+        let help = "name loads of the problem: `loads = [\"shaker\"]`";
+        findings.add(&at("loads")[..3], "no load shakes", help);
+    }
+    let loads = Some(harmonic.loads.clone());
+    listed(findings, &at("loads"), &loads, &problem.load);
+    for (k, name) in harmonic.loads.iter().enumerate() {
+        let load = problem.load.get(name);
+        if load.is_some_and(|l| matches!(l.kind, LoadKind::Spring(_))) {
+            let message = format!("load `{name}` is a spring, which does not shake");
+            findings.add(&[&at("loads")[..], &[&k.to_string()]].concat(), message, "");
+        }
+    }
+    for name in harmonic
+        .phases
+        .keys()
+        .filter(|n| !harmonic.loads.contains(n))
+    {
+        let message = format!("`{name}` is not among the `loads` that shake");
+        findings.add(&["step", i, "harmonic", "phases", name], message, "");
+    }
+    let range = harmonic.to.is_some() || harmonic.from != 0.0;
+    match (harmonic.frequencies.is_empty(), harmonic.to) {
+        (false, _) if range => findings.add(
+            &at("frequencies"),
+            "`frequencies` exclude `from`, `to` and `points`",
+            "keep one of the two",
+        ),
+        (true, None) => findings.add(
+            &at("to")[..3],
+            "the frequencies are not given",
+            "`from = 10, to = 500, points = 100`, or `frequencies = [50, 60]`",
+        ),
+        (true, Some(to)) if harmonic.from >= to => {
+            let message = format!("`from` ({}) is not below `to` ({to})", harmonic.from);
+            findings.add(&at("from"), message, "");
+        }
+        _ => {}
+    }
+    if harmonic
+        .frequencies
+        .iter()
+        .any(|f| !(f.is_finite() && *f >= 0.0))
+    {
+        findings.add(&at("frequencies"), "frequencies are not negative", "");
+    }
+    if problem.probe.is_empty() && !harmonic.shapes {
+        let help = "add `[probe.NAME]`, or `shapes = true`";
+        findings.add(&at("")[..3], "nothing asks for the answer", help);
     }
 }
 

@@ -29,6 +29,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             ("steady", step.steady.is_some()),
             ("modes", step.modes.is_some()),
             ("complex-modes", step.complex_modes.is_some()),
+            ("harmonic", step.harmonic.is_some()),
         ];
         for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
             findings.add(

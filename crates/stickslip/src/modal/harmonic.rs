@@ -1,0 +1,251 @@
+//! The answer to harmonic forces: `(K + i ω C - ω² M) x = f`, by superposition of modes.
+//!
+//! The space is that of the real modes up to above the highest frequency, of the displacements at rest under the forces, by which all higher modes answer, and of
+//! those under the friction of both. Damping and friction are projected as they are: nothing says that modes do not share them. What that leaves open in the
+//! equations of all dofs is added to the space while it is too much, and is told of every frequency.
+
+use std::f64::consts::TAU;
+
+use super::linear::{Linear, fault};
+use super::map::{GOOD, ROUNDS};
+use super::outcome::{ModalOutcome, Response, ResponseRow};
+use super::quadratic::UNSTABLE;
+use super::real::lowest;
+use super::reduced::{Reduced, extend, images};
+use super::shifted::Shifted;
+use crate::error::RunError;
+use crate::linear::DenseLu;
+use crate::math::vector::dot;
+use crate::model::definition::Model;
+use crate::model::frame::Frame;
+use crate::model::modal::HarmonicPlan;
+
+/// Modes up to so many times the highest frequency are in the space.
+const BEYOND: f64 = 1.5;
+
+/// At so many frequencies it is seen whether the space is good enough, before it is used at all of them.
+const TRIED: usize = 12;
+
+/// Residual above which a note says so.
+const DOUBTFUL: f64 = 1e-3;
+
+/// Amplitudes, real and imaginary part.
+type Pair = [Vec<f64>; 2];
+
+/// The answers that a step asks for.
+pub(crate) fn response(
+    model: &Model,
+    frame: &Frame,
+    linear: &Linear,
+    plan: &HarmonicPlan,
+) -> Result<ModalOutcome, RunError> {
+    let shifted = Shifted::new(linear, frame, true)?;
+    let mut solves = 0;
+    let forces = forces(model, linear, plan);
+    let reduced = space(&shifted, &forces, plan, &mut solves);
+    let mut answer = Response {
+        columns: columns(model),
+        dimension: reduced.basis.len(),
+        ..Response::default()
+    };
+    for frequencies in plan.frequencies.chunks(TRIED) {
+        let found = answers(&shifted, &reduced, &forces, frequencies, &mut solves);
+        for (frequency, (mut shape, residual, _)) in frequencies.iter().zip(found) {
+            if !residual.is_finite() {
+                let message = format!("nothing resists the forces at the frequency {frequency}");
+                return Err(fault(frame, message));
+            }
+            shape.iter_mut().for_each(|x| model.links.impose(x));
+            let values = values(model, &shape);
+            if !plan.shapes {
+                shape = Pair::default();
+            }
+            answer.rows.push(ResponseRow {
+                frequency: *frequency,
+                residual,
+                values,
+                shape,
+            });
+        }
+    }
+    Ok(ModalOutcome {
+        step: model.steps[frame.step].name.clone(),
+        sliding: linear.sliding.clone(),
+        points: linear.points,
+        solves,
+        shapes: plan.shapes,
+        notes: notes(linear, &reduced, &answer, plan),
+        response: Some(answer),
+        ..ModalOutcome::default()
+    })
+}
+
+/// Forces by dof, cosine and sine part.
+fn forces(model: &Model, linear: &Linear, plan: &HarmonicPlan) -> Pair {
+    let mut forces = [0, 1].map(|_| vec![0.0; linear.size()]);
+    for (name, phase) in &plan.loads {
+        let (s, c) = phase.sin_cos();
+        for load in model.loads.iter().filter(|l| l.name == *name) {
+            for &(dof, force) in &load.entries {
+                forces[0][dof] += c * force;
+                forces[1][dof] += s * force;
+            }
+        }
+    }
+    for part in &mut forces {
+        model.links.transfer(part);
+        let free = part.iter_mut().zip(&linear.fixed);
+        free.filter(|(_, fixed)| **fixed)
+            .for_each(|(f, _)| *f = 0.0);
+    }
+    forces
+}
+
+/// The space in which the equations are solved.
+fn space(shifted: &Shifted, forces: &Pair, plan: &HarmonicPlan, solves: &mut usize) -> Reduced {
+    let highest = plan.frequencies.iter().copied().fold(0.0, f64::max);
+    let below = (BEYOND * TAU * highest).powi(2);
+    let count = plan.count.min(shifted.linear.free());
+    let modes = lowest(shifted, count, below);
+    *solves += modes.solves + 2;
+    let mut basis = Vec::new();
+    let mut block = extend(shifted, &mut basis, modes.vectors);
+    block.extend(extend(shifted, &mut basis, shifted.solved(forces)));
+    let images = images(shifted, &block, solves);
+    extend(shifted, &mut basis, images);
+    let pace = (TAU * highest).max(f64::MIN_POSITIVE);
+    let mut reduced = Reduced::new(shifted, basis, pace);
+    let every = plan.frequencies.len().div_ceil(TRIED).max(1);
+    let tried: Vec<f64> = plan.frequencies.iter().copied().step_by(every).collect();
+    for _ in 0..ROUNDS {
+        let found = answers(shifted, &reduced, forces, &tried, solves);
+        let open = found
+            .into_iter()
+            .filter(|(_, residual, _)| *residual > GOOD);
+        let rests: Vec<Vec<f64>> = open.flat_map(|(.., rest)| rest).collect();
+        if rests.is_empty() {
+            break;
+        }
+        let mut basis = std::mem::take(&mut reduced.basis);
+        extend(shifted, &mut basis, rests);
+        reduced = Reduced::new(shifted, basis, pace);
+    }
+    reduced
+}
+
+/// The answers at frequencies, what they leave open relative to what is in them, and the displacements at rest under that.
+fn answers(
+    shifted: &Shifted,
+    reduced: &Reduced,
+    forces: &Pair,
+    frequencies: &[f64],
+    solves: &mut usize,
+) -> Vec<(Pair, f64, Vec<Vec<f64>>)> {
+    let found: Vec<Pair> = frequencies
+        .iter()
+        .map(|f| reduced.answer(forces, TAU * f))
+        .collect();
+    let each = found.iter().zip(frequencies);
+    let open: Vec<Vec<f64>> = each
+        .flat_map(|(x, f)| open(shifted.linear, forces, x, TAU * f))
+        .collect();
+    let solved = shifted.solved(&open);
+    *solves += solved.len();
+    let rests = open.chunks(2).zip(solved.chunks(2));
+    let all = found.into_iter().zip(rests).map(|(x, (open, solved))| {
+        let residual = shifted.relative(open, solved, &x);
+        (x, residual, solved.to_vec())
+    });
+    all.collect()
+}
+
+/// `f - (K + i ω C - ω² M) x`.
+fn open(linear: &Linear, forces: &Pair, x: &Pair, omega: f64) -> Pair {
+    let parts = [0, 1].map(|q| linear.forces(&x[q], 1.0));
+    let mut open = forces.clone();
+    for (q, sign) in [(0, -1.0), (1, 1.0)] {
+        let ([k, _, m], [_, c, _]) = (&parts[q], &parts[1 - q]);
+        for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {
+            open[q][i] -= k[i] - omega * omega * m[i] + sign * omega * c[i];
+        }
+    }
+    open
+}
+
+impl Reduced {
+    /// Displacements under forces of an angular frequency.
+    fn answer(&self, forces: &Pair, omega: f64) -> Pair {
+        let r = self.basis.len();
+        let still = |k: usize| self.stiffness[k] + self.friction[k] - omega * omega * self.mass[k];
+        let damped = |k: usize| omega * (self.damping[k] + self.drag[k]);
+        let entry = |k: usize| {
+            let (i, j) = (k / (2 * r), k % (2 * r));
+            let at = i % r * r + j % r;
+            match (i < r, j < r) {
+                (true, false) => -damped(at),
+                (false, true) => damped(at),
+                _ => still(at),
+            }
+        };
+        let matrix: Vec<f64> = (0..4 * r * r).map(entry).collect();
+        let parts = forces.iter();
+        let mut z: Vec<f64> = parts
+            .flat_map(|f| self.basis.iter().map(|q| dot(q, f)))
+            .collect();
+        DenseLu::new(2 * r, &matrix).solve(&mut z);
+        [0, 1].map(|q| {
+            let mut x = vec![0.0; forces[0].len()];
+            for (z, b) in z[q * r..].iter().zip(&self.basis) {
+                x.iter_mut().zip(b).for_each(|(x, b)| *x += z * b);
+            }
+            x
+        })
+    }
+}
+
+/// Columns of displacements of probes.
+fn columns(model: &Model) -> Vec<String> {
+    let probes = model.probes.iter();
+    let all = probes.flat_map(|p| (1..=model.dofs.dim).map(move |c| format!("{}.U{c}", p.name)));
+    all.collect()
+}
+
+fn values(model: &Model, shape: &Pair) -> Vec<[f64; 2]> {
+    let dofs = model.dofs;
+    let probes = model.probes.iter();
+    let all = probes.flat_map(|p| (0..dofs.dim).map(move |c| dofs.of(p.point, c)));
+    all.map(|dof| [shape[0][dof], shape[1][dof]]).collect()
+}
+
+fn notes(
+    linear: &Linear,
+    reduced: &Reduced,
+    answer: &Response,
+    plan: &HarmonicPlan,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    let worst = answer.rows.iter().fold(0.0, |w: f64, r| w.max(r.residual));
+    if worst > DOUBTFUL {
+        notes.push(format!(
+            "the equations of motion are left open by {worst:.1e} at the worst frequency: give the step a larger `count` of modes"
+        ));
+    }
+    // Without friction nothing grows.
+    let [value, omega] = match linear.friction.is_empty() && linear.drag.is_empty() {
+        true => [0.0; 2],
+        false => reduced.fastest(1.0, (plan.count, f64::INFINITY)),
+    };
+    if value > UNSTABLE * value.hypot(omega) {
+        notes.push(format!(
+            "sliding is unstable: a motion of the frequency {:.6e} grows by {value:.6e}, so that no motion settles at the answer to the forces",
+            omega / TAU
+        ));
+    }
+    let [_, _, others] = linear.points;
+    if others > 0 {
+        notes.push(format!(
+            "{others} points slide without a direction that lasts: they have no stiffness along the surface, and no friction"
+        ));
+    }
+    notes
+}

@@ -1,0 +1,72 @@
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::{HarmonicPlan, Modal};
+
+/// `harmonic` of a step: amplitude and phase of the displacements at probes under loads that go with the cosine of time, about the state that the step before has reached,
+/// with its closed contacts and the friction of `steady` sliding, and with all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Loads that
+/// shake do not act before: leave them out of `loads` of the steps before. Supports stand still.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Harmonic {
+    /// The loads, in full: amplitudes over time do not count.
+    pub loads: Vec<String>,
+    /// By how much loads lead the others, by name `[degrees]`: `phases.second = 90`; zero if not given.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub phases: BTreeMap<String, f64>,
+    /// The frequencies `[1/time]`, instead of `from`, `to` and `points`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frequencies: Vec<f64>,
+    /// Lowest frequency `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
+    pub from: f64,
+    /// Highest frequency `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// How many frequencies, ends counted.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2)))]
+    pub points: usize,
+    /// At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    pub count: usize,
+    /// Whether displacements of all points are written as fields, real and imaginary parts, for each frequency.
+    pub shapes: bool,
+}
+
+impl Default for Harmonic {
+    fn default() -> Self {
+        Harmonic {
+            loads: Vec::new(),
+            phases: BTreeMap::new(),
+            frequencies: Vec::new(),
+            from: 0.0,
+            to: None,
+            points: 101,
+            count: 200,
+            shapes: false,
+        }
+    }
+}
+
+impl Harmonic {
+    /// What is looked for.
+    pub(super) fn plan(&self) -> Modal {
+        let phase = |name: &String| self.phases.get(name).copied().unwrap_or(0.0).to_radians();
+        let loads = self.loads.iter().map(|l| (l.clone(), phase(l)));
+        let (from, last) = (self.from, self.points.max(2) - 1);
+        let to = self.to.unwrap_or(from);
+        let range = (0..=last).map(|k| from + (to - from) * k as f64 / last as f64);
+        Modal::Harmonic(HarmonicPlan {
+            loads: loads.collect(),
+            frequencies: match self.frequencies.is_empty() {
+                true => range.collect(),
+                false => self.frequencies.clone(),
+            },
+            count: self.count,
+            shapes: self.shapes,
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! The answer to harmonic loads.
+
+use std::f64::consts::TAU;
+
+use crate::modes::{matrices, modes, near, pad};
+use crate::support::{build, complaint, problem};
+use stickslip::linear::DenseLu;
+use stickslip::modal::{ModalOutcome, Response};
+
+/// A rigid block of mass 1 between a spring and a dashpot.
+fn oscillator(harmonic: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.block = {{ rigid = true, generate.rectangle = {{ from = [-0.5, 0], to = [0.5, 0.1], cells = [2, 2] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0.0, density = 10.0 }}
+set.centre = {{ of = "block", point = [0, 0.05] }}
+probe.m = {{ point = [0, 0.05] }}
+output.every = 0
+coupling.k.spring = {{ stiffness = 100.0, terms = [{{ set = "centre", component = "x" }}] }}
+coupling.d.dashpot = {{ coefficient = 2.0, terms = [{{ set = "centre", component = "x" }}] }}
+support.guide = {{ set = "block", hold = ["y"] }}
+load.shake = {{ set = "centre", nodal-force = {{ value = [3, 0] }} }}
+load.turned = {{ set = "centre", nodal-force = {{ value = [4, 0] }} }}
+[[step]]
+loads = []
+[[step]]
+harmonic = {{ {harmonic} }}
+"#
+    )
+}
+
+fn response(outcome: ModalOutcome) -> Response {
+    outcome.response.expect("a response")
+}
+
+#[test]
+fn a_mass_on_a_spring_and_a_dashpot_answers_as_its_equation_says() {
+    let answer = response(modes(&oscillator(
+        "loads = [\"shake\"], from = 0, to = 5, points = 26",
+    )));
+    assert_eq!(answer.columns, ["m.U1", "m.U2"]);
+    assert_eq!(answer.rows.len(), 26);
+    for (k, row) in answer.rows.iter().enumerate() {
+        near(row.frequency, 0.2 * k as f64, 1e-12);
+        assert!(row.residual < 1e-10, "{:e}", row.residual);
+        // 3 / (100 - ω² + 2 i ω).
+        let omega = TAU * row.frequency;
+        let (still, damped) = (100.0 - omega * omega, 2.0 * omega);
+        let square = still * still + damped * damped;
+        near(row.values[0][0], 3.0 * still / square, 1e-10);
+        near(row.values[0][1], -3.0 * damped / square, 1e-10);
+        assert_eq!(row.values[1], [0.0, 0.0]);
+    }
+    // A quarter of a cycle ahead is i times as much: 3 + 4 i.
+    let both = "loads = [\"shake\", \"turned\"], phases.turned = 90, frequencies = [1.2]";
+    let both = response(modes(&oscillator(both)));
+    let one = response(modes(&oscillator(
+        "loads = [\"shake\"], frequencies = [1.2]",
+    )));
+    let [a, b] = one.rows[0].values[0].map(|v| v / 3.0);
+    let found = both.rows[0].values[0];
+    near(found[0], 3.0 * a - 4.0 * b, 1e-10);
+    near(found[1], 3.0 * b + 4.0 * a, 1e-10);
+}
+
+/// `x` of `(K + i ω C - ω² M) x = f`, by one dense matrix.
+fn direct(outcome: &ModalOutcome, forces: &[f64], omega: f64) -> Vec<[f64; 2]> {
+    let (n, [k, c, m]) = matrices(outcome);
+    let mut a = vec![0.0; 4 * n * n];
+    for i in 0..n {
+        for j in 0..n {
+            let still = k[i * n + j] - omega * omega * m[i * n + j];
+            let damped = omega * c[i * n + j];
+            a[i * 2 * n + j] = still;
+            a[(n + i) * 2 * n + n + j] = still;
+            a[i * 2 * n + n + j] = -damped;
+            a[(n + i) * 2 * n + j] = damped;
+        }
+    }
+    let mut x = [forces, &vec![0.0; n]].concat();
+    DenseLu::new(2 * n, &a).solve(&mut x);
+    (0..n).map(|i| [x[i], x[n + i]]).collect()
+}
+
+#[test]
+fn a_sliding_pad_answers_as_the_dense_matrices_do() {
+    let more = "load.shake = { set = \"corner\", nodal-force = { value = [0.3, -0.2] } }\nset.corner = { of = \"pad\", point = [1, 0.4] }\nprobe.here = { of = \"pad\", point = [1, 0.4] }\nprobe.there = { of = \"pad\", point = [0, 0] }\n";
+    let asked = "[[step]]\ncomplex-modes = { count = 30, export = true }\n[[step]]\nharmonic = { loads = [\"shake\"], from = 0.5, to = 12, points = 47 }\n";
+    let text = pad([0.6, 0.2], [100.0, 1e-2], asked).replacen(
+        "[[step]]\nsteady",
+        &format!("{more}[[step]]\nloads = []\nsteady"),
+        1,
+    );
+    let mut simulation = build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let [complex, harmonic] = [0, 1].map(|k| &simulation.modes[k]);
+    assert_eq!(harmonic.points[1], 7, "it slides");
+    let unknowns = complex.export.iter().find(|e| e.name == "dofs").unwrap();
+    let unknown = |dof: usize| {
+        unknowns
+            .entries
+            .iter()
+            .position(|e| e.2 == dof as f64)
+            .unwrap()
+    };
+    let at: Vec<usize> = (simulation.model.probes.iter())
+        .flat_map(|p| [0, 1].map(|c| unknown(2 * p.point + c)))
+        .collect();
+    let mut forces = vec![0.0; unknowns.shape[0]];
+    (forces[at[0]], forces[at[1]]) = (0.3, -0.2);
+    let answer = harmonic.response.as_ref().expect("a response");
+    // The modes between which the frequencies lie.
+    let among = complex.modes.iter().filter(|m| m.frequency < 12.0).count();
+    assert!(among > 4, "{among}");
+    assert!(answer.dimension < unknowns.shape[0], "fewer than all");
+    let mut worst = 0.0_f64;
+    for row in &answer.rows {
+        let exact = direct(complex, &forces, TAU * row.frequency);
+        let size = at
+            .iter()
+            .map(|i| exact[*i][0].hypot(exact[*i][1]))
+            .fold(0.0, f64::max);
+        for (i, value) in at.iter().zip(&row.values) {
+            let off = (value[0] - exact[*i][0]).hypot(value[1] - exact[*i][1]);
+            worst = worst.max(off / size);
+        }
+        assert!(row.residual < 1e-3, "{:e}", row.residual);
+    }
+    assert!(worst < 1e-4, "{worst:e}");
+    assert!(
+        harmonic.notes.iter().any(|n| n.contains("unstable"))
+            == complex.modes.iter().any(|m| m.growth > 1e-6),
+        "{:?}",
+        harmonic.notes
+    );
+}
+
+#[test]
+fn what_cannot_shake_is_refused() {
+    for (harmonic, words) in [
+        ("", "no load shakes"),
+        ("loads = [\"shake\"]", "frequencies are not given"),
+        ("loads = [\"shaker\"], to = 3", "did you mean `shake`"),
+        ("loads = [\"shake\"], to = 3, from = 4", "is not below"),
+        ("loads = [\"shake\"], to = 3, frequencies = [1]", "exclude"),
+        ("loads = [\"shake\"], frequencies = [-1]", "not negative"),
+        (
+            "loads = [\"shake\"], to = 3, phases.turned = 9",
+            "not among the `loads`",
+        ),
+    ] {
+        let said = complaint(&oscillator(harmonic));
+        assert!(said.contains(words), "{harmonic}: {said}");
+    }
+    let text = oscillator("loads = [\"shake\"], to = 3");
+    let both = text.replace("harmonic =", "modes = {}\nharmonic =");
+    assert!(complaint(&both).contains("not both"));
+    let unasked = text.replace("probe.m = { point = [0, 0.05] }\n", "");
+    assert!(complaint(&unasked).contains("nothing asks for the answer"));
+    let spring = text.replace(
+        "nodal-force = { value = [3, 0] }",
+        "spring = { stiffness = [1, 1] }",
+    );
+    assert!(complaint(&spring).contains("is a spring"));
+}
