@@ -1,4 +1,4 @@
-//! Files: meshes in and out ([`gmsh`], [`vtu`], [`abaqus`]), fields and histories out ([`vtu`], [`pvd`], [`frd`], [`csv`]) and, for
+//! Files: meshes in and out ([`gmsh`], [`vtu`], [`abaqus`]), fields, histories and arrays out ([`vtu`], [`pvd`], [`frd`], [`csv`], [`npy`]) and, for
 //! comparisons, in again ([`vtu`], [`csv`]).
 //!
 //! This module knows meshes and named fields, never what they mean.
@@ -10,6 +10,7 @@ pub mod frd;
 pub mod gmsh;
 mod growing;
 pub mod input;
+pub mod npy;
 mod numbers;
 pub mod pvd;
 mod sets;

@@ -3,16 +3,16 @@
 use std::f64::consts::TAU;
 
 use super::linear::{Linear, Pair, add_pairs};
-use super::outcome::{Export, ModalOutcome, Mode};
+use super::outcome::{ModalOutcome, Mode};
 use super::quadratic::{Eigen, residuals, solve};
 use super::shifted::{Root, Shifted};
-use super::{map, sensitivity};
+use super::{export, map, sensitivity};
 use crate::error::RunError;
-use crate::linear::{BlockCsr, Complex};
+use crate::linear::Complex;
 use crate::math::vector::dot;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::modal::ComplexPlan;
+use crate::model::modal::{ComplexPlan, MapPlan};
 
 /// Residual of the equations of motion above which a note says so.
 const DOUBTFUL: f64 = 1e-4;
@@ -56,13 +56,18 @@ pub(crate) fn modes(
     if plan.sensitivity {
         out.sensitivities = sensitivity::all(model, &shifted, &mut root, &found, &mut solves);
     }
-    if let Some(plan_of_map) = &plan.map {
-        let map = map::friction(&shifted, &mut root, plan_of_map, asked, &mut solves);
-        out.notes.extend(map::notes(&map));
-        out.map = Some(map);
-    }
-    if plan.export {
-        out.export = matrices(&shifted);
+    if plan.map.is_some() || plan.export {
+        let largest = plan.map.as_ref().map_or(1.0, MapPlan::largest);
+        let mut reduced = map::space(&shifted, asked, largest, &mut solves);
+        if plan.export {
+            out.export = export::matrices(&shifted);
+            out.arrays = export::arrays(&shifted, &root, &reduced);
+        }
+        if let Some(plan_of_map) = &plan.map {
+            let map = map::friction(&shifted, &mut reduced, plan_of_map, asked, &mut solves);
+            out.notes.extend(map::notes(&map));
+            out.map = Some(map);
+        }
     }
     out.solves = solves;
     Ok(out)
@@ -179,73 +184,4 @@ fn notes(linear: &Linear) -> Vec<String> {
         notes.push("no body has damping: how many modes are unstable depends on the mesh, as finer ones have more of them; their growth rates converge".into());
     }
     notes
-}
-
-/// The matrices for other programs, over the unknowns.
-fn matrices(shifted: &Shifted) -> Vec<Export> {
-    let linear = shifted.linear;
-    let free: Vec<usize> = (0..linear.size()).filter(|&i| !linear.fixed[i]).collect();
-    let mut number = vec![usize::MAX; linear.size()];
-    for (k, &dof) in free.iter().enumerate() {
-        number[dof] = k;
-    }
-    let n = free.len();
-    let damping = linear.damping.as_ref().map(|c| ("damping", c));
-    let both = [("stiffness", &linear.stiffness), ("mass", &linear.mass)];
-    let symmetric = both
-        .into_iter()
-        .chain(damping)
-        .map(|(name, matrix)| Export {
-            name: name.into(),
-            shape: [n, n],
-            symmetric: true,
-            entries: lower(matrix, &free, &number),
-        });
-    let mut out: Vec<Export> = symmetric.collect();
-    let sides = [("friction", &linear.friction), ("drag", &linear.drag)];
-    for (name, pairs) in sides {
-        for (side, left) in [("left", true), ("right", false)] {
-            let rows = pairs.iter().map(|p| if left { &p.left } else { &p.right });
-            let entries = rows.enumerate().flat_map(|(k, row)| {
-                let number = &number;
-                row.iter().map(move |&(dof, v)| (number[dof], k, v))
-            });
-            out.push(Export {
-                name: format!("{name}-{side}"),
-                shape: [n, pairs.len()],
-                symmetric: false,
-                entries: entries.collect(),
-            });
-        }
-    }
-    let unknowns = free.iter().enumerate().map(|(k, &dof)| (k, 0, dof as f64));
-    out.push(Export {
-        name: "dofs".into(),
-        shape: [n, 1],
-        symmetric: false,
-        entries: unknowns.collect(),
-    });
-    out
-}
-
-/// The lower triangle of a symmetric matrix over the unknowns.
-fn lower(matrix: &BlockCsr, free: &[usize], number: &[usize]) -> Vec<(usize, usize, f64)> {
-    let b = matrix.block_size();
-    let mut entries = Vec::new();
-    for (i, &row) in free.iter().enumerate() {
-        for &point in matrix.neighbours(row / b) {
-            let first = point as usize * b;
-            for (k, &j) in number[first..first + b].iter().enumerate() {
-                let value = if j <= i {
-                    matrix.entry(row, first + k)
-                } else {
-                    0.0
-                };
-                if value != 0.0 {
-                    entries.push((i, j, value));
-                }
-            }
-        }
-    }
-    entries
 }

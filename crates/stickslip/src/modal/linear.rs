@@ -30,6 +30,8 @@ pub(crate) struct Pair {
     pub right: Sparse,
     /// Index of the interface in [`Linear::sliding`].
     pub interface: usize,
+    /// Number of the contact point in the interface.
+    pub point: usize,
 }
 
 impl Pair {
@@ -187,6 +189,7 @@ impl Linear {
             left: sum(left),
             right: sum(right),
             interface,
+            point: point.point,
         };
         let friction = pair([0.0, k[1][0], k[2][0]], unit(0));
         let drags = [

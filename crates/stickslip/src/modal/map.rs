@@ -10,7 +10,7 @@ use super::outcome::{FrictionMap, MapRow};
 use super::quadratic::{Eigen, UNSTABLE, by_frequency, residuals};
 use super::real::lowest;
 use super::reduced::{Reduced, extend, images};
-use super::shifted::{Root, Shifted};
+use super::shifted::Shifted;
 use crate::linear::{Complex, DenseLu, eigenvalues, general};
 use crate::math::vector::norm;
 use crate::model::modal::MapPlan;
@@ -30,14 +30,13 @@ const NEAR: f64 = 1e-6;
 /// Width to which a critical factor is known, relative to the largest.
 const WIDTH: f64 = 1e-13;
 
-/// A map over friction of the modes of least frequency.
-pub(crate) fn friction(
+/// The space in which modes of least frequency are found with so much friction and less.
+pub(crate) fn space(
     shifted: &Shifted,
-    root: &mut Root,
-    plan: &MapPlan,
     (count, to): (usize, f64),
+    largest: f64,
     solves: &mut usize,
-) -> FrictionMap {
+) -> Reduced {
     let linear = shifted.linear;
     let asked = (2 * count + 8).min(linear.free());
     let modes = lowest(shifted, asked, f64::INFINITY);
@@ -49,7 +48,6 @@ pub(crate) fn friction(
     let images = images(shifted, &block, solves);
     extend(shifted, &mut basis, images);
     let mut reduced = Reduced::new(shifted, basis, pace);
-    let largest = plan.range[1].abs().max(plan.range[0].abs());
     for _ in 0..ROUNDS {
         let modes = reduced.modes(largest, (count, to), true);
         let (open, solved) = residuals(shifted, &modes, largest, solves);
@@ -65,7 +63,18 @@ pub(crate) fn friction(
         extend(shifted, &mut basis, rests);
         reduced = Reduced::new(shifted, basis, pace);
     }
-    root.set(1.0, false);
+    reduced
+}
+
+/// A map over friction of the modes of least frequency.
+pub(crate) fn friction(
+    shifted: &Shifted,
+    reduced: &mut Reduced,
+    plan: &MapPlan,
+    (count, to): (usize, f64),
+    solves: &mut usize,
+) -> FrictionMap {
+    let linear = shifted.linear;
     let mut map = FrictionMap {
         mu: linear.mu,
         dimension: reduced.basis.len(),

@@ -15,6 +15,7 @@
 //! as `Interface::linearise` reads off the laws themselves. There is no stiffness along the surface. What rotates does so slowly: convective and gyroscopic terms are left out.
 
 pub(crate) mod complex;
+pub(crate) mod export;
 pub(crate) mod harmonic;
 pub(crate) mod linear;
 pub(crate) mod map;
@@ -27,7 +28,8 @@ pub(crate) mod sensitivity;
 pub(crate) mod shifted;
 
 pub use outcome::{
-    Export, FIGURES, FrictionMap, MapRow, ModalOutcome, Mode, Response, ResponseRow, Sensitivity,
+    Array, Export, FIGURES, FrictionMap, MapRow, ModalOutcome, Mode, Response, ResponseRow,
+    Sensitivity,
 };
 
 use crate::error::RunError;

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::io::npy::Numbers;
+
 /// Names of growth and frequency of the mode that grows fastest, beside the last row of the history.
 pub const FIGURES: [&str; 2] = ["MODES.GROWTH", "MODES.FREQUENCY"];
 
@@ -38,6 +40,9 @@ pub struct ModalOutcome {
     /// Matrices by name, to be written.
     #[serde(skip)]
     pub export: Vec<Export>,
+    /// Dense arrays by name, to be written.
+    #[serde(skip)]
+    pub arrays: Vec<Array>,
     /// What a user should know.
     #[serde(skip)]
     pub notes: Vec<String>,
@@ -58,6 +63,7 @@ impl ModalOutcome {
             response,
             modes: modes.collect(),
             export: Vec::new(),
+            arrays: Vec::new(),
             ..self.clone()
         }
     }
@@ -169,6 +175,17 @@ pub struct Export {
     pub entries: Vec<(usize, usize, f64)>,
 }
 
+/// A dense array as it is exported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Array {
+    /// Name of its file.
+    pub name: String,
+    /// Rows and columns.
+    pub shape: [usize; 2],
+    /// Its numbers, row by row.
+    pub numbers: Numbers,
+}
+
 // Matrices are written when they are found.
 crate::keep!(ModalOutcome {
     step,
@@ -186,6 +203,7 @@ crate::keep!(ModalOutcome {
     notes
 } and {
     export: Vec::new(),
+    arrays: Vec::new(),
 });
 crate::keep!(Mode {
     frequency,

@@ -51,6 +51,7 @@ impl<'a> Companion<'a> {
                 left: left.clone(),
                 right: right.clone(),
                 interface: pair.interface,
+                point: pair.point,
             }
         });
         Companion {

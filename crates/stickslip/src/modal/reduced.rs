@@ -8,7 +8,7 @@ use crate::math::vector::dot;
 const DEPENDENT: f64 = 1e-9;
 
 /// The model in a space of few displacements, orthonormal in the product of the factored matrix.
-pub(super) struct Reduced {
+pub(crate) struct Reduced {
     pub basis: Vec<Vec<f64>>,
     pub stiffness: Vec<f64>,
     pub mass: Vec<f64>,

@@ -190,6 +190,11 @@ impl Root {
         Ok(root)
     }
 
+    /// `Rᵀ A⁻¹ L`, row by row.
+    pub fn compliance(&self) -> &[f64] {
+        &self.w
+    }
+
     /// Chooses the friction relative to that of the state, and whether the transposed problem is meant.
     pub fn set(&mut self, factor: f64, transposed: bool) {
         let q = self.pairs.len();

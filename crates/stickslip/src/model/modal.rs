@@ -65,6 +65,13 @@ pub struct MapPlan {
     pub points: usize,
 }
 
+impl MapPlan {
+    /// The largest factor by its size.
+    pub(crate) fn largest(&self) -> f64 {
+        self.range[1].abs().max(self.range[0].abs())
+    }
+}
+
 /// A mode along which a motion begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KickPlan {

@@ -70,7 +70,7 @@ pub struct ComplexModes {
     pub map: Option<FrictionRange>,
     /// Whether eigenvalues are differentiated by friction, moduli and densities, the contact state kept.
     pub sensitivity: bool,
-    /// Whether the matrices are written for other programs, as MatrixMarket files.
+    /// Whether the matrices are written for other programs: over all unknowns as MatrixMarket files, condensed to few displacements as arrays of NumPy.
     pub export: bool,
 }
 

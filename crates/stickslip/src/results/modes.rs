@@ -8,7 +8,7 @@ use super::growth;
 use crate::error::Error;
 use crate::io::csv::Table;
 use crate::io::vtu::PackedMesh;
-use crate::io::{csv, pvd, write_atomically};
+use crate::io::{csv, npy, pvd, write_atomically};
 use crate::modal::{Export, FrictionMap, ModalOutcome, Mode, Response, ResponseRow};
 use crate::model::kick::Growth;
 use crate::system::{Field, Fields, Location};
@@ -23,7 +23,7 @@ pub(crate) fn is_of_modes(name: &str) -> bool {
     };
     let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
     let after = &rest[digits..];
-    let ends = [".csv", ".pvd", ".vtu", ".mtx"];
+    let ends = [".csv", ".pvd", ".vtu", ".mtx", ".npy"];
     let begins = after.starts_with(['.', '-', '_']);
     digits > 0 && begins && ends.iter().any(|end| after.ends_with(end))
 }
@@ -56,6 +56,10 @@ pub(crate) fn write(
     for matrix in &outcome.export {
         let path = directory.join(format!("{stem}-{}.mtx", matrix.name));
         write_atomically(&path, matrix_market(matrix).as_bytes())?;
+    }
+    for array in &outcome.arrays {
+        let path = directory.join(format!("{stem}-{}.npy", array.name));
+        npy::write(&path, array.shape, &array.numbers)?;
     }
     if !outcome.shapes {
         return Ok(());
@@ -234,6 +238,7 @@ mod tests {
             "modes-12_00003.vtu",
             "modes-2-map.csv",
             "modes-2-stiffness.mtx",
+            "modes-2-reduced-mass.npy",
             "modes-3.pvd",
         ] {
             assert!(is_of_modes(name), "{name}");

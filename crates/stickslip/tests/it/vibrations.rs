@@ -1,10 +1,11 @@
-//! The answer to harmonic loads.
+//! The answer to harmonic loads, and the condensed model for other programs.
 
 use std::f64::consts::TAU;
 
 use crate::modes::{matrices, modes, near, pad};
 use crate::support::{build, complaint, problem};
-use stickslip::linear::DenseLu;
+use stickslip::io::npy::Numbers;
+use stickslip::linear::{DenseLu, general};
 use stickslip::modal::{ModalOutcome, Response};
 
 /// A rigid block of mass 1 between a spring and a dashpot.
@@ -164,4 +165,69 @@ fn what_cannot_shake_is_refused() {
         "spring = { stiffness = [1, 1] }",
     );
     assert!(complaint(&spring).contains("is a spring"));
+}
+
+/// What other programs get of the condensed model has the eigenvalues that are found here.
+#[test]
+fn the_condensed_model_has_the_same_modes() {
+    let outcome = modes(&pad(
+        [0.6, 0.2],
+        [100.0, 1e-2],
+        "[[step]]\ncomplex-modes = { count = 8, export = true }\n",
+    ));
+    let floats = |name: &str| {
+        let array = outcome.arrays.iter().find(|a| a.name == name);
+        let array = array.unwrap_or_else(|| panic!("no {name}"));
+        match &array.numbers {
+            Numbers::Floats(all) => (array.shape, all.clone()),
+            Numbers::Integers(_) => panic!("{name} is whole"),
+        }
+    };
+    let ([r, _], mut k) = floats("reduced-stiffness");
+    let (_, m) = floats("reduced-mass");
+    let (_, mut c) = floats("reduced-damping");
+    for (name, to) in [("friction", &mut k), ("drag", &mut c)] {
+        let ([_, q], left) = floats(&format!("reduced-{name}-left"));
+        let (_, right) = floats(&format!("reduced-{name}-right"));
+        for i in 0..r * r {
+            let pairs = (0..q).map(|p| left[i / r * q + p] * right[i % r * q + p]);
+            to[i] += pairs.sum::<f64>();
+        }
+    }
+    let lu = DenseLu::new(r, &k);
+    let solved = |a: &[f64]| {
+        let mut by_columns: Vec<f64> = (0..r * r).map(|i| a[i % r * r + i / r]).collect();
+        lu.solve(&mut by_columns);
+        by_columns
+    };
+    // 1/λ of (x, λ x): x = -K⁻¹ (C x + M λ x) / λ.
+    let (c, m) = (solved(&c), solved(&m));
+    let mut a = vec![0.0; 4 * r * r];
+    for i in 0..r {
+        a[(r + i) * 2 * r + i] = 1.0;
+        for j in 0..r {
+            a[i * 2 * r + j] = -c[j * r + i];
+            a[i * 2 * r + r + j] = -m[j * r + i];
+        }
+    }
+    let inverse = general(2 * r, &a).unwrap().0;
+    for mode in &outcome.modes {
+        let ours = [mode.growth, TAU * mode.frequency];
+        let off = inverse.iter().map(|z| {
+            let square = z[0] * z[0] + z[1] * z[1];
+            (z[0] / square - ours[0]).hypot(-z[1] / square - ours[1])
+        });
+        let off = off.fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-7 * ours[0].hypot(ours[1]), "{ours:?}: {off:e}");
+    }
+    // Displacements of the basis, by unknown: the mass is what the whole one makes of them.
+    let ([n, _], basis) = floats("reduced-basis");
+    let (_, [_, _, whole]) = matrices(&outcome);
+    let (_, reduced) = floats("reduced-mass");
+    for (i, j) in [(0, 0), (1, 3), (r - 1, 2)] {
+        let sum: f64 = (0..n * n)
+            .map(|e| basis[e / n * r + i] * whole[e] * basis[e % n * r + j])
+            .sum();
+        near(sum, reduced[i * r + j], 1e-9 * reduced[0].abs());
+    }
 }
