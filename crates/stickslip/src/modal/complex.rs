@@ -54,7 +54,9 @@ pub(crate) fn modes(
         ));
     }
     if plan.sensitivity {
-        out.sensitivities = sensitivity::all(model, &shifted, &mut root, &found, &mut solves);
+        let (changes, notes) = sensitivity::all(model, &shifted, &mut root, &found, &mut solves);
+        out.sensitivities = changes;
+        out.notes.extend(notes);
     }
     if plan.map.is_some() || plan.export {
         let largest = plan.map.as_ref().map_or(1.0, MapPlan::largest);

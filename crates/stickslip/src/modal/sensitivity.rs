@@ -3,12 +3,13 @@
 //! With `P(λ) x = 0` and `yᵀ P(λ) = 0` an eigenvalue changes by `dλ = -yᵀ (dK + λ dC + λ² dM) x / yᵀ (2 λ M + C) x`. The contact state is kept.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::linear::{Linear, Pair, add_pairs};
 use super::outcome::Sensitivity;
 use super::quadratic::{Eigen, solve};
 use super::shifted::{Root, Shifted};
-use crate::linear::{BlockCsr, Complex};
+use crate::linear::{BlockCsr, Complex, pencil};
 use crate::math::vector::dot;
 use crate::model::definition::Model;
 
@@ -24,14 +25,14 @@ struct Quantity<'a> {
     change: Change<'a>,
 }
 
-/// The changes of all modes with all quantities.
+/// The changes of all modes with all quantities. Equal eigenvalues split: what is told of each is an eigenvalue of the change in the space of their vectors.
 pub(crate) fn all(
     model: &Model,
     shifted: &Shifted,
     root: &mut Root,
     modes: &[Eigen],
     solves: &mut usize,
-) -> Vec<Sensitivity> {
+) -> (Vec<Sensitivity>, Vec<String>) {
     let linear = shifted.linear;
     root.set(1.0, true);
     // A few more, so that none is missing where sizes are nearly equal.
@@ -39,41 +40,85 @@ pub(crate) fn all(
     let left = solve(shifted, root, asked, true, solves);
     root.set(1.0, false);
     let quantities = quantities(model, linear);
-    let mut out = Vec::new();
+    let (mut out, mut notes) = (Vec::new(), Vec::new());
+    for group in groups(modes) {
+        let own = &modes[group.clone()];
+        let partners: Vec<&Eigen> = left.iter().filter(|e| same(e, &own[0])).collect();
+        let mut changes = (partners.len() == own.len())
+            .then(|| changes(linear, own, &partners, &quantities))
+            .flatten()
+            .unwrap_or_default();
+        if changes.is_empty() {
+            notes.push(format!(
+                "mode {} has no sensitivities: its eigenvalue comes several times, and not all vectors that belong to it were found; ask for more modes",
+                group.start + 1
+            ));
+        }
+        for (k, mode) in group.enumerate() {
+            for (quantity, values) in quantities.iter().zip(&mut changes) {
+                out.push(Sensitivity {
+                    mode: mode + 1,
+                    of: quantity.name.clone(),
+                    growth: -values[k][0],
+                    frequency: -values[k][1] / TAU,
+                });
+            }
+        }
+    }
+    (out, notes)
+}
+
+/// Whether two eigenvalues are one.
+fn same(a: &Eigen, b: &Eigen) -> bool {
+    let [re, im] = [0, 1].map(|i| a.value[i] - b.value[i]);
+    re.hypot(im) <= SAME * b.value[0].hypot(b.value[1])
+}
+
+/// Modes, by frequency, whose eigenvalues are equal.
+fn groups(modes: &[Eigen]) -> Vec<Range<usize>> {
+    let mut out: Vec<Range<usize>> = Vec::new();
     for (k, mode) in modes.iter().enumerate() {
-        let away = |e: &&Eigen| {
-            let [a, b] = [0, 1].map(|i| e.value[i] - mode.value[i]);
-            a.hypot(b)
-        };
-        let partner = left.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let size = mode.value[0].hypot(mode.value[1]);
-        let Some(partner) = partner.filter(|p| away(p) <= SAME * size) else {
-            continue;
-        };
-        let [x, y] = [0, 1].map(|i| linear.forces(&mode.vector[i], 1.0));
-        let [l, w] = mode.value;
-        let double = [2.0 * l, 2.0 * w];
-        let masses = bilinear(&partner.vector, [&x[2], &y[2]]);
-        let damping = bilinear(&partner.vector, [&x[1], &y[1]]);
-        let below = add(times(double, masses), damping);
-        for quantity in &quantities {
-            let [x, y] = [0, 1].map(|i| (quantity.change)(&mode.vector[i]));
-            let part = |q: usize| bilinear(&partner.vector, [&x[q], &y[q]]);
-            let value = mode.value;
-            let above = add(
-                add(part(0), times(value, part(1))),
-                times(times(value, value), part(2)),
-            );
-            let change = over(above, below);
-            out.push(Sensitivity {
-                mode: k + 1,
-                of: quantity.name.clone(),
-                growth: -change[0],
-                frequency: -change[1] / TAU,
-            });
+        match out.last_mut() {
+            Some(last) if same(mode, &modes[last.start]) => last.end = k + 1,
+            _ => out.push(k..k + 1),
         }
     }
     out
+}
+
+/// By quantity the changes of a group of equal eigenvalues, with the sign turned: eigenvalues of `Yᵀ (dK + λ dC + λ² dM) X` against `Yᵀ (2 λ M + C) X`. `None` where
+/// that is singular.
+fn changes(
+    linear: &Linear,
+    modes: &[Eigen],
+    partners: &[&Eigen],
+    quantities: &[Quantity],
+) -> Option<Vec<Vec<Complex>>> {
+    let m = modes.len();
+    let project = |forces: &dyn Fn(&[f64]) -> [Vec<f64>; 3],
+                   factors: &dyn Fn(Complex) -> [Complex; 3]| {
+        let mut out = vec![[0.0; 2]; m * m];
+        for (j, mode) in modes.iter().enumerate() {
+            let [x, y] = [0, 1].map(|i| forces(&mode.vector[i]));
+            let factors = factors(mode.value);
+            for (i, partner) in partners.iter().enumerate() {
+                let parts =
+                    (0..3).map(|q| times(factors[q], bilinear(&partner.vector, [&x[q], &y[q]])));
+                out[i * m + j] = parts.fold([0.0; 2], add);
+            }
+        }
+        out
+    };
+    let below = project(&|x| linear.forces(x, 1.0), &|[l, w]| {
+        [[0.0; 2], [1.0, 0.0], [2.0 * l, 2.0 * w]]
+    });
+    let each = quantities.iter().map(|quantity| {
+        let above = project(&*quantity.change, &|v| [[1.0, 0.0], v, times(v, v)]);
+        let mut values = pencil(m, &above, &below)?;
+        values.sort_by(|a, b| b[1].total_cmp(&a[1]).then(b[0].total_cmp(&a[0])));
+        Some(values)
+    });
+    each.collect()
 }
 
 fn add(a: Complex, b: Complex) -> Complex {
@@ -82,12 +127,6 @@ fn add(a: Complex, b: Complex) -> Complex {
 
 fn times(a: Complex, b: Complex) -> Complex {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-fn over(a: Complex, b: Complex) -> Complex {
-    let square = b[0] * b[0] + b[1] * b[1];
-    let product = times(a, [b[0], -b[1]]);
-    product.map(|p| p / square)
 }
 
 /// `yᵀ f`, without conjugation.

@@ -1,4 +1,4 @@
-//! The answer to harmonic loads, and the condensed model for other programs.
+//! The answer to harmonic loads, sensitivities of modes that come several times, and the condensed model for other programs.
 
 use std::f64::consts::TAU;
 
@@ -165,6 +165,46 @@ fn what_cannot_shake_is_refused() {
         "spring = { stiffness = [1, 1] }",
     );
     assert!(complaint(&spring).contains("is a spring"));
+}
+
+/// Two rods of their own that are equal: modes come twice, and their vectors are any two of a plane. A stiffer rod moves one frequency by half as much and the
+/// other not at all; a heavier one likewise, downwards.
+#[test]
+fn equal_eigenvalues_split_as_each_rod_says() {
+    let rod = |name: &str| {
+        format!(
+            "body.{name} = {{ generate.rectangle = {{ to = [2, 0.1], cells = [9, 1] }}, material = \"m\" }}\nsupport.wall-{name} = {{ set = \"{name}.left\", x = 0 }}\nsupport.guide-{name} = {{ set = \"{name}\", y = 0 }}\n"
+        )
+    };
+    let text = format!(
+        "format = 1\nmodel.space = \"plane-stress\"\nmaterial.m.isotropic = {{ young = 4.0, poisson = 0.0, density = 1.0 }}\n{}{}[[step]]\ncomplex-modes = {{ count = 6, sensitivity = true }}\n",
+        rod("a"),
+        rod("b")
+    );
+    let outcome = modes(&text);
+    assert_eq!(outcome.modes.len(), 6);
+    assert_eq!(outcome.sensitivities.len(), 24, "{:?}", outcome.notes);
+    for pair in [0, 2, 4] {
+        let frequency = outcome.modes[pair].frequency;
+        near(
+            outcome.modes[pair + 1].frequency,
+            frequency,
+            1e-9 * frequency,
+        );
+        for (of, half) in [("modulus", 0.5), ("density", -0.5)] {
+            for rod in ["a", "b"] {
+                let name = format!("{of}.{rod}");
+                let here = outcome
+                    .sensitivities
+                    .iter()
+                    .filter(|s| s.of == name && (s.mode == pair + 1 || s.mode == pair + 2));
+                let mut found: Vec<f64> = here.map(|s| s.frequency / frequency).collect();
+                found.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+                near(found[0], 0.0, 1e-7);
+                near(found[1], half, 1e-7);
+            }
+        }
+    }
 }
 
 /// What other programs get of the condensed model has the eigenvalues that are found here.

@@ -1,7 +1,7 @@
 //! Dense eigenvalues and systems, by faer.
 
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Mat, Side};
+use faer::{Mat, Side, c64};
 
 /// Real and imaginary part.
 pub type Complex = [f64; 2];
@@ -61,6 +61,32 @@ pub fn eigenvalues(n: usize, a: &[f64]) -> Option<Vec<Complex>> {
     Some(values.iter().map(|z| [z.re, z.im]).collect())
 }
 
+/// Eigenvalues of `A x = λ B x` with complex matrices, given row by row; `None` where `B` is singular or something is not finite.
+///
+/// # Panics
+/// If one of them has not `n²` entries.
+pub fn pencil(n: usize, a: &[Complex], b: &[Complex]) -> Option<Vec<Complex>> {
+    assert_eq!([a.len(), b.len()], [n * n; 2], "entries of square matrices");
+    if n == 0 {
+        return Some(Vec::new());
+    }
+    let matrix = |of: &[Complex]| {
+        Mat::from_fn(n, n, |i, j| {
+            let [re, im] = of[i * n + j];
+            c64::new(re, im)
+        })
+    };
+    let quotient = matrix(b).partial_piv_lu().solve(matrix(a));
+    let finite = |i: usize| {
+        (0..n).all(|j| quotient[(i, j)].re.is_finite() && quotient[(i, j)].im.is_finite())
+    };
+    if !(0..n).all(finite) {
+        return None;
+    }
+    let values = quotient.eigenvalues().ok()?;
+    Some(values.iter().map(|z| [z.re, z.im]).collect())
+}
+
 /// A dense LU factor with row exchanges.
 pub struct DenseLu {
     n: usize,
@@ -96,6 +122,22 @@ impl DenseLu {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_of_a_pencil_are_roots_of_its_characteristic_equation() {
+        // λ² - (2 + i) λ + (1 + i) = (λ - 1)(λ - 1 - i), times i on both sides.
+        let a = [[0.0, 0.0], [1.0, 0.0], [1.0, -1.0], [-1.0, 2.0]];
+        let b = [[1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 1.0]];
+        let mut values = pencil(2, &a, &b).unwrap();
+        values.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        for (z, exact) in values.iter().zip([[1.0, 0.0], [1.0, 1.0]]) {
+            assert!(
+                (z[0] - exact[0]).hypot(z[1] - exact[1]) < 1e-14,
+                "{values:?}"
+            );
+        }
+        assert_eq!(pencil(1, &[[1.0, 0.0]], &[[0.0, 0.0]]), None);
+    }
 
     #[test]
     fn vectors_belong_to_their_values() {
