@@ -553,3 +553,63 @@ fn columns_of_the_history_are_plotted() {
             .contains("no rows")
     );
 }
+
+/// A block whose modes are looked for, and that is shaken.
+const MODES: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.pad = { generate.rectangle = { to = [1, 0.4], cells = [6, 3] }, material = "m" }
+material.m.isotropic = { young = 100.0, poisson = 0.3, density = 1.0 }
+obstacle.belt.plane = { point = [0, 0], normal = [0, 1] }
+interface.rub = { secondary = "pad.bottom", primary = "belt", normal.linear = { c = 500.0 }, friction.coulomb = { mu = 0.6 }, primary-velocity = [1, 0] }
+support.top = { set = "pad.top", x = 0, y = -1e-2 }
+load.shake = { set = "pad.right", pressure = { value = 0.1 } }
+probe.p = { point = [0, 0] }
+[[step]]
+loads = []
+steady = {}
+[[step]]
+modes = { count = 3 }
+[[step]]
+complex-modes = { count = 2, export = true, map = { points = 3 } }
+[[step]]
+harmonic = { loads = ["shake"], frequencies = [1.5, 2.5], shapes = true }
+"#;
+
+#[test]
+fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
+    let folder = Folder::new("charts");
+    run(MODES, &folder.0);
+    let written = plot::coupling(&folder.file("modes-3-map.csv"), None, "mu", [600, 400]).unwrap();
+    let names = ["modes-3-map.frequency.png", "modes-3-map.growth.png"];
+    assert_eq!(written, names.map(|name| folder.file(name)));
+    let table = folder.file("pad.sweep.csv");
+    let text = "run,a.mu,load.p,outcome,MODES.GROWTH,MODES.FREQUENCY,MODES.1.FREQUENCY,MODES.1.GROWTH\n1,0.1,1,done,-1,5,5,-1\n2,0.2,1,done,2,5,5,2\n3,0.1,2,done,3,0,0,3\n4,0.2,2,failed,,,,\n";
+    std::fs::write(&table, text).unwrap();
+    std::fs::write(
+        folder.file("pad.sweep.critical.csv"),
+        "load.p,a.mu,MODES.GROWTH\n1,0.13,0\n",
+    )
+    .unwrap();
+    let svg = |name: &str| std::fs::read_to_string(folder.file(name)).unwrap();
+    let chart = folder.file("chart.svg");
+    plot::stability(&table, Some(&chart), ["mu", "p"], [600, 400]).unwrap();
+    // A cell each and its key in the legend; the boundary is a dot with an edge.
+    let all = svg("chart.svg");
+    for name in [
+        "stable (1)",
+        "flutter (1)",
+        "divergence (1)",
+        "not known (1)",
+    ] {
+        assert!(all.contains(name), "{name}: {all}");
+    }
+    for colour in ["#d6e2ee", "#d55e00", "#5c286e"] {
+        assert_eq!(all.matches(colour).count(), 2, "{colour}");
+    }
+    assert_eq!(all.matches("fill=\"#1b2430\"/>").count(), 1, "{all}");
+    plot::coupling(&table, Some(&chart), "mu", [600, 400]).unwrap();
+    assert!(svg("chart.frequency.svg").contains("<svg"));
+    let error = plot::coupling(&folder.file("history.csv"), None, "TIME", [600, 400]).unwrap_err();
+    assert!(error.to_string().contains("no columns of modes"), "{error}");
+}

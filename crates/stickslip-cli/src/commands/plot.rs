@@ -12,7 +12,7 @@ use crate::print;
 /// Make a picture of results, PNG or SVG: the bodies, what an interface carries, columns of the history, or what the runs of a sweep do.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder with the results of a run; with --regimes the table of a sweep.
+    /// The folder with the results of a run; with --regimes, --stability and --coupling the table of a sweep, with the last of a map too.
     #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
@@ -69,6 +69,12 @@ pub struct Arguments {
     /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
     #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "body", "history"])]
     regimes: Option<Pair>,
+    /// Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found.
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "body", "history", "regimes"])]
+    stability: Option<Pair>,
+    /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "body", "history", "regimes", "stability"])]
+    coupling: Option<String>,
     /// The column along the horizontal axis.
     #[arg(
         long,
@@ -178,16 +184,37 @@ pub fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The files that were written of a table of many runs, if that is what is asked for.
+fn of_table(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Failure> {
+    let (table, output, size) = (
+        &arguments.directory,
+        arguments.output.as_deref(),
+        arguments.size,
+    );
+    let asked = [&arguments.regimes, &arguments.stability];
+    if asked.iter().all(|pair| pair.is_none()) && arguments.coupling.is_none() {
+        return Ok(None);
+    }
+    // Elsewhere a table is a file by mistake.
+    if !table.is_file() {
+        given::file(table, &["csv"])?;
+    }
+    if let Some(against) = &arguments.coupling {
+        return Ok(Some(plot::coupling(table, output, against, size)?));
+    }
+    let file = match asked {
+        [Some(Pair([across, up])), _] => plot::regimes(table, output, [across, up], size)?,
+        [_, Some(Pair([across, up]))] => plot::stability(table, output, [across, up], size)?,
+        _ => return Ok(None),
+    };
+    Ok(Some(vec![file]))
+}
+
 /// The files that were written, and what is to be said about them.
 pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failure> {
     let output = arguments.output.as_deref();
-    if let Some(Pair([across, up])) = &arguments.regimes {
-        // Elsewhere a table is a file by mistake.
-        if !arguments.directory.is_file() {
-            given::file(&arguments.directory, &["csv"])?;
-        }
-        let file = plot::regimes(&arguments.directory, output, [across, up], arguments.size)?;
-        return Ok((vec![file], Vec::new()));
+    if let Some(files) = of_table(arguments)? {
+        return Ok((files, Vec::new()));
     }
     given::results(&arguments.directory)?;
     if let Some(interface) = arguments

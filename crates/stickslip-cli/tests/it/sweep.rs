@@ -477,12 +477,7 @@ fn a_sweep_that_is_complete_runs_nothing_and_one_that_lacks_rows_is_refused() {
     );
 }
 
-/// A mass on a belt whose friction falls with speed, and a dashpot: below a speed of 0.1 ln 10 it does not slide steadily.
-#[test]
-fn the_speed_at_which_sliding_becomes_unstable_is_found_between_runs() {
-    let place = Place::new("critical");
-    place.write_case(
-        r#"
+const BELT: &str = r#"
 format = 1
 model.space = "plane-strain"
 body.block = { rigid = true, generate.rectangle = { from = [-0.5, 0], to = [0.5, 0.1], cells = [2, 2] }, material = "any" }
@@ -499,8 +494,13 @@ supports = []
 steady = {}
 [[step]]
 complex-modes = { count = 1 }
-"#,
-    );
+"#;
+
+/// A mass on a belt whose friction falls with speed, and a dashpot: below a speed of 0.1 ln 10 it does not slide steadily.
+#[test]
+fn the_speed_at_which_sliding_becomes_unstable_is_found_between_runs() {
+    let place = Place::new("critical");
+    place.write_case(BELT);
     let axis = "interface.rub.primary-velocity.0=0.1..0.4:4";
     let asked = [
         "--set",
@@ -531,4 +531,68 @@ complex-modes = { count = 1 }
         "{}",
         err(&unknown)
     );
+}
+
+/// The same with two loads: falling friction is as strong as the load, and the boundary of stability is at 0.1 ln 10 and 0.1 ln 20.
+#[test]
+fn a_chart_of_stability_is_drawn_of_two_axes_with_its_boundary() {
+    let place = Place::new("stability");
+    place.write_case(BELT);
+    let axes = [
+        "load.press.nodal-force.value.1=-10,-20",
+        "interface.rub.primary-velocity.0=0.1..0.4:4",
+    ];
+    let output = place.sweep(&[
+        "--set",
+        axes[0],
+        "--set",
+        axes[1],
+        "--critical",
+        "MODES.GROWTH",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let read = |name: &str| csv::read(&place.folder.join(name)).expect("a table");
+    let critical = read("case.sweep.critical.csv");
+    let speed = critical
+        .column("interface.rub.primary-velocity.0")
+        .expect("the axis");
+    for (found, load) in speed.iter().zip([10.0_f64, 20.0]) {
+        assert!((found - 0.1 * load.ln()).abs() < 1e-7, "{found}");
+    }
+    let table = read("case.sweep.csv");
+    let of_mode = table
+        .column("MODES.1.GROWTH")
+        .expect("a column of the mode");
+    let fastest = table.column("MODES.GROWTH").expect("a column");
+    assert_eq!(of_mode, fastest);
+    let frequency = table
+        .column("MODES.1.FREQUENCY")
+        .expect("a column of the mode");
+    assert!(
+        frequency.iter().all(|f| (1.0..1.6).contains(f)),
+        "{frequency:?}"
+    );
+    let plot = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_stickslip"))
+            .args(["plot", "case.sweep.csv"])
+            .args(arguments)
+            .current_dir(&place.folder)
+            .output()
+            .expect("the command");
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    };
+    plot(&[
+        "--stability",
+        "primary-velocity.0,value.1",
+        "-o",
+        "chart.svg",
+    ]);
+    plot(&["--coupling", "primary-velocity.0", "-o", "modes.svg"]);
+    for name in ["chart.svg", "modes.frequency.svg", "modes.growth.svg"] {
+        let picture = std::fs::read_to_string(place.folder.join(name)).expect("a picture");
+        assert!(
+            picture.starts_with("<svg") || picture.contains("<svg"),
+            "{name}"
+        );
+    }
 }

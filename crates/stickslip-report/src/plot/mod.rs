@@ -122,9 +122,58 @@ pub fn regimes(
     axes: [&str; 2],
     size: [u32; 2],
 ) -> Result<PathBuf, Error> {
+    map(table, file, &regimes::STICKING, axes, size)
+}
+
+/// Draws whether steady sliding is stable in the runs of a sweep, over two columns, with the critical values that it has found; returns the file written, beside
+/// the table if none is named.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such table or column, or the file cannot be written.
+pub fn stability(
+    table: &Path,
+    file: Option<&Path>,
+    axes: [&str; 2],
+    size: [u32; 2],
+) -> Result<PathBuf, Error> {
+    map(table, file, &regimes::STABILITY, axes, size)
+}
+
+fn map(
+    table: &Path,
+    file: Option<&Path>,
+    kind: &regimes::Kind,
+    axes: [&str; 2],
+    size: [u32; 2],
+) -> Result<PathBuf, Error> {
     let file = file.map_or_else(|| table.with_extension("png"), Path::to_path_buf);
     let mut canvas = canvas(&file, size)?;
-    regimes::draw(table, axes, size, canvas.as_mut())?;
+    regimes::draw(table, kind, axes, size, canvas.as_mut())?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
+}
+
+/// Draws how modes couple: their frequencies and their growth over a column of the table of a sweep or of a map, a picture each; returns the files written,
+/// `FILE.frequency.png` and `FILE.growth.png`.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such table or column, or a file cannot be written.
+pub fn coupling(
+    table: &Path,
+    file: Option<&Path>,
+    against: &str,
+    size: [u32; 2],
+) -> Result<Vec<PathBuf>, Error> {
+    let file = file.map_or_else(|| table.with_extension("png"), Path::to_path_buf);
+    let ending = file.extension().map(|e| e.to_string_lossy().into_owned());
+    let read = stickslip::io::csv::read(table)?;
+    let mut written = Vec::new();
+    for what in ["frequency", "growth"] {
+        let file = file.with_extension(format!("{what}.{}", ending.as_deref().unwrap_or("png")));
+        let mut canvas = canvas(&file, size)?;
+        history::modes(table, &read, what, against, size, canvas.as_mut())?;
+        write_atomically(&file, &canvas.finish())?;
+        written.push(file);
+    }
+    Ok(written)
 }

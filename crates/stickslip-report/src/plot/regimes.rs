@@ -1,4 +1,4 @@
-//! Maps of what the runs of a sweep do: all sticks, part of it slips, all slides, over two values that were varied.
+//! Maps of what the runs of a sweep do, over two values that were varied: all sticks, part of it slips, all slides; or whether sliding is stable, flutters, diverges.
 
 use std::path::Path;
 
@@ -12,7 +12,39 @@ use crate::colour::{self, NOTHING, Rgb};
 use crate::draw::{Anchor, Canvas, Pen, text_width};
 use crate::results::fault;
 
-/// What the points that touch do, and its colour. That of partial slip lies between those of stick and slip.
+/// What is told apart in a map.
+pub struct Kind {
+    /// The two columns of the table that tell.
+    columns: [&'static str; 2],
+    /// What there is, and its colour. That of the second lies between those of the first and its own.
+    regimes: &'static [(&'static str, Rgb)],
+    /// The regime of a run by the two columns; `None` where it is not known.
+    of: fn(f64, f64) -> Option<Regime>,
+    /// Whether critical values that the sweep has found are drawn over it.
+    critical: bool,
+}
+
+/// What the points that touch do.
+pub const STICKING: Kind = Kind {
+    columns: ["STICK", "SLIP"],
+    regimes: &REGIMES,
+    of: regime,
+    critical: false,
+};
+
+/// What steady sliding does after a small disturbance.
+pub const STABILITY: Kind = Kind {
+    columns: ["MODES.GROWTH", "MODES.FREQUENCY"],
+    regimes: &[
+        ("stable", [214, 226, 238]),
+        ("flutter", [213, 94, 0]),
+        ("divergence", [92, 40, 110]),
+        ("", NOTHING),
+    ],
+    of: stability,
+    critical: true,
+};
+
 const REGIMES: [(&str, Rgb); 4] = [
     ("all sticks", colour::STATUSES[1].1),
     ("part slips, the yellower the more", [240, 228, 66]),
@@ -36,12 +68,27 @@ fn regime(stick: f64, slip: f64) -> Option<Regime> {
     })
 }
 
-/// Its colour: where part slips, from that of stick on, the more slips.
-fn shade(regime: Option<Regime>) -> Rgb {
-    match regime {
-        None => NOTHING,
-        Some((1, part)) => colour::along(&[REGIMES[0].1, REGIMES[1].1], part),
-        Some((number, _)) => REGIMES[number].1,
+/// What the mode that grows fastest does: it swings with a growing amplitude, or runs away without a swing.
+fn stability(growth: f64, frequency: f64) -> Option<Regime> {
+    if !(growth.is_finite() && frequency.is_finite()) {
+        return None;
+    }
+    Some(match (growth > 0.0, frequency > 0.0) {
+        (false, _) => (0, 0.0),
+        (true, true) => (1, 1.0),
+        (true, false) => (2, 1.0),
+    })
+}
+
+impl Kind {
+    /// The colour of a regime: where part slips, from that of stick on, the more slips.
+    fn shade(&self, regime: Option<Regime>) -> Rgb {
+        let all = self.regimes;
+        match regime {
+            None => NOTHING,
+            Some((1, part)) => colour::along(&[all[0].1, all[1].1], part),
+            Some((number, _)) => all[number].1,
+        }
     }
 }
 
@@ -81,7 +128,11 @@ impl Axis {
 }
 
 /// A column of the table of a sweep, by its name or the end of it.
-fn column<'t>(file: &Path, table: &'t Table, name: &str) -> Result<(&'t str, &'t [f64]), Error> {
+pub fn column<'t>(
+    file: &Path,
+    table: &'t Table,
+    name: &str,
+) -> Result<(&'t str, &'t [f64]), Error> {
     let ends = |n: &&String| *n == name || n.ends_with(&format!(".{name}"));
     let exact = table.names.iter().find(|n| *n == name);
     let found = exact.or_else(|| table.names.iter().find(ends));
@@ -93,12 +144,13 @@ fn column<'t>(file: &Path, table: &'t Table, name: &str) -> Result<(&'t str, &'t
     })
 }
 
-/// Draws the map of a table with the columns STICK and SLIP over two other columns.
+/// Draws the map of a table with the columns of its kind over two other columns.
 ///
 /// # Errors
 /// [`Error::Io`] if the table cannot be read, lacks a column, or has no numbers in those of the axes.
 pub fn draw(
     file: &Path,
+    kind: &Kind,
     [across, up]: [&str; 2],
     size: [u32; 2],
     canvas: &mut dyn Canvas,
@@ -106,92 +158,122 @@ pub fn draw(
     let table = csv::read(file)?;
     let of = |name: &str| column(file, &table, name);
     let ((x_name, x), (y_name, y)) = (of(across)?, of(up)?);
-    let ((_, stick), (_, slip)) = (of("STICK")?, of("SLIP")?);
+    let [(_, first), (_, second)] = [of(kind.columns[0])?, of(kind.columns[1])?];
     let axis = |name: &str, values: &[f64]| {
         Axis::of(values).ok_or_else(|| fault(file, format!("the column `{name}` holds no numbers")))
     };
     let axes = [axis(x_name, x)?, axis(y_name, y)?];
-    let rows = x.iter().zip(y).zip(stick.iter().zip(slip));
-    let cells: Vec<([f64; 2], Option<Regime>)> = rows
-        .map(|((&x, &y), (&stick, &slip))| ([x, y], regime(stick, slip)))
+    let rows = x.iter().zip(y).zip(first.iter().zip(second));
+    let cells: Vec<Cell> = rows
+        .map(|((&x, &y), (&first, &second))| ([x, y], (kind.of)(first, second)))
         .collect();
+    let found = file.with_extension("critical.csv");
+    let mut critical = Vec::new();
+    if kind.critical && found.is_file() {
+        let table = csv::read(&found)?;
+        let ((_, x), (_, y)) = (
+            column(&found, &table, x_name)?,
+            column(&found, &table, y_name)?,
+        );
+        critical = x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();
+    }
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    picture(&stem, [x_name, y_name], &axes, &cells, size, canvas);
+    let map = Map {
+        kind,
+        axes,
+        cells,
+        critical,
+    };
+    map.picture(&stem, [x_name, y_name], size, canvas);
     Ok(())
 }
 
-fn picture(
-    title: &str,
-    names: [&str; 2],
-    axes: &[Axis; 2],
-    cells: &[([f64; 2], Option<Regime>)],
-    size: [u32; 2],
-    canvas: &mut dyn Canvas,
-) {
-    let [width, height] = size.map(f64::from);
-    let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
-    let margin = 1.6 * em;
-    let title = shorten(title, 1.35 * em, width - 2.0 * margin);
-    let at = [margin, 2.1 * em];
-    canvas.text(at, &title, 1.35 * em, Anchor::Start, INK, false);
-    legend([margin, 3.2 * em], cells, em, canvas);
-    let [[x0, x1], [y0, y1]] = [axes[0].ends(), axes[1].ends()];
-    let labels = axis::ticks(y0, y1, 8)
-        .into_iter()
-        .map(|t| (t, axis::number(t, 4)));
-    let labels: Vec<(f64, String)> = labels.collect();
-    let widest = labels.iter().map(|(_, text)| text_width(text, em));
-    let left = margin + 2.0 * em + widest.fold(0.0, f64::max);
-    let (top, right, bottom) = (5.6 * em, width - margin, height - 4.2 * em);
-    let px = |v: f64| left + (v - x0) / (x1 - x0) * (right - left);
-    let py = |v: f64| bottom - (v - y0) / (y1 - y0) * (bottom - top);
-    for (place, regime) in cells {
-        let Some([cx, cy]) = axes[0]
-            .cell(place[0])
-            .zip(axes[1].cell(place[1]))
-            .map(|(a, b)| [a, b])
-        else {
-            continue;
-        };
-        let colour = shade(*regime);
-        let (from, to) = ([px(cx[0]), py(cy[1])], [px(cx[1]), py(cy[0])]);
-        // A hair of white between cells, so that they can be counted.
-        canvas.rectangle(from, [to[0] - from[0] - 1.0, to[1] - from[1] - 1.0], colour);
-    }
-    for (tick, label) in &labels {
-        let at = [left - 0.6 * em, py(*tick) + 0.36 * em];
-        canvas.text(at, label, em, Anchor::End, SOFT, false);
-    }
-    for tick in axis::ticks(x0, x1, 8) {
-        let at = [px(tick), bottom + 1.5 * em];
-        canvas.text(at, &axis::number(tick, 4), em, Anchor::Middle, SOFT, false);
-    }
-    canvas.line(
-        &[[left, top], [left, bottom], [right, bottom]],
-        Pen::new(SOFT, 0.1 * em),
-    );
-    let at = [(left + right) / 2.0, bottom + 3.2 * em];
-    canvas.text(at, names[0], 1.05 * em, Anchor::Middle, INK, false);
-    let at = [margin + 0.4 * em, (top + bottom) / 2.0];
-    canvas.text(at, names[1], 1.05 * em, Anchor::Middle, INK, true);
+/// A place on the axes, and what the run there does.
+type Cell = ([f64; 2], Option<Regime>);
+
+/// What is drawn.
+struct Map<'a> {
+    kind: &'a Kind,
+    axes: [Axis; 2],
+    cells: Vec<Cell>,
+    /// Places on the boundary.
+    critical: Vec<[f64; 2]>,
 }
 
-/// What the colours mean, and how many runs have each.
-fn legend(at: [f64; 2], cells: &[([f64; 2], Option<Regime>)], em: f64, canvas: &mut dyn Canvas) {
-    let number = |r: &Option<Regime>| r.map(|(number, _)| number);
-    let count = |wanted| cells.iter().filter(|(_, r)| number(r) == wanted).count();
-    let regimes = REGIMES.iter().enumerate();
-    let all = regimes.map(|(i, (name, colour))| (*name, *colour, count(Some(i))));
-    let mut x = at[0];
-    for (name, colour, count) in all.chain([("not known", NOTHING, count(None))]) {
-        if count == 0 {
-            continue;
+impl Map<'_> {
+    fn picture(&self, title: &str, names: [&str; 2], size: [u32; 2], canvas: &mut dyn Canvas) {
+        let axes = &self.axes;
+        let [width, height] = size.map(f64::from);
+        let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
+        let margin = 1.6 * em;
+        let title = shorten(title, 1.35 * em, width - 2.0 * margin);
+        let at = [margin, 2.1 * em];
+        canvas.text(at, &title, 1.35 * em, Anchor::Start, INK, false);
+        self.legend([margin, 3.2 * em], em, canvas);
+        let [[x0, x1], [y0, y1]] = [axes[0].ends(), axes[1].ends()];
+        let labels = axis::ticks(y0, y1, 8)
+            .into_iter()
+            .map(|t| (t, axis::number(t, 4)));
+        let labels: Vec<(f64, String)> = labels.collect();
+        let widest = labels.iter().map(|(_, text)| text_width(text, em));
+        let left = margin + 2.0 * em + widest.fold(0.0, f64::max);
+        let (top, right, bottom) = (5.6 * em, width - margin, height - 4.2 * em);
+        let px = |v: f64| left + (v - x0) / (x1 - x0) * (right - left);
+        let py = |v: f64| bottom - (v - y0) / (y1 - y0) * (bottom - top);
+        for (place, regime) in &self.cells {
+            let Some([cx, cy]) = axes[0]
+                .cell(place[0])
+                .zip(axes[1].cell(place[1]))
+                .map(|(a, b)| [a, b])
+            else {
+                continue;
+            };
+            let colour = self.kind.shade(*regime);
+            let (from, to) = ([px(cx[0]), py(cy[1])], [px(cx[1]), py(cy[0])]);
+            // A hair of white between cells, so that they can be counted.
+            canvas.rectangle(from, [to[0] - from[0] - 1.0, to[1] - from[1] - 1.0], colour);
         }
-        let text = format!("{name} ({count})");
-        canvas.rectangle([x, at[1]], [em, em], colour);
-        let place = [x + 1.5 * em, at[1] + 0.85 * em];
-        canvas.text(place, &text, em, Anchor::Start, INK, false);
-        x += 3.0 * em + text_width(&text, em);
+        for &[x, y] in &self.critical {
+            for (r, ink) in [(0.5 * em, [255, 255, 255]), (0.35 * em, INK)] {
+                canvas.rectangle([px(x) - r, py(y) - r], [2.0 * r, 2.0 * r], ink);
+            }
+        }
+        for (tick, label) in &labels {
+            let at = [left - 0.6 * em, py(*tick) + 0.36 * em];
+            canvas.text(at, label, em, Anchor::End, SOFT, false);
+        }
+        for tick in axis::ticks(x0, x1, 8) {
+            let at = [px(tick), bottom + 1.5 * em];
+            canvas.text(at, &axis::number(tick, 4), em, Anchor::Middle, SOFT, false);
+        }
+        canvas.line(
+            &[[left, top], [left, bottom], [right, bottom]],
+            Pen::new(SOFT, 0.1 * em),
+        );
+        let at = [(left + right) / 2.0, bottom + 3.2 * em];
+        canvas.text(at, names[0], 1.05 * em, Anchor::Middle, INK, false);
+        let at = [margin + 0.4 * em, (top + bottom) / 2.0];
+        canvas.text(at, names[1], 1.05 * em, Anchor::Middle, INK, true);
+    }
+
+    /// What the colours mean, and how many runs have each.
+    fn legend(&self, at: [f64; 2], em: f64, canvas: &mut dyn Canvas) {
+        let cells = &self.cells;
+        let number = |r: &Option<Regime>| r.map(|(number, _)| number);
+        let count = |wanted| cells.iter().filter(|(_, r)| number(r) == wanted).count();
+        let regimes = self.kind.regimes.iter().enumerate();
+        let all = regimes.map(|(i, (name, colour))| (*name, *colour, count(Some(i))));
+        let mut x = at[0];
+        for (name, colour, count) in all.chain([("not known", NOTHING, count(None))]) {
+            if count == 0 {
+                continue;
+            }
+            let text = format!("{name} ({count})");
+            canvas.rectangle([x, at[1]], [em, em], colour);
+            let place = [x + 1.5 * em, at[1] + 0.85 * em];
+            canvas.text(place, &text, em, Anchor::Start, INK, false);
+            x += 3.0 * em + text_width(&text, em);
+        }
     }
 }
 
@@ -207,6 +289,19 @@ mod tests {
         assert_eq!(axis.ends(), [0.5, 5.0]);
         assert!(Axis::of(&[f64::NAN]).is_none());
         assert!(Axis::of(&[3.0]).is_some_and(|a| a.ends()[0] < 3.0));
+    }
+
+    #[test]
+    fn what_grows_flutters_or_diverges() {
+        let found = [
+            (-1.0, 5.0),
+            (0.0, 0.0),
+            (0.1, 5.0),
+            (0.1, 0.0),
+            (f64::NAN, 1.0),
+        ];
+        let found = found.map(|(growth, frequency)| Some(stability(growth, frequency)?.0));
+        assert_eq!(found, [Some(0), Some(0), Some(1), Some(2), None]);
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub(crate) mod shifted;
 
 pub use outcome::{
     Array, Export, FIGURES, FrictionMap, MapRow, ModalOutcome, Mode, Response, ResponseRow,
-    Sensitivity,
+    Sensitivity, TOLD, figures_of_mode,
 };
 
 use crate::error::RunError;

@@ -7,6 +7,14 @@ use crate::io::npy::Numbers;
 /// Names of growth and frequency of the mode that grows fastest, beside the last row of the history.
 pub const FIGURES: [&str; 2] = ["MODES.GROWTH", "MODES.FREQUENCY"];
 
+/// Of so many modes there are figures beside the last row of the history.
+pub const TOLD: usize = 50;
+
+/// What each of them adds to it, by its number from 1.
+pub fn figures_of_mode(number: usize) -> [String; 2] {
+    ["FREQUENCY", "GROWTH"].map(|what| format!("MODES.{number}.{what}"))
+}
+
 /// Modes about a state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]

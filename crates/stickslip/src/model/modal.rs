@@ -13,6 +13,17 @@ pub enum Modal {
     Harmonic(HarmonicPlan),
 }
 
+impl Modal {
+    /// At most so many modes are found.
+    pub fn count(&self) -> usize {
+        match self {
+            Modal::Real(plan) => plan.count,
+            Modal::Complex(plan) => plan.count,
+            Modal::Harmonic(_) => 0,
+        }
+    }
+}
+
 /// Which modes, in cycles per unit of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RealPlan {

@@ -127,6 +127,11 @@ impl Simulation {
             let grows = fastest.growth.abs() > modal::quadratic::UNSTABLE * size;
             let values = [if grows { fastest.growth } else { 0.0 }, fastest.frequency];
             self.summary.last.extend(figures.zip(values));
+            for (k, mode) in outcome.modes.iter().take(modal::TOLD).enumerate() {
+                let values = [mode.frequency, mode.growth];
+                let figures = modal::figures_of_mode(k + 1).into_iter();
+                self.summary.last.extend(figures.zip(values));
+            }
         }
         self.summary.modes.push(outcome.figures());
         self.modes.push(outcome);

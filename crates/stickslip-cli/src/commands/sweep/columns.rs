@@ -2,7 +2,8 @@
 
 use stickslip::Error;
 use stickslip::error::RunError;
-use stickslip::modal::FIGURES;
+use stickslip::modal::{FIGURES, TOLD, figures_of_mode};
+use stickslip::model::Modal;
 use stickslip::results::compare::near;
 use stickslip::results::{Analysis, Event, Observer};
 
@@ -50,8 +51,16 @@ impl Observer for Columns<'_> {
             return Ok(());
         }
         self.names = row.names.clone();
-        if analysis.view.model.steps.iter().any(|s| s.modal.is_some()) {
+        let modal = analysis
+            .view
+            .model
+            .steps
+            .iter()
+            .filter_map(|s| s.modal.as_ref());
+        if let Some(count) = modal.map(Modal::count).max().filter(|count| *count > 0) {
             self.names.extend(FIGURES.map(String::from));
+            self.names
+                .extend((1..=count.min(TOLD)).flat_map(figures_of_mode));
         }
         let mut wanted = self.wanted.iter();
         self.unknown = wanted.find(|name| !self.names.contains(name)).cloned();
