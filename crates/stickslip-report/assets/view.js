@@ -249,9 +249,35 @@ report.attempt(async () => {
 
   // What is shown.
   const opening = Math.max(0, Math.min(frames - 1, model.start ?? frames - 1));
-  const state = { frame: opening, field: null, factor: model.scale, values: null, playing: null };
+  const state = { frame: opening, field: null, factor: model.scale, values: null, playing: null, mode: null, phase: 0 };
+  // A mode is seen at so many phases.
+  const STEPS = 72;
+
+  // Displacements Re(φ e^(iθ)) of the mode, whose largest amplitude is one.
+  function swing() {
+    const { values, range, parts } = state.mode;
+    const angle = (2 * Math.PI * state.phase) / STEPS, c = Math.cos(angle), s = parts === 2 ? Math.sin(angle) : 0;
+    const out = attributes.motion.array;
+    for (let i = 0; i < 3 * n; i++) out[i] = c * back(range, values[i]) - (s === 0 ? 0 : s * back(range, values[3 * n + i]));
+    attributes.motion.needsUpdate = true;
+    if (shifts) {
+      shift.array.fill(0);
+      shift.needsUpdate = true;
+    }
+  }
+
+  // The amplitude of the mode at a point.
+  function amplitude(p) {
+    const { values, range, parts } = state.mode;
+    let sum = 0;
+    for (let k = 0; k < parts; k++) {
+      for (let c = 0; c < 3; c++) sum += back(range, values[3 * (k * n + p) + c]) ** 2;
+    }
+    return Math.sqrt(sum);
+  }
 
   function move() {
+    if (state.mode) return swing();
     const out = attributes.motion.array;
     if (motion) {
       const offset = 3 * n * state.frame;
@@ -266,6 +292,19 @@ report.attempt(async () => {
   }
 
   function colours() {
+    if (state.mode) {
+      const out = attributes.datum.array;
+      for (let p = 0; p < n; p++) {
+        out[2 * p] = amplitude(p);
+        out[2 * p + 1] = 1;
+      }
+      attributes.datum.needsUpdate = true;
+      uniforms.status.value = 0;
+      uniforms.ramp.value = ramps.ordered;
+      for (const body of bodies) body.marks.visible = false;
+      bar({ label: "amplitude of the mode" }, [0, 1], false, 1, 0);
+      return;
+    }
     const { field, values } = state;
     if (!field) return;
     const offset = n * state.frame;
@@ -340,6 +379,37 @@ report.attempt(async () => {
     draw();
   }
 
+  function turn(phase) {
+    state.phase = ((phase % STEPS) + STEPS) % STEPS;
+    by("frame").value = String(state.phase);
+    const words = `phase ${(360 / STEPS) * state.phase}°`;
+    by("frame-time").textContent = words;
+    by("frame").setAttribute("aria-valuetext", words);
+    swing();
+    draw();
+  }
+
+  // A mode in place of the displacements over time; none brings these back.
+  const shapes = new Map();
+  async function pick(index) {
+    play(false);
+    const mode = model.modes[index];
+    if (mode && !shapes.has(mode.key)) shapes.set(mode.key, await report.shorts(mode.key));
+    const values = mode && shapes.get(mode.key);
+    state.mode = mode ? { ...mode, values } : null;
+    const slider = by("frame");
+    slider.max = String(mode ? STEPS - 1 : frames - 1);
+    slider.disabled = by("play").disabled = !mode && frames < 2;
+    by("parts").hidden = !mode;
+    by("field").disabled = Boolean(mode);
+    const factor = mode ? Number((0.05 * model.size).toPrecision(2)) : model.scale;
+    by("factor").value = String(factor);
+    setFactor(factor);
+    if (!mode) return show(state.frame);
+    colours();
+    turn(0);
+  }
+
   async function choose(name) {
     const field = model.fields.find((f) => f.name === name) || model.fields[0];
     if (!field) return;
@@ -354,7 +424,9 @@ report.attempt(async () => {
   function play(on) {
     clearInterval(state.playing);
     state.playing = null;
-    if (on && frames > 1) {
+    if (on && state.mode) {
+      state.playing = setInterval(() => turn(state.phase + 1), 40);
+    } else if (on && frames > 1) {
       if (state.frame === frames - 1) show(0);
       // A run takes about five seconds, but no more than twenty pictures a second are made.
       const step = Math.max(1, Math.ceil(frames / 100));
@@ -462,7 +534,18 @@ report.attempt(async () => {
   slider.max = String(frames - 1);
   slider.disabled = frames < 2;
   by("play").disabled = frames < 2;
-  slider.addEventListener("input", () => { play(false); show(Number(slider.value)); });
+  slider.addEventListener("input", () => { play(false); (state.mode ? turn : show)(Number(slider.value)); });
+  const modes = model.modes || [];
+  if (modes.length > 0) {
+    const list = by("mode");
+    list.append(element("option", { value: "" }, "none: displacements over time"));
+    modes.forEach((mode, i) => list.append(element("option", { value: String(i) }, mode.label)));
+    list.addEventListener("change", () => report.attempt(() => pick(list.value === "" ? -1 : Number(list.value))));
+    by("mode-label").hidden = false;
+    for (const [words, phase] of [["Real part", 0], ["Imaginary part", (3 * STEPS) / 4]]) {
+      by("parts").append(element("button", { type: "button", onclick: () => { play(false); turn(phase); } }, words));
+    }
+  }
   by("play").addEventListener("click", () => play(!state.playing));
   by("own-range").addEventListener("change", () => { colours(); draw(); });
   by("cells").addEventListener("change", (e) => { for (const body of bodies) body.wire.visible = e.target.checked; draw(); });
@@ -524,7 +607,7 @@ report.attempt(async () => {
     for (const body of bodies) {
       if (!body.group.visible) continue;
       for (const p of body.points) {
-        const q = state.values[n * state.frame + p];
+        const q = state.mode ? 0 : state.values[n * state.frame + p];
         if (q === NOTHING) continue;
         for (let c = 0; c < 3; c++) at.setComponent(c, positions[3 * p + c] + state.factor * attributes.motion.array[3 * p + c]);
         at.add(body.group.position).project(camera);
@@ -534,8 +617,8 @@ report.attempt(async () => {
     }
     tip.hidden = !best;
     if (!best) return;
-    const v = back(state.field.range, best.q);
-    tip.textContent = `${best.body.name}: ${state.field.name} ${state.field.status ? model.statuses[Math.round(v)].name : number(v)}`;
+    const v = state.mode ? amplitude(best.p) : back(state.field.range, best.q);
+    tip.textContent = state.mode ? `${best.body.name}: amplitude ${number(v)}` : `${best.body.name}: ${state.field.name} ${state.field.status ? model.statuses[Math.round(v)].name : number(v)}`;
     tip.style.left = Math.min(x + 14, Math.max(0, box.width - tip.offsetWidth - 4)) + "px";
     tip.style.top = Math.max(4, y - 26) + "px";
   }

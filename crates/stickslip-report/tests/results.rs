@@ -577,6 +577,36 @@ harmonic = { loads = ["shake"], frequencies = [1.5, 2.5], shapes = true }
 "#;
 
 #[test]
+fn shapes_of_modes_are_in_the_view() {
+    let folder = Folder::new("modes");
+    run(MODES, &folder.0);
+    let response = std::fs::read_to_string(folder.file("modes-4-response.csv")).unwrap();
+    assert_eq!(
+        response.lines().next().unwrap(),
+        "frequency,residual,p.U1.AMPLITUDE,p.U1.PHASE,p.U2.AMPLITUDE,p.U2.PHASE"
+    );
+    let (page, _) = page(&Results::open(&folder.0).unwrap(), Limits::default()).unwrap();
+    let start = page.find("id=\"meta\">").expect("data") + "id=\"meta\">".len();
+    let end = start + page[start..].find("</script>").expect("an end");
+    let meta: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    let modes = meta["model"]["modes"].as_array().expect("modes");
+    let labels: Vec<&str> = modes.iter().filter_map(|m| m["label"].as_str()).collect();
+    assert_eq!(labels.len(), 7, "{labels:?}");
+    assert!(labels[0].starts_with("step 2, mode 1: "), "{labels:?}");
+    assert!(labels[3].starts_with("step 3, mode 1: "), "{labels:?}");
+    assert_eq!(labels[6], "step 4, answer at 2.5");
+    for (k, mode) in modes.iter().enumerate() {
+        assert_eq!(mode["parts"], if k < 3 { 1 } else { 2 });
+        // The largest amplitude of a point is one.
+        let ends = [0, 1].map(|i| mode["range"][i].as_f64().unwrap());
+        let largest = ends[0].abs().max(ends[1].abs());
+        assert!((0.5..=1.0 + 1e-6).contains(&largest), "{largest}");
+        let key = mode["key"].as_str().unwrap();
+        assert!(page.contains(&format!("id=\"blob-{key}\">")));
+    }
+}
+
+#[test]
 fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
     let folder = Folder::new("charts");
     run(MODES, &folder.0);

@@ -5,6 +5,7 @@ mod energy;
 mod escape;
 mod facts;
 mod model;
+mod modes;
 mod page;
 mod phases;
 mod problem;

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::io::vtu::PointArray;
 
+use super::modes;
 use crate::field::{self, Field};
 use crate::obstacle::{self, Outline};
 use crate::pack;
@@ -85,6 +86,9 @@ pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Pa
     let largest = packed.meta["largest"].as_f64().unwrap_or(0.0);
     let factor = crate::plot::scale(skin.size(), largest, sheets.iter().flatten());
     packed.meta["scale"] = json!(factor);
+    let (modes, shapes) = modes::pack(results, &skin, limit / 4, notes)?;
+    packed.meta["modes"] = json!(modes);
+    packed.blobs.extend(shapes);
     Ok(packed)
 }
 
