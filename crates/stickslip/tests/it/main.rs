@@ -47,3 +47,4 @@ mod turning;
 mod units;
 mod vibrations;
 mod wear;
+mod wear_laws;

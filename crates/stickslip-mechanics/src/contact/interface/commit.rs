@@ -114,6 +114,7 @@ impl Interface {
                 worn: h.worn,
                 hollow: h.hollow,
                 path: h.path,
+                spent: h.spent,
                 ..PointHistory::default()
             };
         }
@@ -123,7 +124,12 @@ impl Interface {
     /// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
     fn take_over(&mut self, i: usize, gap: Option<f64>, increment: &Increment) -> Passed {
         let (e, h) = (&self.cache.last.points[i], &self.history.points[i]);
-        let passed = self.pass((i, h), e, gap.unwrap_or(h.gap), increment.resolved);
+        let passed = self.pass(
+            (i, h),
+            e,
+            gap.unwrap_or(h.gap),
+            (increment.resolved, increment.dt),
+        );
         let (area, r) = (e.area, &e.response);
         let shear = passed.history.shear;
         let sheared = match self.directives.impulses {
@@ -190,7 +196,7 @@ impl Interface {
         (i, h): (usize, &PointHistory),
         e: &Evaluation,
         gap: f64,
-        resolved: bool,
+        (resolved, dt): (bool, f64),
     ) -> Passed {
         let r = &e.response;
         let frictional = self.laws.friction_law().frictional();
@@ -205,9 +211,9 @@ impl Interface {
             false => 0.0,
         };
         let [dissipated, uncertain, excess] = self.dissipated(h, e, part, resolved);
-        let path = e.path(frictional);
+        let path = self.rubbed(r, e.frames.before, e.moved);
         let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
-        let worn = self.wears_off(h, e, (pressed, dissipated));
+        let worn = self.wears_off(h, e, (pressed, dissipated), dt);
         let whole = self.points[i].area * self.share;
         let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
         // Slip so far goes along with the surface, as tractions do.
@@ -247,7 +253,8 @@ impl Interface {
                 dissipated: h.dissipated + dissipated,
                 worn: h.worn + worn[0] * covered,
                 hollow: e.hollow,
-                path: h.path + path,
+                path: h.path + self.cycles() * path,
+                spent: h.spent + self.cycles() * dissipated,
                 limit,
                 sheared: self.sheared(e, shear),
                 stiffness: [e.normal_stiffness, e.tangential_stiffness],

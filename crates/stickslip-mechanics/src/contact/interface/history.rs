@@ -59,8 +59,9 @@ pub(super) struct PointHistory {
     pub worn: f64,
     /// By how much that of both sides opened the gap `[m]`.
     pub hollow: f64,
-    /// Path of sliding, accumulated `[m]`.
+    /// Path over which it has worn, cycles that were not computed included `[m]`, and what friction dissipated on it `[J/m²]`.
     pub path: f64,
+    pub spent: f64,
     /// The largest shear traction that could be carried `[Pa]`.
     pub limit: f64,
     /// Elastic energy of the spring that sticks `[J/m²]`.
@@ -188,6 +189,7 @@ crate::keep!(PointHistory {
     worn,
     hollow,
     path,
+    spent,
     limit,
     sheared,
     stiffness

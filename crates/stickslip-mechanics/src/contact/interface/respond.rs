@@ -9,7 +9,7 @@ use super::worn::length;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
-use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses};
+use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses, Worn};
 use crate::math::{Vec3, add_scaled, dot, norm, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
@@ -50,8 +50,11 @@ impl Interface {
             rest: self.rest(i),
             // A law of the program is asked once, before it is known how much of the way is slid.
             worn: match scene.query {
-                LawQuery::Nothing => 0.0,
-                _ => self.softness(i, length(stencil.frame_before, slid)),
+                LawQuery::Nothing => Worn::default(),
+                _ => {
+                    let path = length(stencil.frame_before, slid);
+                    self.softness(i, (path, scene.dt), before.pressure)
+                }
             },
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
@@ -76,7 +79,7 @@ impl Interface {
         let [e, f] = stencil.frame_before;
         let moved = add_scaled(scale(slid[0], e), slid[1], f);
         let response = self.wearing(i, stencil, moved, &mut at);
-        let worn = at.worn * response.traction[0];
+        let worn = at.worn.depth(response.traction[0]);
         Evaluation {
             slots,
             viscosity: response

@@ -83,7 +83,7 @@ impl Interface {
     /// short as the mesh has it, of compliance `2 Δx / (π E*)`, is stable up to `4 Δx / (π k E*)`. `modulus`: the plane modulus of both bodies together `[Pa]`; `shear`: the
     /// shear over the pressure. `None` where nothing is worn off.
     pub fn explicit_limit(&self, modulus: f64, shear: f64) -> Option<f64> {
-        let rates = self.laws.wear.as_dyn().rates(0.0);
+        let rates = self.laws.wear.as_dyn().fastest();
         let rate: f64 = rates.iter().map(|r| r.per_path(shear)).sum();
         let facets = self.skin.iter().map(|s| spacing(&s.facet, &self.reference));
         let finest = facets.fold(f64::INFINITY, f64::min);

@@ -5,7 +5,7 @@
 //! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
 //! weights. What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
-//! Within an increment the depth of both is in proportion to the pressure of the point at its end: a compliance in series with the contact
+//! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact
 //! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides, and its derivative is left out of the tangent: the
 //! solution does not depend on that, and the tangent stays as symmetric as it was.
 
@@ -13,8 +13,8 @@ use super::definition::Interface;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
 use crate::contact::kinematics::Stencil;
-use crate::contact::law::wear::{Feedback, Sliding, WearRate};
-use crate::contact::response::{LawInput, Response, Status};
+use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
+use crate::contact::response::{LawInput, Response, Status, Worn};
 use crate::math::{Vec3, add_scaled, norm, scale};
 
 /// Evaluations of the laws after which path and pressure of a point that wears are taken as they are, and the change of the depth that is none.
@@ -37,8 +37,8 @@ pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], move
 
 impl Interface {
     /// How fast the side with the points and the other one wear at a point.
-    fn wear_rates(&self, h: &PointHistory) -> [WearRate; 2] {
-        let mut rates = self.laws.wear.as_dyn().rates(h.path);
+    fn wear_rates(&self, at: &WearPoint) -> [WearRate; 2] {
+        let mut rates = self.laws.wear.as_dyn().rates(at);
         if self.exchanged {
             rates.reverse();
         }
@@ -46,7 +46,7 @@ impl Interface {
     }
 
     /// How many times wear counts what slides.
-    fn cycles(&self) -> f64 {
+    pub(super) fn cycles(&self) -> f64 {
         1.0 + self.directives.skipped
     }
 
@@ -61,11 +61,11 @@ impl Interface {
         self.history.points[i].worn + theirs.sum::<f64>()
     }
 
-    /// By how much a point that slides a `path` wears both sides away per pressure `[m/Pa]`.
-    pub(super) fn softness(&self, i: usize, path: f64) -> f64 {
+    /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
+    pub(super) fn softness(&self, i: usize, (path, dt): (f64, f64), pressure: f64) -> Worn {
         let laws = &self.laws;
         if !laws.wears_away() || laws.feedback != Feedback::Implicit || self.directives.all_stick {
-            return 0.0;
+            return Worn::default();
         }
         let h = &self.history.points[i];
         // The part of the pressure that the shear was at the last accepted state.
@@ -73,12 +73,38 @@ impl Interface {
             true => h.limit / h.pressure,
             false => 0.0,
         };
-        let [own, other] = self.wear_rates(h).map(|r| r.per_path(shear));
-        (own + other) * self.cycles() * path
+        let way = self.cycles() * path;
+        let at = WearPoint {
+            path: h.path,
+            way,
+            energy: h.spent,
+            spent: way * h.limit,
+            pressure,
+            speed: path / dt,
+        };
+        // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
+        let mut worn = Worn::default();
+        for rate in self.wear_rates(&at) {
+            let change = pressure * rate.d_pressure;
+            worn.slope += (rate.per_path(shear) + change) * way;
+            worn.base -= pressure * change * way;
+        }
+        worn
+    }
+
+    /// Length of the way over which a point wears: what the spring of a point that sticks gives way is none, in motion neither.
+    pub(super) fn rubbed(&self, response: &Response, frame: [Vec3; 2], moved: Vec3) -> f64 {
+        let frictional = self.laws.friction_law().frictional();
+        let sticks = frictional && self.laws.slip.as_dyn().sticks();
+        match response.status {
+            Status::Stick if sticks => 0.0,
+            _ => path(response, frictional, frame, moved),
+        }
     }
 
     /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
-    /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end.
+    /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
+    /// Newton's method, of a depth that rises with the pressure.
     pub(super) fn wearing(
         &self,
         i: usize,
@@ -86,12 +112,15 @@ impl Interface {
         moved: Vec3,
         at: &mut LawInput,
     ) -> Response {
-        let frictional = self.laws.friction_law().frictional();
         let mut response = self.laws.respond(stencil, at);
         for _ in 0..EVALUATIONS {
-            let path = path(&response, frictional, stencil.frame_before, moved);
-            let worn = self.softness(i, path);
-            if (worn - at.worn).abs() <= SETTLED * worn {
+            let path = self.rubbed(&response, stencil.frame_before, moved);
+            let pressure = response.traction[0].max(0.0);
+            let worn = self.softness(i, (path, at.dt), pressure);
+            let off = worn.depth(pressure) - at.worn.depth(pressure);
+            let turned = worn.slope - at.worn.slope;
+            if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope
+            {
                 break;
             }
             at.worn = worn;
@@ -107,18 +136,27 @@ impl Interface {
         h: &PointHistory,
         e: &Evaluation,
         (pressed, dissipated): (f64, f64),
+        dt: f64,
     ) -> [f64; 2] {
-        let frictional = self.laws.friction_law().frictional();
+        let path = self.rubbed(&e.response, e.frames.before, e.moved);
         let pressed = match self.laws.feedback {
             Feedback::None => pressed,
             // That is what the gap was opened by.
-            _ => e.response.traction[0].max(0.0) * e.path(frictional),
+            _ => e.response.traction[0].max(0.0) * path,
         };
         let slid = Sliding {
             pressed,
             dissipated,
         };
-        self.wear_rates(h).map(|r| self.cycles() * r.depth(slid))
+        let at = WearPoint {
+            path: h.path,
+            way: self.cycles() * path,
+            energy: h.spent,
+            spent: self.cycles() * dissipated,
+            pressure: if path > 0.0 { pressed / path } else { 0.0 },
+            speed: path / dt,
+        };
+        self.wear_rates(&at).map(|r| self.cycles() * r.depth(slid))
     }
 
     /// Adds volumes that points take from the primary to the depths of its corners.

@@ -5,6 +5,7 @@
 
 pub mod damping;
 pub mod friction;
+mod grid;
 pub mod normal;
 pub mod slip;
 pub mod user;

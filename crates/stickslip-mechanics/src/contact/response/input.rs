@@ -16,8 +16,8 @@ pub struct LawInput {
     pub slip: Sliding,
     /// Gap from which springs count `[m]`; zero but for springs that took over from multipliers.
     pub rest: f64,
-    /// By how much sliding over the increment wears the surfaces away per pressure `[m/Pa]`: the gap opens by that.
-    pub worn: f64,
+    /// By how much sliding over the increment wears the surfaces away: the gap opens by that.
+    pub worn: Worn,
     /// Closing velocity over the increment `[m/s]`.
     pub closing: f64,
     /// Whether the point did not slide at the last accepted state.
@@ -27,6 +27,22 @@ pub struct LawInput {
     pub pressed: bool,
     /// What laws that are asked for all points at once have said.
     pub answers: Answers,
+}
+
+/// What is worn off over an increment as a line over the pressure: the tangent of the law at the pressure that there is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Worn {
+    /// Its value at no pressure `[m]`; zero where the depth is in proportion to the pressure.
+    pub base: f64,
+    /// Its slope `[m/Pa]`.
+    pub slope: f64,
+}
+
+impl Worn {
+    /// The depth at a pressure `[m]`.
+    pub fn depth(self, pressure: f64) -> f64 {
+        self.base + self.slope * pressure
+    }
 }
 
 /// How stiffly a point is held `[Pa/m]`.

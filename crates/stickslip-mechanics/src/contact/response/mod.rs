@@ -6,6 +6,6 @@ mod outcome;
 mod respond;
 mod shear;
 
-pub use input::{Answers, Kept, LawInput, Sliding, Stiffnesses};
+pub use input::{Answers, Kept, LawInput, Sliding, Stiffnesses, Worn};
 pub use laws::Laws;
 pub use outcome::{Response, Status};

@@ -119,7 +119,7 @@ impl Laws {
         if self.tied {
             return tie(stencil, at);
         }
-        let mut response = self.press(stencil.gap - at.rest, at, unknown);
+        let mut response = self.press(stencil.gap + at.worn.base - at.rest, at, unknown);
         let pressure = response.traction[0];
         let friction = self.friction_law();
         let pressed = pressure > 0.0 || at.pressed;
@@ -152,7 +152,7 @@ impl Laws {
             let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
                 - at.stiffness.weight * gap;
             if p > 0.0 || at.pressed {
-                let part = 1.0 / (1.0 + at.stiffness.weight * at.worn);
+                let part = 1.0 / (1.0 + at.stiffness.weight * at.worn.slope);
                 response.traction[0] = part * p;
                 response.d_gap[0][0] = -part * at.stiffness.weight;
                 response.d_multiplier[0][0] = part * keep;
@@ -166,11 +166,11 @@ impl Laws {
         }
         let p = match at.answers.pressure {
             // It was asked once, at the gap before anything is worn off.
-            Some(p) => in_series(p, at.worn),
+            Some(p) => in_series(p, at.worn.slope),
             None => yielding(
                 |gap| pressure(normal, gap, at.stiffness.normal),
                 gap,
-                at.worn,
+                at.worn.slope,
             ),
         };
         let loose = -p.slope < HARDLY * at.stiffness.weight;
@@ -211,7 +211,7 @@ impl Laws {
             return None;
         }
         let pressure = self
-            .press(stencil.gap - at.rest, at, at.kept.unknown)
+            .press(stencil.gap + at.worn.base - at.rest, at, at.kept.unknown)
             .traction[0];
         let motion = Tangential {
             skew: stencil.skew,

@@ -69,7 +69,7 @@ impl Laws {
     ) -> FrictionPoint {
         FrictionPoint {
             pressure: pressure.max(0.0),
-            penetration: (-stencil.gap - at.worn * pressure).max(0.0),
+            penetration: (-stencil.gap - at.worn.depth(pressure)).max(0.0),
             speed: path / at.dt,
             sticking: at.sticking,
         }
@@ -107,8 +107,8 @@ impl Laws {
             response.status = Status::Slip;
         }
         // penetration = -gap where closed
-        let d_penetration = if stencil.gap + at.worn * response.traction[0] < 0.0 {
-            limit.d_penetration * (1.0 + at.worn * response.d_gap[0][0])
+        let d_penetration = if stencil.gap + at.worn.depth(response.traction[0]) < 0.0 {
+            limit.d_penetration * (1.0 + at.worn.slope * response.d_gap[0][0])
         } else {
             0.0
         };

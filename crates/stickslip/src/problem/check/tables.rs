@@ -482,10 +482,9 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
     let mut add = |message: &str, help: &str| {
         findings.add(&[table, &["wear"]].concat(), message, help);
     };
-    let [_, primary] = interface.wear.as_dyn().rates(0.0);
+    let [_, primary] = interface.wear.as_dyn().fastest();
     let other = primary != WearRate::default();
     let belt = interface.primary_velocity.is_some() || interface.primary_velocity_table.is_some();
-    let only = "write wear-feedback = \"none\", which follows the depth and leaves the surfaces as they are";
     if interface.discretisation().as_dyn().two_sided() {
         add(
             "two-sided contact has a depth for each half of the pressure, of which the other half knows nothing",
@@ -502,12 +501,6 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
         add(
             "what is worn off a primary with `primary-velocity` cannot open the gap: it would have to go along with the material",
             "let the secondary alone wear, or move the body",
-        );
-    }
-    if problem.step.iter().any(|s| s.dynamic.is_some()) {
-        add(
-            "what is worn off opens the gap in quasi-static steps only",
-            only,
         );
     }
 }

@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::law::{FrictionLaw, FrictionPoint, Limit};
+use crate::contact::law::grid::Grid;
 use crate::registry::Samples;
 
 /// Measured coefficients over pressure and speed: limit `μ(p, v) p`, with μ bilinear between the entries of the table and
@@ -23,114 +24,20 @@ pub struct Tabular {
     pub mu: Vec<Vec<f64>>,
 }
 
-/// A place between two entries of a list: the two, the weight of the second, and its derivative.
-struct Between {
-    entries: [usize; 2],
-    weight: f64,
-    d_weight: f64,
-}
-
-impl Between {
-    /// Where `x` is in an increasing list; at an entry in the interval to its right, outside at the first or last.
-    fn find(list: Option<&[f64]>, x: f64) -> Self {
-        let list = list.unwrap_or(&[]);
-        let after = list.partition_point(|&entry| entry <= x);
-        if after == 0 || after == list.len() {
-            let end = after.saturating_sub(1);
-            return Between {
-                entries: [end, end],
-                weight: 0.0,
-                d_weight: 0.0,
-            };
-        }
-        let (a, b) = (list[after - 1], list[after]);
-        Between {
-            entries: [after - 1, after],
-            weight: (x - a) / (b - a),
-            d_weight: 1.0 / (b - a),
-        }
-    }
-}
-
 impl Tabular {
-    fn entry(&self, row: usize, column: usize) -> f64 {
-        // one column written as a row
-        if self.speeds.is_none() && self.mu.len() == 1 {
-            return self.mu[0][row];
+    fn grid(&self) -> Grid<'_> {
+        Grid {
+            pressures: self.pressures.as_deref(),
+            speeds: self.speeds.as_deref(),
+            key: "mu",
+            values: &self.mu,
         }
-        self.mu[row][column]
     }
-
-    /// The coefficient and its derivatives with respect to pressure and speed.
-    fn coefficient(&self, pressure: f64, speed: f64) -> [f64; 3] {
-        let row = Between::find(self.pressures.as_deref(), pressure);
-        let column = Between::find(self.speeds.as_deref(), speed);
-        // across the columns, in either row
-        let mut value = [0.0; 2];
-        let mut d_speed = [0.0; 2];
-        for (k, &i) in row.entries.iter().enumerate() {
-            let [a, b] = column.entries.map(|j| self.entry(i, j));
-            value[k] = a + (b - a) * column.weight;
-            d_speed[k] = (b - a) * column.d_weight;
-        }
-        let mix = |[a, b]: [f64; 2]| a + (b - a) * row.weight;
-        [
-            mix(value),
-            (value[1] - value[0]) * row.d_weight,
-            mix(d_speed),
-        ]
-    }
-
-    /// What is wrong with the shape of `mu`.
-    fn misshapen(&self) -> Option<String> {
-        let count = |list: &Option<Vec<f64>>| list.as_ref().map_or(1, Vec::len);
-        let (rows, columns) = (count(&self.pressures), count(&self.speeds));
-        if self.speeds.is_none() && self.mu.len() == 1 && self.mu[0].len() == rows {
-            return None;
-        }
-        if self.mu.len() != rows {
-            let reason = match &self.pressures {
-                Some(_) => "one for each pressure",
-                None => "because there are no `pressures`",
-            };
-            return Some(format!(
-                "must have {rows} row{}, {reason}, but has {}",
-                if rows == 1 { "" } else { "s" },
-                self.mu.len()
-            ));
-        }
-        let i = self.mu.iter().position(|row| row.len() != columns)?;
-        let reason = match &self.speeds {
-            Some(_) => "one for each speed",
-            None => "because there are no `speeds`",
-        };
-        Some(format!(
-            "must have {columns} number{} in a row, {reason}; row {} has {}",
-            if columns == 1 { "" } else { "s" },
-            i + 1,
-            self.mu[i].len()
-        ))
-    }
-}
-
-/// What is wrong with the pressures or speeds of a table.
-fn unsorted(list: &[f64]) -> Option<String> {
-    if list.is_empty() {
-        return Some("is empty; leave the key out if friction does not depend on it".into());
-    }
-    if let Some(x) = list.iter().find(|x| !x.is_finite()) {
-        return Some(format!("must be finite, but has {x}"));
-    }
-    if list[0] < 0.0 {
-        return Some(format!("must not be negative, but begins with {}", list[0]));
-    }
-    let i = list.windows(2).position(|w| w[1] <= w[0])?;
-    Some(format!("must increase; entry {} does not", i + 2))
 }
 
 impl FrictionLaw for Tabular {
     fn limit(&self, at: &FrictionPoint) -> Limit {
-        let [mu, d_pressure, d_speed] = self.coefficient(at.pressure, at.speed);
+        let [mu, d_pressure, d_speed] = self.grid().at(at.pressure, at.speed);
         Limit {
             value: mu * at.pressure,
             d_pressure: mu + d_pressure * at.pressure,
@@ -144,26 +51,7 @@ impl FrictionLaw for Tabular {
     }
 
     fn faults(&self) -> Vec<(&'static str, String)> {
-        let lists = [("pressures", &self.pressures), ("speeds", &self.speeds)];
-        let mut faults: Vec<_> = lists
-            .into_iter()
-            .filter_map(|(key, list)| Some((key, unsorted(list.as_deref()?)?)))
-            .collect();
-        let empty = |list: &Option<Vec<f64>>| list.as_ref().is_some_and(Vec::is_empty);
-        let numbers = || self.mu.iter().flatten();
-        let mu = if let Some(x) = numbers().find(|x| !x.is_finite()) {
-            Some(format!("must be finite, but has {x}"))
-        } else if let Some(x) = numbers().find(|&&x| x < 0.0) {
-            Some(format!("must not be negative, but has {x}"))
-        } else if numbers().next().is_none() {
-            Some("has no numbers".into())
-        } else if empty(&self.pressures) || empty(&self.speeds) {
-            None // said already
-        } else {
-            self.misshapen()
-        };
-        faults.extend(mu.map(|message| ("mu", message)));
-        faults
+        self.grid().faults()
     }
 }
 
@@ -343,7 +231,7 @@ mod tests {
             &empty,
             &[(
                 "speeds",
-                "is empty; leave the key out if friction does not depend on it",
+                "is empty; leave the key out if nothing depends on it",
             )],
         );
     }

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::law::{WearLaw, WearRate, is_zero, rate_fault};
+use super::law::{WearLaw, WearPoint, WearRate, coefficients, is_zero, negative};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 
@@ -26,33 +26,29 @@ pub struct Archard {
     pub running_in_path: f64,
 }
 
+/// `(1 - e^-x) / x`, the mean of `e^-t` up to `x`.
+fn mean_decay(x: f64) -> f64 {
+    match x == 0.0 {
+        true => 1.0,
+        false => -(-x).exp_m1() / x,
+    }
+}
+
 impl WearLaw for Archard {
-    fn rates(&self, path: f64) -> [WearRate; 2] {
+    fn rates(&self, at: &WearPoint) -> [WearRate; 2] {
         let faster = match self.running_in {
             0.0 => 1.0,
-            part => 1.0 + part * (-path / self.running_in_path).exp(),
+            part => {
+                let [path, way] = [at.path, at.way].map(|s| s / self.running_in_path);
+                1.0 + part * (-path).exp() * mean_decay(way)
+            }
         };
-        [self.coefficient, self.primary_coefficient].map(|k| WearRate {
-            pressed: faster * k,
-            dissipated: 0.0,
-        })
+        [self.coefficient, self.primary_coefficient].map(|k| WearRate::pressed(faster * k))
     }
 
     fn faults(&self) -> Vec<(&'static str, String)> {
-        let mut faults: Vec<_> = [
-            rate_fault("coefficient", self.coefficient),
-            rate_fault("primary-coefficient", self.primary_coefficient),
-            rate_fault("running-in", self.running_in),
-        ]
-        .into_iter()
-        .flatten()
-        .collect();
-        if self.coefficient == 0.0 && self.primary_coefficient == 0.0 {
-            faults.push((
-                "coefficient",
-                "one of `coefficient` and `primary-coefficient` must be positive".into(),
-            ));
-        }
+        let mut faults = coefficients([self.coefficient, self.primary_coefficient]);
+        faults.extend(negative([("running-in", self.running_in)]));
         match self.running_in != 0.0 {
             true => faults.extend(positive("running-in-path", self.running_in_path)),
             false if self.running_in_path != 0.0 => faults.push((

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::law::{WearLaw, WearRate};
+use super::law::{WearLaw, WearPoint, WearRate};
 use crate::registry::Samples;
 
 /// No wear. No parameters.
@@ -10,7 +10,7 @@ use crate::registry::Samples;
 pub struct Unworn {}
 
 impl WearLaw for Unworn {
-    fn rates(&self, _path: f64) -> [WearRate; 2] {
+    fn rates(&self, _at: &WearPoint) -> [WearRate; 2] {
         [WearRate::default(); 2]
     }
 
