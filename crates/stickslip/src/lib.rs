@@ -17,6 +17,7 @@ pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, s
 pub mod io;
 pub mod time;
 
+pub mod fatigue;
 pub mod roughness;
 
 pub mod model;

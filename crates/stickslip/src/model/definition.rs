@@ -10,6 +10,7 @@ use super::modal::{KickPlan, Modal, SteadyPlan};
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::Change;
+use crate::fatigue::FatigueModel;
 use crate::io::frd::Encoding;
 use crate::math::{Mat3, Vec3};
 use crate::mesh::Mesh;
@@ -360,6 +361,10 @@ pub struct OutputPlan {
     pub frd: Option<Encoding>,
     /// A row of the history after every so many increments, and at times of output; at least 1.
     pub history_every: usize,
+    /// Criteria of fatigue, and how far from interfaces they are evaluated `[m]`.
+    pub fatigue: Vec<FatigueModel>,
+    /// See `fatigue`.
+    pub fatigue_depth: Option<f64>,
     /// A checkpoint after every so many increments, and after so many seconds of wall clock; 0: not by that.
     pub checkpoint: (usize, f64),
 }

@@ -6,6 +6,7 @@ use super::course::Course;
 use super::cycling::Block;
 use super::kick::Kick;
 use super::ledger::EnergyLedger;
+use crate::fatigue::Record;
 use crate::system::State;
 
 /// Where an analysis stands after an accepted increment: all that follows, follows from this, the model, and what interfaces and couplings remember.
@@ -33,6 +34,8 @@ pub struct Frame {
     pub motion: Motion,
     /// The cycle at hand, where jumps over cycles are chosen.
     pub block: Block,
+    /// Stress over the cycle at hand, and what criteria of fatigue said of the last, where they are asked.
+    pub fatigue: Record,
     /// The mode along which the last motion began.
     pub kick: Option<Kick>,
     /// Energies: what there is, and where it came from and went.
@@ -62,6 +65,7 @@ crate::keep!(Frame {
     course,
     motion,
     block,
+    fatigue,
     kick,
     ledger
 });

@@ -13,6 +13,7 @@ use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
 use crate::contact::law::wear::WearModel;
 use crate::contact::obstacle::ObstacleShape;
+use crate::fatigue::FatigueModel;
 use crate::material::Material;
 use crate::mesh::generators::Generator;
 use crate::newton::condensed::engine::EngineModel;
@@ -81,6 +82,10 @@ pub fn families() -> Vec<FamilyListing> {
         listing::<TemperatureKind>("Temperature", "[temperature.NAME.KIND]"),
         listing::<CouplingKind>("Coupling", "[coupling.NAME.KIND]"),
         listing::<SchemeModel>("SchemeModel", "[step.dynamic] scheme.KIND"),
+        listing::<FatigueModel>(
+            "FatigueModel",
+            "[output.fatigue] criteria = [{ KIND = {} }]",
+        ),
         listing::<EngineModel>("EngineModel", "[solver] engine.KIND"),
     ]
 }

@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::Fatigue;
 use crate::io::frd::Encoding;
 
 /// `[output]`: when fields are written to `fields.pvd`. The summary covers every increment.
@@ -17,6 +18,9 @@ pub struct Output {
     /// Whether fields are written to an `.frd` file as well, which CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview read: `fields.frd`, and for a
     /// deck `JOB.frd` with what it asks for.
     pub frd: Frd,
+    /// Criteria of fretting fatigue, for every cycle that is computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<Fatigue>,
     /// When the state is written from which `stickslip resume` goes on. It is written in any case when a run is asked to stop.
     pub checkpoint: CheckpointPlan,
 }
@@ -74,6 +78,7 @@ impl Default for Output {
             history_every: 1,
             times: Vec::new(),
             frd: Frd::None,
+            fatigue: None,
             checkpoint: CheckpointPlan::default(),
         }
     }

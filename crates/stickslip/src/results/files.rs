@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use super::analysis::Analysis;
+use super::fatigue;
 use super::folder::{Claim, Folder, FolderClaim, INTERFACES, SURFACES, surface_name};
 use super::frd;
 use super::history::Row;
@@ -370,6 +371,7 @@ pub fn fields(view: &View) -> Fields {
     for interface in &view.contact.interfaces {
         interface.fields(&mut fields);
     }
+    fatigue::add_fields(view, &mut fields);
     fields
 }
 

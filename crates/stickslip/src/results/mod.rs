@@ -2,6 +2,7 @@
 
 pub(crate) mod analysis;
 pub mod compare;
+pub(crate) mod fatigue;
 pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod frd;

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::assess::doctor::Finding;
 use crate::assess::quality::{Gate, InterfaceSummary};
 use crate::error::Error;
+use crate::fatigue::Maximum;
 use crate::linear::EngineReport;
 use crate::machine::{page_faults, peak_memory};
 use crate::modal::ModalOutcome;
@@ -96,6 +97,8 @@ pub struct Summary {
     pub modes: Vec<ModalOutcome>,
     /// How motions that began along modes grew, by step.
     pub growth: Vec<Growth>,
+    /// Where criteria of fatigue were largest in the last cycle that was computed.
+    pub fatigue: Vec<Maximum>,
     /// Last row of the history.
     pub last: BTreeMap<String, f64>,
 }
@@ -317,6 +320,7 @@ crate::keep!(Summary {
     quality,
     modes,
     growth,
+    fatigue,
     last
 } and {
     version: env!("CARGO_PKG_VERSION"),

@@ -15,6 +15,7 @@
 //! | the way to solve, candidates, condensed state and direction, floating bodies with their anchors, counts | `SolverState` | as they are |
 //! | factors, hierarchies, condensed bodies, load patterns, the matrices of increments in motion | `SolverState` | what they were made of |
 //! | figures, findings, notes, counts, the last row; the cycle at hand | `Summary`, `Watch`, `Loop` | as they are |
+//! | points at which criteria of fatigue are asked | `Watched` | nothing: functions of the model |
 //! | facets, boxes, evaluations, projections | `Cache` | nothing: functions of the above |
 //! | cells at probes, shares of bodies by point, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
 //!

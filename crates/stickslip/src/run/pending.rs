@@ -10,6 +10,7 @@ use crate::contact::interface::History;
 use crate::error::Error;
 use crate::model::contact::Contact;
 use crate::newton::Progress;
+use crate::results::fatigue;
 use crate::results::history;
 use crate::results::loops;
 use crate::results::observer::{Event, Observer};
@@ -179,7 +180,17 @@ impl Simulation {
         }
         let view = view!(self);
         let cycle = loops::follow(&view, &self.shares, &mut self.loops, pending.trial);
-        if let Some(row) = cycle {
+        let mut record = std::mem::take(&mut self.frame.fatigue);
+        let worst = fatigue::follow(
+            &view!(self),
+            self.watched.as_ref(),
+            &mut record,
+            pending.trial,
+        );
+        self.frame.fatigue = record;
+        if let Some(mut row) = cycle {
+            fatigue::add_columns(&mut row, &worst, self.model.dofs.dim);
+            self.summary.fatigue = worst;
             match &mut self.trying {
                 Some(trying) => trying.hold_cycle(row),
                 None => self.tell(observers, || Event::Cycle(&row))?,

@@ -24,6 +24,7 @@ use crate::model::frame::Frame;
 use crate::model::scene::Scene;
 use crate::newton::condensed::Library;
 use crate::results::analysis::Analysis;
+use crate::results::fatigue;
 use crate::results::loops::{self, Loop};
 use crate::results::observer::{Event, Observer};
 use crate::results::summary::{Phases, Summary};
@@ -56,6 +57,8 @@ pub struct Simulation {
     /// The cycles at hand of interfaces, and the parts of bodies around their points by which displacements are averaged for them.
     pub(crate) loops: Vec<Loop>,
     pub(crate) shares: Vec<f64>,
+    /// Points at which criteria of fatigue are asked.
+    pub(crate) watched: Option<fatigue::Watched>,
     /// Bodies that no interface joins.
     pub(crate) unjoined: doctor::Unjoined,
     /// Cells at the probes; `None` at rigid bodies.
@@ -122,6 +125,7 @@ impl Simulation {
             unjoined: doctor::Unjoined::new(&scene),
             loops: vec![Loop::default(); contact.interfaces.len()],
             shares: loops::shares(&model),
+            watched: fatigue::watched(&model, &contact),
             watches: vec![Watch::default(); contact.interfaces.len()],
             integration: Integration::QuasiStatic(QuasiStatic),
             steps: Steps::default(),

@@ -16,6 +16,7 @@ mod elements;
 mod exact;
 mod examples;
 mod flying;
+mod fatigue;
 mod frd;
 mod fretting;
 mod heat;

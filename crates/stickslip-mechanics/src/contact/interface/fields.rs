@@ -2,12 +2,15 @@
 
 use super::definition::Interface;
 use super::values::MEANS;
+use crate::math::{Vec3, add_scaled, scale};
 use crate::system::{Fields, Location};
 
 /// Sums at a node: of values times shares, and of shares; the largest share, and the status of the point that has it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     values: [f64; MEANS.len()],
+    /// Normal, shear and slip.
+    vectors: [Vec3; 3],
     share: f64,
     largest: f64,
     status: f64,
@@ -47,6 +50,15 @@ impl Interface {
         self.add_traces(out);
     }
 
+    /// Normal out of the primary, shear on the secondary `[Pa]` and slip `[m]` at each of [`nodes`](Interface::nodes), means as those of [`fields`](Interface::fields); zero where nothing lies opposite.
+    pub fn rubbing(&self) -> Vec<[Vec3; 3]> {
+        let mean = |sum: Sums| match sum.share > 0.0 {
+            true => sum.vectors.map(|v| scale(1.0 / sum.share, v)),
+            false => [[0.0; 3]; 3],
+        };
+        self.sums().into_iter().map(mean).collect()
+    }
+
     /// What points give to the nodes that they hang on or lie over.
     fn sums(&self) -> Vec<Sums> {
         let half = self.share < 1.0;
@@ -65,6 +77,10 @@ impl Interface {
                 let at = &mut sums[node];
                 for (sum, (_, value)) in at.values.iter_mut().zip(MEANS) {
                     *sum += share * value(&values);
+                }
+                let [_, shear, slip] = values.vectors;
+                for (sum, v) in at.vectors.iter_mut().zip([values.normal, shear, slip]) {
+                    *sum = add_scaled(*sum, share, v);
                 }
                 at.share += share;
                 if share > at.largest {

@@ -153,6 +153,7 @@ impl Problem {
             bodies: &bodies,
             dofs,
         };
+        let fatigue = self.output.fatigue.as_ref();
         let masses = masses(self, &sets, &rigid)?;
         let domain = Domain {
             masses: &masses,
@@ -234,6 +235,8 @@ impl Problem {
                 times: self.output.times.clone(),
                 frd: self.output.frd.encoding(),
                 history_every: self.output.history_every,
+                fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
+                fatigue_depth: fatigue.and_then(|f| f.depth),
                 checkpoint: (
                     self.output.checkpoint.increments,
                     60.0 * self.output.checkpoint.minutes,

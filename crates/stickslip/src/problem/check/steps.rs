@@ -7,6 +7,7 @@ use super::super::{Cycles, Increments, Problem, Step};
 use super::cycles;
 use super::findings::Findings;
 use crate::body::loads::LoadKind;
+use crate::registry::Family;
 use crate::time::scheme::Method;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
@@ -61,6 +62,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         kick(findings, &i, (problem, step));
     }
     output(problem, findings);
+    fatigue(problem, findings);
 }
 
 /// Rules of steps without increments.
@@ -312,6 +314,54 @@ fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {
     if initial > largest {
         let message = format!("`initial` ({initial}) is larger than `largest` ({largest})");
         findings.add(key, message, "");
+    }
+}
+
+fn fatigue(problem: &Problem, findings: &mut Findings) {
+    let Some(fatigue) = &problem.output.fatigue else {
+        return;
+    };
+    let key = ["output", "fatigue"];
+    if problem.step.iter().all(|s| s.cycles.is_none()) {
+        findings.add(
+            &key,
+            "fatigue is evaluated over cycles, and no step has any",
+            "give a step `cycles = { count = 1 }`, or remove it",
+        );
+    }
+    if fatigue.criteria.is_empty() {
+        findings.add(
+            &[&key[..], &["criteria"]].concat(),
+            "there is no criterion",
+            "criteria = [{ findley = { k = 0.3 } }]; `stickslip models` lists them",
+        );
+    }
+    if fatigue.depth.is_some_and(|d| !(d > 0.0 && d.is_finite())) {
+        let depth = [&key[..], &["depth"]].concat();
+        findings.add(
+            &depth,
+            "must be positive and finite",
+            "a distance from the interfaces",
+        );
+    }
+    for (i, model) in fatigue.criteria.iter().enumerate() {
+        let number = i.to_string();
+        let place = [&key[..], &["criteria", &number]].concat();
+        findings.faults(
+            &[&place[..], &[model.kind()]].concat(),
+            model.as_dyn().faults(),
+        );
+        let name = model.as_dyn().name();
+        let mut before = fatigue.criteria[..i].iter();
+        if before.any(|m| m.as_dyn().name() == name) {
+            findings.add(
+                &place,
+                format!(
+                    "a second criterion {name}: its fields and columns would have the same names"
+                ),
+                "remove one of the two",
+            );
+        }
     }
 }
 

@@ -45,7 +45,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
         "stickslip",
         &[
             &["io", "time"],
-            &["roughness"],
+            &["fatigue", "roughness"],
             &["model"],
             &["solve"],
             &["integrate", "modal"],
