@@ -89,6 +89,18 @@ fn a_belt_takes_its_mass_along_as_was_told() {
 }
 
 #[test]
+fn gears_carry_the_torques_that_were_told() {
+    let told = through(
+        "gear",
+        "gear --teeth 24 --wheel 20 --torque 15Nm --cells 60 --positions 8",
+    );
+    assert!(
+        told.contains("44 mm apart") && told.contains("18 Nm"),
+        "{told}"
+    );
+}
+
+#[test]
 fn numbers_that_no_theory_holds_for_are_refused_with_advice() {
     let folder = folder("new", "wrong");
     for (line, parts) in [
@@ -120,6 +132,11 @@ fn numbers_that_no_theory_holds_for_are_refused_with_advice() {
         (
             "belt --kinetic 0.6",
             ["no less than 0.5 at rest", "--kinetic"],
+        ),
+        ("gear --teeth 8", ["no involute", "17 teeth"]),
+        (
+            "gear --torque 3N",
+            ["`N` is not the unit of a torque", "20Nm"],
         ),
         ("belt --speed 1um/s", ["too far apart", "faster than"]),
     ] {

@@ -3,6 +3,7 @@
 mod belt;
 mod bolt;
 mod fretting;
+mod gear;
 mod grid;
 mod hertz;
 mod quantity;
@@ -30,6 +31,7 @@ Examples:
   stickslip new fretting --radius 6mm --load 18.5N/mm --amplitude 25um --friction 0.9 --wear 2.9e-8/MPa
   stickslip new bolt --diameter 10mm --preload 20kN --grip 40mm --pull 5kN
   stickslip new belt --mass 1kg --load 10N --stiffness 100N/m --speed 0.1m/s --static 0.5 --kinetic 0.3
+  stickslip new gear --teeth 20 --wheel 30 --module 2mm --width 10mm --torque 20Nm
 Every number has a default. A file that is there already is not written over.")]
 pub struct Arguments {
     #[command(subcommand)]
@@ -42,6 +44,7 @@ enum Kind {
     Fretting(fretting::Arguments),
     Bolt(bolt::Arguments),
     Belt(belt::Arguments),
+    Gear(gear::Arguments),
 }
 
 /// Writes the files and tells what is expected.
@@ -51,6 +54,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Kind::Fretting(a) => ("fretting", &a.target, fretting::write(a)?),
         Kind::Bolt(a) => ("bolt", &a.target, bolt::write(a)?),
         Kind::Belt(a) => ("belt", &a.target, belt::write(a)?),
+        Kind::Gear(a) => ("gear", &a.target, gear::write(a)?),
     };
     let output = target.output.clone();
     let problem = output.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));

@@ -41,6 +41,7 @@ type Kind = (&'static str, Dimension, &'static str);
 
 const LENGTH: Kind = ("a length", [1, 0, 0], "10mm, 25um");
 const FORCE: Kind = ("a force", [1, 1, -2], "100N, 20kN");
+const TORQUE: Kind = ("a torque", [2, 1, -2], "20Nm, 300N.mm");
 const LINE_LOAD: Kind = ("a force per length", [0, 1, -2], "100N/mm, 1kN/m");
 const STRESS: Kind = ("a stress", [-1, 1, -2], "210GPa, 250MPa");
 const COMPLIANCE: Kind = ("a wear rate", [1, -1, 2], "2.9e-8/MPa, 2.9e-5mm3/Nm");
@@ -55,6 +56,11 @@ pub fn length(text: &str) -> Result<f64, String> {
 /// A force above zero `[N]`.
 pub fn force(text: &str) -> Result<f64, String> {
     of(text, FORCE)
+}
+
+/// A torque above zero `[Nm]`.
+pub fn torque(text: &str) -> Result<f64, String> {
+    of(text, TORQUE)
 }
 
 /// A force, or a force per length; both are told apart by [`is_line_load`].
@@ -188,6 +194,7 @@ mod tests {
         near(length("10mm"), 0.01);
         near(length(" 2.5e1 µm"), 25e-6);
         near(line_load("1kN/mm"), 1e6);
+        near(torque("300 N.mm"), 0.3);
         near(stress("210GPa"), 210e9);
         near(stress("1 N/mm2"), 1e6);
         near(wear("2.9e-8/MPa"), 2.9e-14);
