@@ -482,6 +482,7 @@ fn what_an_interface_carries_is_drawn_along_it_and_written_as_a_table() {
         run(&stacked(space, "Two blocks", "b"), &folder.0);
         let along = |file: &str, interface: &str, zoom| {
             let wanted = Along {
+                field: None,
                 interface: interface.into(),
                 when: When::Peak,
                 zoom,
@@ -507,6 +508,35 @@ fn what_an_interface_carries_is_drawn_along_it_and_written_as_a_table() {
                 let s = table.column("S").unwrap();
                 assert!(s[0] == 0.0 && (s[s.len() - 1] - 1.0).abs() < 1e-12, "{s:?}");
             }
+        }
+        // One field, all times in a file.
+        let over = |file: &str, field: &str| {
+            let wanted = Along {
+                field: Some(field.into()),
+                interface: "joint".into(),
+                when: When::All,
+                zoom: Zoom::Whole,
+                size: [400, 300],
+                units: None,
+            };
+            plot::along(&folder.0, Some(&folder.file(file)), &wanted).map_err(|e| e.to_string())
+        };
+        if space == "solid" {
+            assert!(
+                over("f.csv", "CPRESS")
+                    .unwrap_err()
+                    .contains("surface in space")
+            );
+        } else {
+            assert_eq!(over("f.csv", "CPRESS").unwrap().len(), 1);
+            let lines = stickslip::io::csv::read(&folder.file("f.csv")).unwrap();
+            assert!(lines.names.len() > 2 && lines.names[1].starts_with("CPRESS at "));
+            let last = lines.columns.last().unwrap();
+            assert!((last.iter().sum::<f64>() - sum(&table)).abs() < 1e-9 * sum(&table));
+            over("f.svg", "CPRESS").unwrap();
+            let text = std::fs::read_to_string(folder.file("f.svg")).unwrap();
+            assert!(text.contains(&lines.names[2]), "{text}");
+            assert!(over("f.csv", "CPRES").unwrap_err().contains("there are"));
         }
         let error = along("j.png", "joit", Zoom::Auto).unwrap_err();
         assert!(error.contains("did you mean `joint`?"), "{error}");

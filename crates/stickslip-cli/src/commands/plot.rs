@@ -42,8 +42,9 @@ pub struct Arguments {
     /// What is in the middle of the picture.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
     at: Option<Place>,
-    /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled.
-    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["field", "view", "body", "at", "arrows", "cut", "mirror", "history"])]
+    /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
+    /// field alone, in a plane, with --time all a line a time.
+    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "body", "at", "arrows", "cut", "mirror", "history"])]
     along: Option<String>,
     /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
     #[arg(long, value_name = "yes|no", value_parser = yes)]
@@ -224,6 +225,7 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     {
         let wanted = Along {
             interface: interface.clone(),
+            field: arguments.field.clone(),
             when: arguments.time,
             zoom: arguments.zoom,
             size: arguments.size,

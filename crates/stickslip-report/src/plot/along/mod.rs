@@ -2,6 +2,7 @@
 
 mod arc;
 mod map;
+mod over;
 mod page;
 mod unroll;
 
@@ -12,7 +13,7 @@ use stickslip::io::{csv, write_atomically};
 
 use self::page::Page;
 use super::picture::{Units, When, Zoom};
-use super::{axis, files};
+use super::{axis, files, history};
 use crate::draw::{Canvas, Svg};
 use crate::results::{Results, fault};
 use crate::sheet::Sheet;
@@ -22,7 +23,9 @@ use crate::sheet::Sheet;
 pub struct Along {
     /// Its name.
     pub interface: String,
-    /// Which times; a file each.
+    /// One field alone, as lines of all times that are asked for in one file.
+    pub field: Option<String>,
+    /// Which times; a file each where no field is given.
     pub when: When,
     /// Which part of it.
     pub zoom: Zoom,
@@ -60,6 +63,28 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
         .is_some_and(|e| e.eq_ignore_ascii_case("csv"));
     if !table {
         files::canvas(&file, wanted.size)?;
+    }
+    if let Some(field) = &wanted.field {
+        let frames = files::chosen(&results, wanted.when)?;
+        let what = (wanted.interface.as_str(), field.as_str(), wanted.zoom);
+        let lines = over::table(&results, what, &frames)?;
+        match table {
+            true => csv::write(&file, &lines)?,
+            false => {
+                let mut canvas = files::canvas(&file, wanted.size)?;
+                let source = (&lines, wanted.interface.as_str());
+                history::draw(
+                    &results,
+                    source,
+                    &lines.names[1..],
+                    "S",
+                    wanted.size,
+                    canvas.as_mut(),
+                )?;
+                write_atomically(&file, &canvas.finish())?;
+            }
+        }
+        return Ok(vec![file]);
     }
     let mut written = Vec::new();
     for frame in files::chosen(&results, wanted.when)? {
