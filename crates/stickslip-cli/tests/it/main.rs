@@ -8,6 +8,7 @@ mod cluster;
 mod commands;
 mod convert;
 mod counts;
+mod cycles;
 mod decks;
 #[cfg(unix)]
 mod demo;
