@@ -316,7 +316,8 @@ fn limiting(c: f64, x: f64) -> [f64; 2] {
 }
 
 /// What a flat and a cylinder that wear in partial slip come to: nothing presses any more where they slid, and what sticks carries all, `|x| < c` with `c² = a² (1 - Q / μP)`, by
-/// `p = E* / 2R √(c² - x²) + (P - π E* c² / 4R) / (π √(c² - x²))` (Ciavarella and Hills 1999; in three dimensions Popov 2014).
+/// `p = E* / 2R √(c² - x²) + (P - π E* c² / 4R) / (π √(c² - x²))`. Within `c` the profile is that of before, so that the pressure is Hertz's of a contact as wide as that and
+/// a flat punch's, together the load; see Ciavarella and Hills 1999, and in three dimensions Popov 2014.
 #[test]
 fn partial_slip_wears_until_only_what_sticks_carries() {
     let (_, a) = hertz();
