@@ -1,62 +1,56 @@
 /* stickslip-mumps: factors of bodies by MUMPS, on the ranks of one MPI job. stickslip starts it, as `mpirun -n N stickslip-mumps FOLDER`.
  *
  * Rank 0 reads commands, a line each, from its standard input and answers each by a line on its standard output. Numbers go through files in
- * FOLDER: eight bytes that name the format, the count of words, the words (eight bytes each, of this machine), and their checksum. Who reads a file
+ * FOLDER, whose format words.c knows. Who reads a file
  * deletes it. What a body is known by, ID, is a small number that stickslip chooses.
  *
- *   factor ID N C OUT-OF-CORE LOW-RANK MEGABYTES FILE   rank r reads FILE.r, its share of the lower triangle of a matrix of N rows, of which
- *                                                       the last C are kept; the Schur complement goes to FILE.schur, by columns from the diagonal
+ *   factor ID N C OUT-OF-CORE LOW-RANK MEGABYTES SPREAD FILE
+ *                               rank r reads FILE.r, its share of the lower triangle of a matrix of N rows, of which the last C are kept; what is in several shares is
+ *                               added up. The Schur complement goes to FILE.schur, by columns from the diagonal, or stays with the ranks if SPREAD is 1
  *   reduce ID COLUMNS FILE      forces, N a column -> FILE.out, what is left of them at the kept rows, C a column
- *   expand ID COLUMNS 0 FILE    displacements of the kept rows for the forces reduced last -> FILE.out, those of the others
+ *   expand ID COLUMNS 0 FILE    displacements of the kept rows for the forces reduced last -> FILE.out.r, those of the others that rank r has: their
+ *                               count, their rows, the columns
  *   expand ID COLUMNS 1 FILE    the same for forces that come first in the file, N - C a column
+ *   multiply ID COLUMNS FILE    vectors, C a column -> FILE.out, products with the Schur complement that is spread, or with its inverse
+ *   invert ID COLUMNS SIGMA FILE  adds SIGMA times the products of these vectors with themselves to it, and inverts it
  *   free ID
  *   quit
  *
  * Answers: `ready PROTOCOL VERSION RANKS` at first, then `ok NUMBERS...` or `error INFOG(1) INFOG(2) WHAT`. What cannot go on ends all ranks. So does the end of the
  * input without `quit` (stickslip is gone: FOLDER is removed), or that of the parent of any rank (mpirun is gone).
  */
-#define _GNU_SOURCE
+#include "shared.h"
 #include <dirent.h>
-#include <dmumps_c.h>
 #include <ftw.h>
 #include <glob.h>
-#include <inttypes.h>
-#include <mpi.h>
 #include <pthread.h>
 #include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
-#define PROTOCOL 1
+#define PROTOCOL 2
 #define BODIES 256
-#define MAGIC 0x31706d75736c7073ULL /* "spslump1" */
-#define ICNTL(i) icntl[(i) - 1]
-#define CNTL(i) cntl[(i) - 1]
-#define INFOG(i) infog[(i) - 1]
-#define RINFOG(i) rinfog[(i) - 1]
 #define USE_COMM_WORLD -987654
 #define CHUNK 65536
 /* Times that a factorisation which asked for more work space is tried again with twice as much. */
 #define TRIES 6
 
-enum { QUIT, FACTOR, REDUCE, EXPAND, FREE };
+enum { QUIT, FACTOR, REDUCE, EXPAND, MULTIPLY, INVERT, FREE };
 
 /* A command, as all ranks get it. */
 typedef struct {
-    int what, id, columns, fresh, out_of_core, megabytes;
+    int what, id, columns, fresh, out_of_core, megabytes, spread;
     int64_t n, kept;
-    double low_rank;
+    double low_rank, sigma;
     char file[64];
 } Command;
 
 static DMUMPS_STRUC_C *bodies[BODIES];
-static int rank, ranks;
-static const char *folder;
+/* Their Schur complements, where they are spread. */
+static Grid *grids[BODIES];
+int rank, ranks;
+const char *folder;
 static pid_t parent;
 /* Lines of the standard input on their way from the thread that waits for them. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -64,7 +58,7 @@ static pthread_cond_t came = PTHREAD_COND_INITIALIZER;
 static char line[512];
 static int has_line, quitting;
 
-static void die(const char *format, ...) {
+void die(const char *format, ...) {
     va_list list;
     fprintf(stderr, "stickslip-mumps, rank %d: ", rank);
     va_start(list, format);
@@ -76,7 +70,7 @@ static void die(const char *format, ...) {
     _exit(1);
 }
 
-static void *get(size_t count, size_t size) {
+void *get(size_t count, size_t size) {
     void *memory = count ? calloc(count, size) : NULL;
     if (count && !memory) die("no memory for %zu numbers", count);
     return memory;
@@ -150,7 +144,7 @@ static void *read_lines(void *unused) {
     return NULL;
 }
 
-static void answer(const char *format, ...) {
+void answer(const char *format, ...) {
     va_list list;
     if (rank != 0) return;
     va_start(list, format);
@@ -171,13 +165,17 @@ static Command next_command(void) {
     if (rank == 0) {
         pthread_mutex_lock(&lock);
         while (!has_line) pthread_cond_wait(&came, &lock);
-        if (sscanf(line, "factor %d %" SCNd64 " %" SCNd64 " %d %lf %d %63s", &c.id, &c.n, &c.kept, &c.out_of_core, &c.low_rank, &c.megabytes,
-                   c.file) == 7)
+        if (sscanf(line, "factor %d %" SCNd64 " %" SCNd64 " %d %lf %d %d %63s", &c.id, &c.n, &c.kept, &c.out_of_core, &c.low_rank, &c.megabytes,
+                   &c.spread, c.file) == 8)
             c.what = FACTOR;
         else if (sscanf(line, "reduce %d %d %63s", &c.id, &c.columns, c.file) == 3)
             c.what = REDUCE;
         else if (sscanf(line, "expand %d %d %d %63s", &c.id, &c.columns, &c.fresh, c.file) == 4)
             c.what = EXPAND;
+        else if (sscanf(line, "multiply %d %d %63s", &c.id, &c.columns, c.file) == 3)
+            c.what = MULTIPLY;
+        else if (sscanf(line, "invert %d %d %lf %63s", &c.id, &c.columns, &c.sigma, c.file) == 4)
+            c.what = INVERT;
         else if (sscanf(line, "free %d", &c.id) == 1)
             c.what = FREE;
         else if (sscanf(line, "%15s", what) != 1 || strcmp(what, "quit"))
@@ -187,6 +185,7 @@ static Command next_command(void) {
         pthread_mutex_unlock(&lock);
         if (c.id < 0 || c.id >= BODIES || c.n < 0 || c.n > INT32_MAX || c.kept < 0 || c.kept > c.n) die("wrong numbers in a command");
         if ((c.what == REDUCE || c.what == EXPAND) && (!bodies[c.id] || c.columns < 1)) die("body %d has no factor", c.id);
+        if ((c.what == MULTIPLY || c.what == INVERT) && (!grids[c.id] || c.columns < 0)) die("body %d has nothing that is spread", c.id);
         if (c.what == FACTOR && bodies[c.id]) die("body %d has a factor already", c.id);
     }
     MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
@@ -194,66 +193,25 @@ static Command next_command(void) {
     return c;
 }
 
-static void mix(uint64_t *sum, const void *words, size_t count) {
-    const unsigned char *bytes = words;
-    for (size_t i = 0; i < count; i++) {
-        uint64_t word;
-        memcpy(&word, bytes + 8 * i, 8);
-        *sum = (*sum ^ word) * 0x9e3779b97f4a7c15ULL;
-        *sum ^= *sum >> 32;
-    }
-}
-
-static FILE *open_words(const char *path, size_t expected) {
-    uint64_t head[2];
-    FILE *file = fopen(path, "rb");
-    if (!file) die("%s cannot be read; set STICKSLIP_MUMPS_DIR to a folder that all machines see", path);
-    if (fread(head, 8, 2, file) != 2 || head[0] != MAGIC) die("%s is something else", path);
-    if (head[1] != expected && expected != SIZE_MAX) die("%s has %" PRIu64 " words instead of %zu", path, head[1], expected);
-    return file;
-}
-
-static void read_words(FILE *file, const char *path, void *to, size_t count, uint64_t *sum) {
-    if (fread(to, 8, count, file) != count) die("%s is cut short", path);
-    mix(sum, to, count);
-}
-
-static void close_words(FILE *file, const char *path, uint64_t sum) {
-    uint64_t end;
-    if (fread(&end, 8, 1, file) != 1 || end != sum) die("%s is damaged", path);
-    fclose(file);
-    unlink(path);
-}
-
-static void write_words(const char *path, const void *words, size_t count) {
-    uint64_t head[2] = {MAGIC, count}, sum = 0;
-    FILE *file = fopen(path, "wb");
-    mix(&sum, words, count);
-    if (!file || fwrite(head, 8, 2, file) != 2 || fwrite(words, 8, count, file) != count || fwrite(&sum, 8, 1, file) != 1 || fclose(file))
-        die("%s cannot be written", path);
-}
-
 /* The share of the matrix of this rank: words (row, column) of 32 bits each, and values, in turn. */
 static void read_matrix(DMUMPS_STRUC_C *body, const char *file) {
-    char path[4096];
-    uint64_t sum = 0, count = 0, *pairs = get(2 * CHUNK, 8);
-    snprintf(path, sizeof path, "%s/%s.%d", folder, file, rank);
-    FILE *open = open_words(path, SIZE_MAX);
-    read_words(open, path, &count, 1, &sum);
+    uint64_t *pairs = get(2 * CHUNK, 8);
+    Words from = read_from(file, rank, ANY);
+    size_t count = from.count / 2;
     body->nnz_loc = (int64_t)count;
     body->irn_loc = get(count, sizeof *body->irn_loc);
     body->jcn_loc = get(count, sizeof *body->jcn_loc);
     body->a_loc = get(count, sizeof *body->a_loc);
-    for (uint64_t done = 0; done < count;) {
-        uint64_t some = count - done < CHUNK ? count - done : CHUNK;
-        read_words(open, path, pairs, 2 * some, &sum);
-        for (uint64_t i = 0; i < some; i++, done++) {
+    for (size_t done = 0; done < count;) {
+        size_t some = count - done < CHUNK ? count - done : CHUNK;
+        read_words(&from, pairs, 2 * some);
+        for (size_t i = 0; i < some; i++, done++) {
             body->irn_loc[done] = (MUMPS_INT)(pairs[2 * i] & 0xffffffffu) + 1;
             body->jcn_loc[done] = (MUMPS_INT)(pairs[2 * i] >> 32) + 1;
             memcpy(body->a_loc + done, pairs + 2 * i + 1, 8);
         }
     }
-    close_words(open, path, sum);
+    end_reading(&from);
     free(pairs);
 }
 
@@ -277,11 +235,13 @@ static void drop(int id) {
     job(body, -2);
     free_matrix(body);
     free(body->listvar_schur);
-    free(body->schur);
     free(body->rhs);
     free(body->redrhs);
+    if (!grids[id]) free(body->schur);
+    drop_grid(grids[id]);
     free(body);
     bodies[id] = NULL;
+    grids[id] = NULL;
 }
 
 static DMUMPS_STRUC_C *new_body(const Command *c) {
@@ -306,26 +266,27 @@ static DMUMPS_STRUC_C *new_body(const Command *c) {
     return body;
 }
 
-/* All of the Schur complement on rank 0, its lower triangle by columns: a grid of one. */
+/* What is left of the matrix at the kept rows: on all ranks, or all of it on rank 0, its lower triangle by columns: a grid of one. */
 static void keep_schur(DMUMPS_STRUC_C *body, const Command *c) {
     body->size_schur = (MUMPS_INT)c->kept;
     if (!c->kept) return;
+    body->listvar_schur = get(c->kept, sizeof *body->listvar_schur);
+    for (int64_t i = 0; i < c->kept; i++) body->listvar_schur[i] = (MUMPS_INT)(c->n - c->kept + i + 1);
+    if (c->spread) {
+        grids[c->id] = plan_grid(body);
+        return;
+    }
     body->ICNTL(19) = 2;
     body->nprow = body->npcol = 1;
     body->mblock = body->nblock = 64;
-    body->listvar_schur = get(c->kept, sizeof *body->listvar_schur);
-    for (int64_t i = 0; i < c->kept; i++) body->listvar_schur[i] = (MUMPS_INT)(c->n - c->kept + i + 1);
 }
 
 static void write_schur(DMUMPS_STRUC_C *body, const Command *c) {
-    char path[4096];
-    size_t at = 0, n = c->kept;
+    size_t n = c->kept;
     if (rank == 0) {
-        /* In place: what is moved is always ahead of where it goes. */
-        for (size_t j = 0; j < n; j++)
-            for (size_t i = j; i < n; i++) body->schur[at++] = body->schur[j * n + i];
-        snprintf(path, sizeof path, "%s/%s.schur", folder, c->file);
-        write_words(path, body->schur, at);
+        Words to = write_to(c->file, ".schur", -1, n * (n + 1) / 2);
+        for (size_t j = 0; j < n; j++) write_words(&to, body->schur + j * n + j, n - j);
+        end_writing(&to);
     }
     free(body->schur);
     body->schur = NULL;
@@ -348,7 +309,8 @@ static void factor(const Command *c) {
         complain(body, "analysis");
         return drop(c->id);
     }
-    if (rank == 0 && c->kept) {
+    if (grids[c->id]) make_room(grids[c->id], body);
+    else if (rank == 0 && c->kept) {
         body->schur_lld = (MUMPS_INT)c->kept;
         body->schur = get((size_t)c->kept * c->kept, 8);
     }
@@ -363,14 +325,15 @@ static void factor(const Command *c) {
         return drop(c->id);
     }
     free_matrix(body);
-    write_schur(body, c);
+    if (!grids[c->id]) write_schur(body, c);
+    double stiff = grids[c->id] ? trace(grids[c->id]) : 0;
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     int64_t own = usage.ru_maxrss, most = 0, sum = 0;
     MPI_Reduce(&own, &most, 1, MPI_INT64_T, MPI_MAX, 0, MPI_COMM_WORLD);
     MPI_Reduce(&own, &sum, 1, MPI_INT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
     double entries = body->INFOG(29) < 0 ? -1e6 * body->INFOG(29) : body->INFOG(29);
-    answer("ok %" PRId64 " %" PRId64 " %.0f %.0f", most, sum, body->RINFOG(3), entries);
+    answer("ok %" PRId64 " %" PRId64 " %.0f %.0f %.17g", most, sum, body->RINFOG(3), entries, stiff);
 }
 
 /* Room for vectors on rank 0. */
@@ -388,44 +351,76 @@ static void room(DMUMPS_STRUC_C *body, int columns) {
 
 static int solve(DMUMPS_STRUC_C *body, int way) {
     body->ICNTL(26) = way;
+    body->ICNTL(21) = way != 1; /* solutions stay with the ranks */
     job(body, 3);
     if (body->INFOG(1) >= 0) return 1;
     complain(body, "solution");
     return 0;
 }
 
+/* A solution as it comes: this rank writes what it has of it. */
+static int expand(DMUMPS_STRUC_C *body, const Command *c) {
+    size_t count = body->lsol_loc = body->INFO(23), columns = c->columns;
+    body->isol_loc = get(count + 1, sizeof *body->isol_loc);
+    body->sol_loc = get(count * columns + 1, 8);
+    /* Without kept rows there is nothing to reduce, and the expansion is the whole solution. */
+    int ok = solve(body, body->size_schur ? 2 : 0);
+    if (ok) {
+        Words to = write_to(c->file, ".out", rank, 1 + count * (1 + columns));
+        uint64_t word = count;
+        write_words(&to, &word, 1);
+        for (size_t i = 0; i < count; i++) {
+            word = (uint64_t)body->isol_loc[i] - 1;
+            write_words(&to, &word, 1);
+        }
+        write_words(&to, body->sol_loc, count * columns);
+        end_writing(&to);
+    }
+    free(body->isol_loc);
+    free(body->sol_loc);
+    body->isol_loc = NULL;
+    body->sol_loc = NULL;
+    /* Nobody reads before all have written. */
+    MPI_Barrier(MPI_COMM_WORLD);
+    return ok;
+}
+
 static void solve_for(const Command *c) {
     DMUMPS_STRUC_C *body = bodies[c->id];
-    char path[4096], out[4096];
-    size_t n = body->n, kept = body->size_schur, inner = n - kept, columns = c->columns;
+    size_t n = body->n, kept = body->size_schur, columns = c->columns;
     int ok = 1, forces = c->what == REDUCE || c->fresh;
+    Words from;
     room(body, c->columns);
-    snprintf(path, sizeof path, "%s/%s", folder, c->file);
-    snprintf(out, sizeof out, "%s/%s.out", folder, c->file);
-    FILE *open = NULL;
-    uint64_t sum = 0;
     if (rank == 0) {
-        size_t rows = c->what == REDUCE ? n : inner;
-        open = open_words(path, columns * (forces ? rows : 0) + columns * (c->what == EXPAND ? kept : 0));
+        size_t rows = c->what == REDUCE ? n : n - kept;
+        from = read_from(c->file, -1, columns * (forces ? rows : 0) + columns * (c->what == EXPAND ? kept : 0));
         for (size_t k = 0; forces && k < columns; k++) {
-            read_words(open, path, body->rhs + k * n, rows, &sum);
+            read_words(&from, body->rhs + k * n, rows);
             if (rows < n) memset(body->rhs + k * n + rows, 0, 8 * kept);
         }
     }
-    /* Without kept rows there is nothing to reduce, and the expansion is the whole solution. */
     if (forces && kept) ok = solve(body, 1);
     if (rank == 0) {
-        if (c->what == EXPAND) read_words(open, path, body->redrhs, columns * kept, &sum);
-        close_words(open, path, sum);
+        if (c->what == EXPAND) read_words(&from, body->redrhs, columns * kept);
+        end_reading(&from);
     }
-    if (ok && c->what == EXPAND) ok = solve(body, kept ? 2 : 0);
+    if (ok && c->what == EXPAND) ok = expand(body, c);
     if (!ok) return;
-    if (rank == 0 && c->what == REDUCE) write_words(out, body->redrhs, columns * kept);
-    if (rank == 0 && c->what == EXPAND) {
-        for (size_t k = 1; k < columns; k++) memmove(body->rhs + k * inner, body->rhs + k * n, 8 * inner);
-        write_words(out, body->rhs, columns * inner);
+    if (rank == 0 && c->what == REDUCE) {
+        Words to = write_to(c->file, ".out", -1, columns * kept);
+        write_words(&to, body->redrhs, columns * kept);
+        end_writing(&to);
     }
     answer("ok");
+}
+
+/* What is done with a Schur complement that is spread. */
+static void dense(const Command *c) {
+    int row = 0;
+    if (c->what == MULTIPLY) multiply(grids[c->id], c->columns, c->file);
+    else row = invert(grids[c->id], c->columns, c->sigma, c->file);
+    if (row) answer("error -10 %d inverse", row);
+    else answer("ok");
 }
 
 int main(int count, char **arguments) {
@@ -450,6 +445,7 @@ int main(int count, char **arguments) {
         if (c.what == FREE) drop(c.id);
         if (c.what == FREE) answer("ok");
         if (c.what == REDUCE || c.what == EXPAND) solve_for(&c);
+        if (c.what == MULTIPLY || c.what == INVERT) dense(&c);
     }
     for (int id = 0; id < BODIES; id++) drop(id);
     MPI_Finalize();

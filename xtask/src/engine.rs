@@ -26,7 +26,7 @@ pub fn build(arguments: &[String]) -> Result<(), String> {
     let folder = target().join("engines");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let program = folder.join("stickslip-mumps");
-    compile(&root().join("engines/mumps/stickslip-mumps.c"), &program)?;
+    compile(&root().join("engines/mumps"), &program)?;
     println!("{}", program.display());
     Ok(())
 }
@@ -89,18 +89,33 @@ fn has_header() -> bool {
     written.is_ok() && compiled.is_ok_and(|o| o.status.success())
 }
 
-fn compile(source: &Path, program: &Path) -> Result<(), String> {
-    let status = Command::new("mpicc")
-        .args(["-O2", "-Wall", "-Wextra", "-std=gnu11", "-o"])
-        .arg(program)
-        .arg(source)
-        .args(words("CFLAGS"))
-        .args(words("LDFLAGS"))
-        .args(["-ldmumps", "-lpthread"])
-        .status()
-        .map_err(|e| format!("mpicc: {e}"))?;
-    match status.success() {
-        true => Ok(()),
-        false => Err(format!("mpicc failed: {status}")),
+/// What the library is called that MUMPS itself needs: by Debian, and by others.
+const SCALAPACK: [&str; 3] = ["-lscalapack-openmpi", "-lscalapack-mpich", "-lscalapack"];
+
+/// Compiles the sources of a folder, with the first name of ScaLAPACK that there is.
+fn compile(folder: &Path, program: &Path) -> Result<(), String> {
+    let listed = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let paths = listed.flatten().map(|entry| entry.path());
+    let mut sources: Vec<_> = paths
+        .filter(|p| p.extension() == Some("c".as_ref()))
+        .collect();
+    sources.sort();
+    let mut said = String::new();
+    for scalapack in SCALAPACK {
+        let output = Command::new("mpicc")
+            .args(["-O2", "-Wall", "-Wextra", "-std=gnu11", "-o"])
+            .arg(program)
+            .args(&sources)
+            .args(words("CFLAGS"))
+            .args(words("LDFLAGS"))
+            .args(["-ldmumps", scalapack, "-lpthread"])
+            .output()
+            .map_err(|e| format!("mpicc: {e}"))?;
+        said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.success() {
+            print!("{said}");
+            return Ok(());
+        }
     }
+    Err(format!("mpicc failed:\n{said}"))
 }

@@ -1,6 +1,6 @@
 use std::io::{self, Read, Write};
 use std::ops::{Add, AddAssign, Mul, Range};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
@@ -10,19 +10,30 @@ use faer::linalg::cholesky::llt::inverse::{inverse, inverse_scratch};
 use faer::{MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
-use super::LinearError;
 use super::factor::zeros;
+use super::{LinearError, Spread};
 
 /// The inverse of a dense symmetric positive definite matrix, for products with vectors.
 ///
 /// Products read one triangle only: they are as fast as memory delivers half of the matrix. Their bits do not depend on the
-/// number of threads.
+/// number of threads. It may be with the processes of an engine: then there are products alone.
 #[derive(Debug)]
 pub struct Compliance {
     n: usize,
-    /// Column by column, both triangles.
+    /// Column by column, both triangles; nothing where an engine has them.
     values: Vec<f64>,
     single: OnceLock<Vec<f32>>,
+    spread: Option<Elsewhere>,
+}
+
+/// A matrix that an engine has, or the rows and columns of it that are meant.
+#[derive(Debug)]
+struct Elsewhere {
+    by: Arc<dyn Spread>,
+    /// Rows of the whole.
+    size: usize,
+    /// Those that are meant.
+    list: Vec<u32>,
 }
 
 /// Columns below which one task does everything.
@@ -115,6 +126,44 @@ impl Compliance {
             n,
             values,
             single: OnceLock::new(),
+            spread: None,
+        }
+    }
+
+    /// One that the processes of an engine have.
+    pub fn spread(n: usize, by: Arc<dyn Spread>) -> Compliance {
+        Compliance::elsewhere(by, n, (0..n as u32).collect())
+    }
+
+    /// Whether its values are in this process.
+    pub fn is_here(&self) -> bool {
+        self.spread.is_none()
+    }
+
+    /// Some of its rows and columns, ascending.
+    ///
+    /// # Panics
+    /// If one does not exist.
+    pub fn cut(&self, own: impl ExactSizeIterator<Item = usize> + Clone) -> Compliance {
+        if let Some(all) = &self.spread {
+            let list = own.clone().map(|i| all.list[i]).collect();
+            let by = Arc::clone(&all.by);
+            return Compliance::elsewhere(by, all.size, list);
+        }
+        let mut cut = Vec::with_capacity(own.len() * own.len());
+        for j in own.clone() {
+            let column = &self.values[j * self.n..(j + 1) * self.n];
+            cut.extend(own.clone().map(|i| column[i]));
+        }
+        Compliance::from_values(own.len(), cut)
+    }
+
+    fn elsewhere(by: Arc<dyn Spread>, size: usize, list: Vec<u32>) -> Compliance {
+        Compliance {
+            n: list.len(),
+            values: Vec::new(),
+            single: OnceLock::new(),
+            spread: Some(Elsewhere { by, size, list }),
         }
     }
 
@@ -171,12 +220,15 @@ impl Compliance {
         self.n
     }
 
-    /// All values, column by column.
+    /// All values, column by column; none where an engine has them.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// A column in single precision.
+    ///
+    /// # Panics
+    /// If an engine has them.
     pub fn column(&self, j: usize) -> &[f32] {
         &self.single()[j * self.n..(j + 1) * self.n]
     }
@@ -186,26 +238,75 @@ impl Compliance {
             .get_or_init(|| self.values.par_iter().map(|&v| v as f32).collect())
     }
 
-    /// `y = W x`.
+    /// `y = W x`; not a number where an engine has died, which says so itself.
     ///
     /// # Panics
     /// If `x` or `y` has not one entry a row.
     pub fn mul(&self, x: &[f64], y: &mut [f64]) {
-        product(self.n, &self.values, x, y);
+        match &self.spread {
+            Some(spread) => spread.products(x, y),
+            None => product(self.n, &self.values, x, y),
+        }
     }
 
-    /// The same with the matrix and the vector rounded to single precision.
+    /// The same with the matrix and the vector rounded to single precision, where this process has them.
     ///
     /// # Panics
     /// If `x` or `y` has not one entry a row.
     pub fn mul_single(&self, x: &[f64], y: &mut [f64]) {
-        product(self.n, self.single(), x, y);
+        match &self.spread {
+            Some(spread) => spread.products(x, y),
+            None => product(self.n, self.single(), x, y),
+        }
     }
 
-    /// Bytes held.
+    /// Products with several vectors, one behind the other.
+    ///
+    /// # Panics
+    /// If `x` or `y` has not one entry a row and vector.
+    pub fn mul_all(&self, x: &[f64], y: &mut [f64]) {
+        assert!(x.len() == y.len(), "length of vectors");
+        if let Some(spread) = &self.spread {
+            return spread.products(x, y);
+        }
+        let n = self.n.max(1);
+        for (x, y) in x.chunks(n).zip(y.chunks_mut(n)) {
+            product(self.n, &self.values, x, y);
+        }
+    }
+
+    /// Bytes held in this process.
     pub fn bytes(&self) -> u64 {
         let single = self.single.get().map_or(0, Vec::len);
         8 * self.values.len() as u64 + 4 * single as u64
+    }
+}
+
+impl Elsewhere {
+    /// Products with vectors of as many entries as rows are meant.
+    fn products(&self, x: &[f64], y: &mut [f64]) {
+        let (n, all) = (self.list.len().max(1), self.size.max(1));
+        assert!(
+            x.len() == y.len() && x.len().is_multiple_of(n),
+            "length of vectors"
+        );
+        if x.iter().all(|x| *x == 0.0) {
+            return y.fill(0.0);
+        }
+        let mut wide = vec![0.0; x.len() / n * all];
+        for (wide, x) in wide.chunks_mut(all).zip(x.chunks(n)) {
+            for (&at, x) in self.list.iter().zip(x) {
+                wide[at as usize] = *x;
+            }
+        }
+        let Ok(products) = self.by.products(&wide) else {
+            return y.fill(f64::NAN);
+        };
+        for (products, y) in products.chunks(all).zip(y.chunks_mut(n)) {
+            for (&at, y) in self.list.iter().zip(y) {
+                *y = products[at as usize];
+            }
+        }
     }
 }
 

@@ -111,12 +111,9 @@ fn assert_same(a: &Path, b: &Path) {
     assert!(seen > 50, "{seen} numbers compared");
 }
 
-#[test]
-fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
-    if !built() {
-        return;
-    }
-    let pressed = THROWN
+/// The same at rest.
+fn pressed() -> String {
+    THROWN
         .replace(
             "initial.thrown = { set = \"block\", velocity = [1.0, -5.0] }",
             "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }",
@@ -124,30 +121,60 @@ fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
         .replace(
             "duration = 1.5e-4, increments = { fixed = 15 }, dynamic = {}",
             "increments = { fixed = 10 }",
-        );
-    for (name, case) in [("motion", THROWN), ("rest", &pressed)] {
-        let folder = place(name, case);
-        let own = output(run(&folder, &["-o", "own"]));
-        assert_eq!(code(&own), Some(0), "{}", text(&own.stderr));
-        for ranks in ["1", "2"] {
-            let results = output(run(
-                &folder,
-                &["-o", ranks, "--engine", "mumps", "--ranks", ranks],
-            ));
-            assert_eq!(code(&results), Some(0), "{}", text(&results.stderr));
-            assert_same(&folder.join(ranks), &folder.join("own"));
-            let summary = std::fs::read_to_string(folder.join(ranks).join("summary.json"));
-            let summary = summary.expect("a summary");
-            for part in [
-                "\"name\": \"mumps\"",
-                &format!("\"ranks\": {ranks}"),
-                "\"reproducible\": false",
-            ] {
-                assert!(summary.contains(part), "{part} in {summary}");
-            }
-            assert_clean(&folder);
+        )
+}
+
+/// Results with the built-in engine, and with MUMPS on ranks with these keys, which must be the same.
+fn compare(name: &str, case: &str, all: &[(&str, &str)]) {
+    let folder = place(name, case);
+    let own = output(run(&folder, &["-o", "own"]));
+    assert_eq!(code(&own), Some(0), "{}", text(&own.stderr));
+    for (at, (ranks, keys)) in all.iter().enumerate() {
+        let out = format!("by-{at}");
+        let set = format!("solver.engine.mumps={{ ranks = {ranks}{keys} }}");
+        let results = output(run(&folder, &["-o", &out, "--set", &set]));
+        assert_eq!(code(&results), Some(0), "{}", text(&results.stderr));
+        assert_same(&folder.join(&out), &folder.join("own"));
+        let summary = std::fs::read_to_string(folder.join(&out).join("summary.json"));
+        let summary = summary.expect("a summary");
+        for part in [
+            "\"name\": \"mumps\"",
+            &format!("\"ranks\": {ranks}"),
+            "\"reproducible\": false",
+        ] {
+            assert!(summary.contains(part), "{part} in {summary}");
         }
+        assert_clean(&folder);
     }
+}
+
+#[test]
+fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
+    if !built() {
+        return;
+    }
+    let all = [("1", ""), ("2", ""), ("3", ", spread = true")];
+    compare("motion", THROWN, &all);
+    compare("rest", &pressed(), &all);
+}
+
+/// Springs on an elastic body, which contact alone would hold along the floor, and on a rigid one: what is not of cells.
+#[test]
+fn bodies_on_springs_have_the_same_results_with_a_matrix_that_nobody_keeps() {
+    if !built() {
+        return;
+    }
+    let springs = r#"load.soft = { set = "block", spring = { stiffness = [4e9, 1e9] } }
+body.wall = { generate.rectangle = { from = [4, 0], to = [5, 1], cells = [2, 2] }, material = "steel", rigid = true }
+load.wall = { set = "wall", spring = { stiffness = [1e9, 2e9] } }
+load.push = { set = "wall", nodal-force.value = [1e4, 2e4] }
+load.press = { set = "block.top", pressure.value = 1e8 }
+"#;
+    let case = pressed().replace(
+        "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }\n",
+        springs,
+    );
+    compare("springs", &case, &[("2", ""), ("3", ", spread = true")]);
 }
 
 #[test]
@@ -232,8 +259,9 @@ fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 }
 
 /// A run on two ranks that has written rows: itself, mpirun, and the ranks.
-fn started(folder: &Path) -> (Child, u32, Vec<u32>) {
-    let mut command = run(folder, &["-o", "out", "--engine", "mumps", "--ranks", "2"]);
+fn started(folder: &Path, spread: bool) -> (Child, u32, Vec<u32>) {
+    let set = format!("solver.engine.mumps={{ ranks = 2, spread = {spread} }}");
+    let mut command = run(folder, &["-o", "out", "--set", &set]);
     command.args(["--set", "step.0.increments.fixed=40000"]);
     let child = command
         .stdout(Stdio::null())
@@ -257,9 +285,14 @@ fn nothing_stays_behind_whoever_dies() {
     if !built() {
         return;
     }
-    for who in ["rank", "mpirun", "stickslip"] {
-        let folder = place(who, THROWN);
-        let (child, mpirun, ranks) = started(&folder);
+    for (who, spread) in [
+        ("rank", false),
+        ("rank", true),
+        ("mpirun", true),
+        ("stickslip", false),
+    ] {
+        let folder = place(&format!("{who}-{spread}"), THROWN);
+        let (child, mpirun, ranks) = started(&folder, spread);
         match who {
             "rank" => kill(ranks[1]),
             "mpirun" => kill(mpirun),

@@ -274,10 +274,21 @@ impl Links {
 
     /// Adds a spring between a dof and the ground `[N/m]` to a matrix that couples the hidden points of each body.
     pub fn add_spring(&self, matrix: &mut BlockCsr, dof: usize, stiffness: f64) {
+        let (points, dense) = self.spring(dof, stiffness);
+        match points[..] {
+            [_] => matrix.add_diagonal(dof, stiffness),
+            _ => matrix.add_group(&points, &dense),
+        }
+    }
+
+    /// The same as a dense matrix, row by row, and its points.
+    pub fn spring(&self, dof: usize, stiffness: f64) -> (Vec<usize>, Vec<f64>) {
         let (point, component) = self.dofs.locate(dof);
         let Some(link) = self.of_point(point).map(|i| &self.all[i]) else {
-            matrix.add_diagonal(dof, stiffness);
-            return;
+            let width = self.dofs.dim;
+            let mut dense = vec![0.0; width * width];
+            dense[component * (width + 1)] = stiffness;
+            return (vec![point], dense);
         };
         let row = link.row(self.dofs, point, component);
         let first = self.dofs.of(link.hidden, 0);
@@ -288,7 +299,7 @@ impl Links {
                 dense[(a - first) * width + b - first] += fa * stiffness * fb;
             }
         }
-        matrix.add_group(&[link.hidden, link.hidden + 1], &dense);
+        (vec![link.hidden, link.hidden + 1], dense)
     }
 
     /// The block `Tᵀ K T` over the dofs that move those of a block; `None` if none of them is of a rigid body.

@@ -16,7 +16,7 @@ use crate::solve::elastic::mix;
 use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
-use crate::solve::solver::Solver;
+use crate::solve::solver::{Solver, entries};
 use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -110,7 +110,12 @@ impl Implicit {
         let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
         interfaces.for_each(|i| i.directives.impulses = impulse);
-        let dt = inertia.ready(&solver.stiffness, scheme.alphas, length, weights[1]);
+        let dt = inertia.ready(
+            entries(&solver.stiffness),
+            scheme.alphas,
+            length,
+            weights[1],
+        );
         let plain = inertia.plain(&fixed, &model.links);
         let mut from = frame.state.clone();
         if impulse && !frame.contact.is_empty() {
@@ -287,6 +292,12 @@ impl Implicit {
     ) -> Guess {
         let internal = solver.elastic(model, &u);
         let stage = self.elastic_at_stage((model, frame), solver, &u, &internal);
+        let mut u = increment.predict();
+        constraints.impose(&mut u);
+        model.links.impose(&mut u);
+        let internal = solver.stiffness.times(&u);
+        let stage = mix(self.alphas.alpha_f, &frame.motion.internal, &internal);
+        let inertia = in_motion(&solver.inertia);
         let known = (stage.as_slice(), external, weights[0]);
         let (mut forces, scale) = self.balance((model, frame), solver, increment, &u, known);
         let weight = weights[1];
@@ -332,7 +343,7 @@ impl Implicit {
             false => solver.solve_sparse(model, contact, task(Load::Known(origin)), at)?,
         };
         let moved = difference(&at.u, &guess.u);
-        let change = times(&solver.stiffness, &moved);
+        let change = solver.stiffness.times(&moved);
         if condensed {
             let stage = in_motion(&solver.inertia).stage_times(&moved, &change);
             converged.forces = (0..moved.len())

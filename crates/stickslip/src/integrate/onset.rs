@@ -8,9 +8,9 @@ use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::{Frame, Motion};
+use crate::solve::inertia::Inertia;
 use crate::solve::inertia::in_motion;
-use crate::solve::inertia::{Inertia, times};
-use crate::solve::solver::Solver;
+use crate::solve::solver::{Solver, entries};
 use crate::system::{Links, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
@@ -117,6 +117,7 @@ impl Implicit {
             true => 0.5 * dot(&frame.state.u, &internal),
             false => solver.strain_energy(model, &frame.state.u),
         };
+        let internal = solver.stiffness.times(&frame.state.u);
         let energy = &mut frame.ledger;
         let strain = strain + energy.thermal;
         energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
@@ -209,7 +210,7 @@ fn start_motion(
         Some(inertia) if inertia.suits(contact, dynamic) => inertia,
         old => {
             let keys = old.map_or(solver.keys, |inertia| inertia.keys());
-            Inertia::new((model, contact), &solver.stiffness, dynamic, keys)
+            Inertia::new((model, contact), entries(&solver.stiffness), dynamic, keys)
         }
     };
     let masses = inertia.at_points(model);
@@ -224,6 +225,7 @@ fn start_motion(
     energy.initial += energy.kinetic - before;
     frame.motion = Motion {
         internal: solver.elastic(model, &frame.state.u),
+        internal: solver.stiffness.times(&frame.state.u),
         start: frame.state.u.clone(),
         travel: 0.0,
     };
@@ -247,7 +249,7 @@ fn begin_along_mode(
     let forces = |u: &[f64]| -> Vec<f64> {
         let add = |c: &Couplings, out: &mut [f64]| c.add_initial(t, (u, &rest), out);
         let coupled = coupling_forces(couplings, &model.links, n, add);
-        let both = times(&solver.stiffness, u).into_iter().zip(coupled);
+        let both = (solver.stiffness.times(u).into_iter()).zip(coupled);
         both.map(|(a, b)| a + b).collect()
     };
     let before = frame.state.u.clone();

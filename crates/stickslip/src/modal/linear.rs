@@ -11,7 +11,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::solve::inertia::Inertia;
-use crate::solve::solver::Solver;
+use crate::solve::solver::{Solver, entries};
 use crate::system::{ContactBlock, Links, Stage};
 
 /// By how much stiffer equations between displacements are taken than Newton's method takes them.
@@ -332,8 +332,8 @@ impl Parts {
         // One pattern for all matrices.
         all.extend(damping.iter().map(|(p, d)| (p.clone(), vec![0.0; d.len()])));
         linear.stiffness = match all.is_empty() {
-            true => (*solver.stiffness).clone(),
-            false => solver.stiffness.with_groups(&all),
+            true => entries(&solver.stiffness).clone(),
+            false => entries(&solver.stiffness).with_groups(&all),
         };
         let kind = MassKind::default();
         let inertia = Inertia::of_modes((model, contact), &linear.stiffness, kind);

@@ -21,6 +21,7 @@
 //!   (`model/drivers.rs`).
 
 pub(crate) mod accepted;
+mod by_cells;
 pub(crate) mod checks;
 pub(crate) mod choice;
 mod closure;

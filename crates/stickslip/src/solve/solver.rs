@@ -4,21 +4,24 @@ use super::inertia::in_motion;
 use super::iteration::{Iteration, Load, Task};
 use std::sync::Arc;
 
+use super::by_cells::{ByCells, stiff, suffices};
 use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;
 use crate::linear::{BlockCsr, Digest, Engine};
+use crate::linear::{BlockCsr, Digest, Engine, Matrix};
+use crate::math::vector::dot;
 use crate::model::contact::Contact;
-use crate::model::definition::{Body, Model, Solution, Step};
+use crate::model::definition::{Model, Solution};
 use crate::newton::condensed::{Identity, Library};
 use crate::newton::{Converged, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
 pub(crate) struct Solver {
-    /// Stiffness of bodies and springs.
-    pub stiffness: Arc<BlockCsr>,
+    /// Stiffness of bodies and springs; its entries may not be kept.
+    pub stiffness: Arc<dyn Matrix>,
     /// Its diagonal.
     pub diagonal: Vec<f64>,
     /// Newton's method, with its counts.
@@ -57,7 +60,12 @@ pub(crate) struct Log {
 impl Solver {
     /// With the stiffness of the model, but for an analysis of explicit steps alone.
     pub fn new(model: &Model, library: Arc<Library>) -> Self {
-        let stiffness = library.stiffness(identity(model), || assembled(model));
+        let identity = identity(model);
+        let by_cells = ByCells::new(model, identity);
+        let stiffness: Arc<dyn Matrix> = match suffices(model) {
+            true => Arc::new(by_cells),
+            false => library.stiffness(identity, || by_cells.make()),
+        };
         Solver {
             diagonal: stiffness.diagonal(),
             stiffness,
@@ -87,6 +95,13 @@ impl Solver {
         self.condenser.drop_in_motion();
     }
 
+    /// Makes the entries of the stiffness if they are not kept: somebody will ask for them.
+    pub fn keep_stiffness(&mut self) {
+        if self.stiffness.kept().is_err() {
+            self.stiffness = Arc::new(self.stiffness.make());
+        }
+    }
+
     /// Solves an increment with the sparse matrix. `at` is the guess before and the solution after.
     pub fn solve_sparse(
         &mut self,
@@ -95,10 +110,11 @@ impl Solver {
         task: Task,
         at: &mut State,
     ) -> Result<Converged, StepFailure> {
+        self.keep_stiffness();
         let fixed = task.constraints.fixed.clone();
         let (matrix, key, external, origin) = match task.load {
             Load::External(external) => {
-                let matrix = (&*self.stiffness, self.diagonal.as_slice());
+                let matrix = (entries(&self.stiffness), self.diagonal.as_slice());
                 (matrix, 0, external, None)
             }
             Load::Known(origin) => {
@@ -121,15 +137,20 @@ impl Solver {
         }
         .solve(task.constraints, task.rate, (task.from, at))
     }
+
+    /// Strain energy of bodies and springs `[J]`.
+    pub fn strain_energy(&self, u: &[f64]) -> f64 {
+        0.5 * dot(u, &self.stiffness.times(u))
+    }
 }
 
-/// The bodies whose matrix is needed: an explicit analysis needs none.
-fn stiff(model: &Model) -> impl Iterator<Item = &Body> {
-    let needed = !model.steps.iter().all(Step::is_explicit);
-    model.elastic().filter(move |_| needed)
+/// The entries of a stiffness.
+pub(crate) fn entries(stiffness: &Arc<dyn Matrix>) -> &BlockCsr {
+    let kept = stiffness.kept();
+    kept.expect("where entries are asked for, they were made before")
 }
 
-/// A digest of all that [`assembled`] makes a matrix of.
+/// A digest of all that the stiffness is made of.
 fn identity(model: &Model) -> Identity {
     let mut digest = Digest::of(model.dofs.points as u64);
     digest.floats(model.mesh.points.as_flattened());
@@ -142,19 +163,4 @@ fn identity(model: &Model) -> Identity {
         digest.floats(&[k]);
     }
     Identity::of(&digest)
-}
-
-/// The stiffness of bodies, rigid links and springs.
-fn assembled(model: &Model) -> BlockCsr {
-    let mut stiffness = BlockCsr::from_couplings(model.dofs.points, model.dofs.dim, &mut |visit| {
-        stiff(model).for_each(|body| body.elastic.couplings(visit));
-        for link in model.links.all() {
-            visit(&[link.hidden, link.hidden + 1]);
-        }
-    });
-    stiff(model).for_each(|body| body.elastic.stiffness(&mut stiffness));
-    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
-        model.links.add_spring(&mut stiffness, dof, k);
-    }
-    stiffness
 }

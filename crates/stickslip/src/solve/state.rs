@@ -6,7 +6,7 @@
 use super::condenser::{Condensed, Condenser, Moving, Which};
 use super::floating_bodies::Floating;
 use super::inertia::{Inertia, InertiaRecipe};
-use super::solver::Solver;
+use super::solver::{Solver, entries};
 use crate::linear::BlockCsr;
 use crate::model::contact::Contact;
 use crate::model::course::Course;
@@ -165,7 +165,11 @@ impl Solver {
         contact: &mut Contact,
     ) -> Result<(), StepFailure> {
         let recipe = state.inertia;
-        self.inertia = recipe.map(|r| Inertia::again((model, contact), &self.stiffness, r));
+        if recipe.is_some() || state.method != Solution::Condensed {
+            self.keep_stiffness();
+        }
+        let again = |r| Inertia::again((model, contact), entries(&self.stiffness), r);
+        self.inertia = recipe.map(again);
         // As it was when bodies were condensed: there is nothing to be decided.
         self.method = Solution::Condensed;
         self.condenser.at_rest = match state.at_rest {
@@ -177,9 +181,11 @@ impl Solver {
             let one = self.move_again(key, bodies, model, frame, contact)?;
             self.condenser.moving.push(one);
         }
+        let none = BlockCsr::empty(model.dofs.dim);
         let hierarchies = state.multigrid.then(|| model.places());
         let matrix = |key| self.matrix_of(key);
-        let factors = Factors::again(state.factors, &matrix, &self.stiffness, hierarchies)?;
+        let like = self.stiffness.kept().unwrap_or(&none);
+        let factors = Factors::again(state.factors, &matrix, like, hierarchies)?;
         self.factors = factors;
         self.method = state.method;
         self.log.notes = state.notes;
@@ -198,7 +204,7 @@ impl Solver {
     /// The stiffness, or the matrix of an increment in motion as long as it is kept.
     fn matrix_of(&self, key: u64) -> Option<&BlockCsr> {
         match key {
-            0 => Some(&*self.stiffness),
+            0 => self.stiffness.kept().ok(),
             key => self.inertia.as_ref()?.matrix_of(key),
         }
     }
@@ -220,7 +226,7 @@ impl Solver {
         let condensation = self
             .condensation(model, frame, contact, &held, Which::Stiffness)
             .ok_or_else(|| self.not_again())?;
-        let patterns = LoadPatterns::again(at_rest.patterns, &condensation, &self.stiffness)
+        let patterns = LoadPatterns::again(at_rest.patterns, &condensation, &*self.stiffness)
             .map_err(describe)?;
         Ok(Condensed {
             reduced: ReducedSystem::again(reduced, &condensation)?,

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::contract::{Cut, Engine, EngineReport, FactorEffort, Interior, Ordered};
-use crate::linear::{BlockCsr, Fronts, LinearError, Numbers, PartialFactor, Workspace};
+use crate::linear::{BlockCsr, Fronts, LinearError, Matrix, PartialFactor, Schur, Workspace};
 
 /// The multifrontal factorisation of this library, on the threads of this process: the same bits on any number of them.
 #[derive(Debug, Clone, Copy, Default)]
@@ -28,10 +28,19 @@ impl Engine for Multifrontal {
 
     fn order(
         self: Arc<Self>,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         (points, fixed, kept): Cut,
     ) -> Result<Arc<dyn Ordered>, LinearError> {
-        Ok(Arc::new(Fronts::analyze(matrix, points, fixed, kept)?))
+        let fronts = with_entries(matrix, |m| Fronts::analyze(m, points, fixed, kept))?;
+        Ok(Arc::new(fronts))
+    }
+}
+
+/// Needs the entries.
+fn with_entries<T>(matrix: &dyn Matrix, of: impl FnOnce(&BlockCsr) -> T) -> T {
+    match matrix.kept() {
+        Ok(kept) => of(kept),
+        Err(_) => of(&matrix.make()),
     }
 }
 
@@ -62,11 +71,12 @@ impl Ordered for Fronts {
 
     fn factor(
         self: Arc<Self>,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         workspace: &Workspace,
-    ) -> Result<(Box<dyn Interior>, Numbers), LinearError> {
-        let (factor, schur) = PartialFactor::new(&self, matrix, workspace)?;
-        Ok((Box::new(factor), schur))
+    ) -> Result<(Box<dyn Interior>, Schur), LinearError> {
+        let made = with_entries(matrix, |m| PartialFactor::new(&self, m, workspace));
+        let (factor, schur) = made?;
+        Ok((Box::new(factor), Schur::Here(schur)))
     }
 }
 

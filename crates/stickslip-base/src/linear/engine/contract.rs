@@ -2,7 +2,7 @@ use std::fmt::Debug;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::linear::{BlockCsr, LinearError, Numbers, PartialFactor, Workspace};
+use crate::linear::{LinearError, Matrix, PartialFactor, Schur, Workspace};
 
 /// Points of a matrix that are one body, one mark a dof of the matrix that is no unknown, and one mark a point that is kept.
 pub type Cut<'a> = (Range<usize>, &'a [bool], &'a [bool]);
@@ -31,7 +31,7 @@ pub trait Engine: Debug + Send + Sync {
     /// [`LinearError::NotAnalysed`] if a free dof of the body is coupled to a free dof of another; [`LinearError::OutOfMemory`].
     fn order(
         self: Arc<Self>,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         body: Cut,
     ) -> Result<Arc<dyn Ordered>, LinearError>;
 }
@@ -58,16 +58,26 @@ pub trait Ordered: Debug + Send + Sync {
         true
     }
 
-    /// Factors the body. Returns the Schur complement of the kept dofs too: of shape `(root, root)`, column by column; the upper triangle is zero.
+    /// Whether the compliance of the kept dofs will be in this process.
+    fn compliance_is_here(&self) -> bool {
+        true
+    }
+
+    /// What the user should know.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
+    /// Factors the body. Returns the Schur complement of the kept dofs too.
     ///
     /// # Errors
-    /// [`LinearError::NotFinite`], [`LinearError::NotPositive`], [`LinearError::Singular`] with the dof to look at; [`LinearError::OutOfMemory`];
+    /// [`LinearError::NotAnalysed`] as for [`order`](Engine::order), where it was not seen there; [`LinearError::NotFinite`], [`LinearError::NotPositive`], [`LinearError::Singular`] with the dof to look at; [`LinearError::OutOfMemory`];
     /// [`LinearError::Engine`].
     fn factor(
         self: Arc<Self>,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         workspace: &Workspace,
-    ) -> Result<(Box<dyn Interior>, Numbers), LinearError>;
+    ) -> Result<(Box<dyn Interior>, Schur), LinearError>;
 }
 
 /// The factor of the interior of a body. Vectors are in the order of [`Ordered::interior`] and [`Ordered::root`], several columns one after the other.
@@ -114,9 +124,9 @@ pub trait Interior: Debug + Send + Sync {
         None
     }
 
-    /// Whether it can still be used.
-    fn is_alive(&self) -> bool {
-        true
+    /// Why it cannot be used any more.
+    fn fault(&self) -> Option<LinearError> {
+        None
     }
 }
 

@@ -2,9 +2,11 @@
 //!
 //! An [`Engine`] cuts a body into interior and kept dofs, which is [`Ordered`] before any arithmetic, factors it, which leaves the Schur complement of the kept
 //! dofs here, and keeps an [`Interior`], which reduces forces and finds displacements, for many columns at once. Where the factor is, in this process or
-//! in others, its user does not know: nothing but vectors and the Schur complement passes through here. What an engine would add that assembles its own shares of the
-//! matrix, or keeps the Schur complement distributed, is another `Ordered::factor`.
+//! in others, its user does not know: nothing but vectors and the Schur complement passes through here, and not even that where it is too large: then its inverse
+//! stays where it is, too ([`Spread`](super::Spread)), and there are products with it. The matrix comes as a [`Matrix`](super::Matrix), which an engine takes entry by entry
+//! where nobody keeps it.
 
+mod bare;
 mod builtin;
 mod contract;
 mod mumps;

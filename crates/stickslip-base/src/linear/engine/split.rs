@@ -1,6 +1,8 @@
+use std::ops::Range;
+
 use super::contract::Cut;
 use crate::linear::symbolic::FIXED;
-use crate::linear::{BlockCsr, LinearError};
+use crate::linear::{LinearError, Matrix};
 
 /// The free dofs of a body, those of the interior first: both in ascending order, known by their *positions*.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +19,8 @@ impl Split {
     /// Cuts a body in two.
     ///
     /// # Errors
-    /// [`LinearError::NotAnalysed`] if a free dof of the body is coupled to a free dof of another.
-    pub fn new(matrix: &BlockCsr, (points, fixed, kept): Cut) -> Result<Split, LinearError> {
+    /// [`LinearError::NotAnalysed`] if a free dof of the body is coupled to a free dof of another, in a matrix that is kept.
+    pub fn new(matrix: &dyn Matrix, (points, fixed, kept): Cut) -> Result<Split, LinearError> {
         let b = matrix.block_size();
         let free = |point: usize| (point * b..(point + 1) * b).filter(|&dof| !fixed[dof]);
         let (mut interior, mut root) = (Vec::new(), Vec::new());
@@ -26,7 +28,8 @@ impl Split {
             let Some(dof) = free(point).next() else {
                 continue;
             };
-            let others = matrix.neighbours(point).iter().map(|&p| p as usize);
+            let others = matrix.kept().map_or(&[][..], |m| m.neighbours(point));
+            let others = others.iter().map(|&p| p as usize);
             let outside = others.filter(|other| !points.contains(other));
             if let Some(other) = outside.flat_map(free).next() {
                 return Err(LinearError::NotAnalysed { dofs: [dof, other] });
@@ -49,6 +52,11 @@ impl Split {
             root,
             position,
         })
+    }
+
+    /// The points of the body, with `block` dofs each.
+    pub fn points(&self, block: usize) -> Range<usize> {
+        self.origin / block..(self.origin + self.position.len()) / block
     }
 
     /// Free dofs.
@@ -75,24 +83,14 @@ impl Split {
         4 * (self.len() + self.position.len()) as u64
     }
 
-    /// The entries in the row of a position: positions of columns, and values.
-    pub fn row(&self, matrix: &BlockCsr, position: usize, mut each: impl FnMut(usize, f64)) {
-        let b = matrix.block_size();
-        let dof = self.dof(position);
-        let (point, component) = (dof / b, dof % b);
-        let blocks = matrix.row_blocks(point).chunks_exact(b * b);
-        for (&other, block) in matrix.neighbours(point).iter().zip(blocks) {
-            let Some(local) = (other as usize * b).checked_sub(self.origin) else {
-                continue;
-            };
-            let Some(positions) = self.position.get(local..local + b) else {
-                continue;
-            };
-            for (&column, &value) in positions.iter().zip(&block[component * b..]) {
-                if column != FIXED {
-                    each(column as usize, value);
-                }
-            }
-        }
+    /// The position of a dof: `None` where it is no unknown, or of another body.
+    pub fn position(&self, dof: usize) -> Option<usize> {
+        let position = *self.position.get(dof.checked_sub(self.origin)?)?;
+        (position != FIXED).then_some(position as usize)
+    }
+
+    /// Whether a dof is of the body.
+    pub fn contains(&self, dof: usize) -> bool {
+        dof >= self.origin && dof - self.origin < self.position.len()
     }
 }

@@ -71,7 +71,8 @@ impl Active {
             let end = list.partition_point(|&i| i < range[1]);
             let start = list.partition_point(|&i| i < range[0]);
             starts.push(start);
-            let cut = || cut(&part.compliance, &list[start..end], range[0]);
+            let own = list[start..end].iter().map(|&i| i - range[0]);
+            let cut = || part.compliance.cut(own);
             compliance.push((!whole).then(cut));
         }
         starts.push(list.len());
@@ -107,15 +108,4 @@ impl Active {
             None => &condensation.parts[part].compliance,
         }
     }
-}
-
-/// The compliance of a part among some of its candidates, whose positions count from `start`.
-fn cut(compliance: &Compliance, own: &[usize], start: usize) -> Compliance {
-    let (n, values) = (compliance.size(), compliance.values());
-    let mut cut = Vec::with_capacity(own.len() * own.len());
-    for &j in own {
-        let column = &values[(j - start) * n..(j - start + 1) * n];
-        cut.extend(own.iter().map(|&i| column[i - start]));
-    }
-    Compliance::from_values(own.len(), cut)
 }

@@ -2,6 +2,7 @@ use super::condensation::Condensation;
 use super::preconditioner::SMALL;
 use super::reduced_system::{ReducedSystem, TINY};
 use crate::newton::bulk::Bulk;
+use crate::newton::describe;
 use crate::newton::settings::Settings;
 use crate::newton::statistics::Statistics;
 use crate::system::{Assembler, Cause, StepFailure};
@@ -149,7 +150,12 @@ impl Bulk for CondensedBulk<'_> {
             &b,
             tolerance,
             (settings, &mut *statistics),
-        )?;
+        );
+        // Products with a compliance that an engine had are no numbers then.
+        if let Some(fault) = self.condensation.fault() {
+            return Err(describe(fault));
+        }
+        let solved = solved?;
         self.before.clone_from(&self.now);
         self.step = solved.forces;
         self.condensation.scatter(&solved.displacements, du);

@@ -9,7 +9,7 @@ use super::identity::{Identity, Part};
 use super::library::{Library, Reserved, Source};
 use super::substructure::{Seconds, Substructure, SweptPart};
 use crate::lease::Lease;
-use crate::linear::{BlockCsr, Engine, FactorEffort, LinearError, Ordered, Workspace};
+use crate::linear::{Engine, FactorEffort, LinearError, Matrix, Ordered, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::dot;
 
@@ -109,7 +109,7 @@ impl Plan {
     /// # Errors
     /// Those of [`Engine::order`].
     pub fn new(
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         parts: &[Range<usize>],
         (fixed, kept): (&[bool], &[bool]),
         (places, typical): (Places, f64),
@@ -168,7 +168,10 @@ impl Plan {
             effort.notes.extend(note);
             let what = match (known, ordered) {
                 (Some((part, source)), _) => Made::Before(part, source),
-                (None, Some(ordered)) => Made::Not(ordered),
+                (None, Some(ordered)) => {
+                    effort.notes.extend(ordered.note());
+                    Made::Not(ordered)
+                }
                 (None, None) => unreachable!("what is not known was ordered"),
             };
             parts.push(Planned {
@@ -202,9 +205,11 @@ impl Plan {
             cost.dense += n * n;
             cost.candidates += root;
             cost.bytes += effort.bytes;
+            if ordered.compliance_is_here() {
+                // the inverse, its copy in single precision and the work space
+                cost.bytes += (28.0 * n * n) as u64;
+            }
         }
-        // the inverse, its copy in single precision and the work space
-        cost.bytes += (28.0 * cost.dense) as u64;
         cost
     }
 }
@@ -225,7 +230,7 @@ impl Plan {
     /// holds none, so that no two processes wait for each other.
     fn carry_out(
         self,
-        (matrix, held): (&BlockCsr, &[bool]),
+        (matrix, held): (&dyn Matrix, &[bool]),
         (places, typical): (Places, f64),
         library: &Library,
         waits: &dyn Fn() -> bool,
@@ -365,7 +370,7 @@ impl Condensation {
     /// Those of [`Substructure::new`].
     pub fn new(
         plan: Plan,
-        (matrix, held): (&BlockCsr, &[bool]),
+        (matrix, held): (&dyn Matrix, &[bool]),
         springs: (Places, f64),
         library: &Library,
         waits: &dyn Fn() -> bool,
@@ -416,6 +421,11 @@ impl Condensation {
         for (&dof, &value) in self.dofs.iter().zip(values) {
             all[dof] = value;
         }
+    }
+
+    /// Why the engine that has a factor cannot go on, if it cannot.
+    pub fn fault(&self) -> Option<LinearError> {
+        self.parts.iter().find_map(|part| part.interior.fault())
     }
 
     /// The compliance product `W s`.

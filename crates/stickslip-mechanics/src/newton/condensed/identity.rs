@@ -1,7 +1,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::linear::{BlockCsr, Digest};
+use crate::linear::{Digest, Matrix};
 use crate::math::Vec3;
 
 /// A digest of all that decides what a factorisation or an analysis results in: what has the same one is the same, whatever it was made for.
@@ -15,7 +15,7 @@ const GENERATION: u64 = 2;
 #[derive(Debug, Clone, Copy)]
 pub struct Part<'a> {
     /// The matrix.
-    pub matrix: &'a BlockCsr,
+    pub matrix: &'a dyn Matrix,
     /// First point of the part, and the one behind the last.
     pub points: (usize, usize),
     /// One mark a dof of the matrix.
@@ -42,7 +42,9 @@ impl Part<'_> {
     /// Other bodies have no part in it.
     pub fn substructure(&self, place: &dyn Fn(usize) -> Option<Vec3>, typical: f64) -> Identity {
         let mut digest = self.structure();
-        self.matrix.mix_values(self.points(), &mut digest);
+        if let Ok(matrix) = self.matrix.kept() {
+            matrix.mix_values(self.points(), &mut digest);
+        }
         let kept = self.points().filter(|&point| self.kept[point]);
         let mut places = Vec::new();
         for point in kept {
@@ -61,12 +63,18 @@ impl Part<'_> {
         for word in [b, points.start, points.end] {
             digest.word(word as u64);
         }
-        self.matrix.mix_pattern(points.clone(), &mut digest);
+        match self.matrix.kept() {
+            Ok(matrix) => matrix.mix_pattern(points.clone(), &mut digest),
+            Err(made_of) => made_of.iter().for_each(|&word| digest.word(word)),
+        }
         digest.marks(&self.fixed[points.start * b..points.end * b]);
         digest.marks(&self.kept[points.clone()]);
         // A part is coupled to dofs elsewhere only if they are no unknowns.
+        let Ok(matrix) = self.matrix.kept() else {
+            return digest;
+        };
         for point in points.clone() {
-            let others = self.matrix.neighbours(point);
+            let others = matrix.neighbours(point);
             let ends = [others.first(), others.last()].into_iter().flatten();
             if ends.into_iter().all(|&p| points.contains(&(p as usize))) {
                 continue;

@@ -109,7 +109,7 @@ impl Library {
     /// The substructure of a part, if it was made before.
     pub(super) fn find(&self, identity: Identity, part: &Part) -> Found {
         let known = self.shelves().substructures.find(identity);
-        if let Some(found) = known.filter(|known| known.interior.is_alive()) {
+        if let Some(found) = known.filter(|known| known.interior.fault().is_none()) {
             return (Some((found, Source::Memory)), None);
         }
         let Some(path) = self.path(identity) else {

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::condensation::{Condensation, Swept};
-use crate::linear::{BlockCsr, LinearError};
+use crate::linear::{LinearError, Matrix};
 use crate::math::vector::{dot, norm};
 
 /// The patterns of loads and prescribed displacements met so far, swept through the factors once.
@@ -73,7 +73,7 @@ impl LoadPatterns {
     pub fn again(
         recipe: PatternsRecipe,
         condensation: &Condensation,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
     ) -> Result<Self, LinearError> {
         let pattern = |(unit, (root, interior)): (Arc<Vec<f64>>, Swept)| Pattern {
             unit,
@@ -103,7 +103,7 @@ impl LoadPatterns {
     pub fn resolve(
         &mut self,
         condensation: &Condensation,
-        matrix: &BlockCsr,
+        matrix: &dyn Matrix,
         external: &[f64],
         prescribed: &[f64],
     ) -> Result<Amplitudes, LinearError> {
@@ -161,9 +161,8 @@ impl LoadPatterns {
 }
 
 /// The forces that prescribed displacements bring to the free dofs.
-fn resisted(matrix: &BlockCsr, motion: &[f64]) -> Vec<f64> {
-    let mut forces = vec![0.0; motion.len()];
-    matrix.mul(motion, &mut forces);
+fn resisted(matrix: &dyn Matrix, motion: &[f64]) -> Vec<f64> {
+    let mut forces = matrix.times(motion);
     forces.iter_mut().for_each(|f| *f = -*f);
     forces
 }

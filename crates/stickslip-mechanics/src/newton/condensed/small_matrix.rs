@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::lu::Entry;
 use super::rows::{Rows, at_active};
 use super::tangent::Tangent;
+use crate::linear::Compliance;
 use crate::math::vector::dot;
 
 /// Columns that are made together. Points beside each other share most of their nodes: a product of matrices takes each column of the compliance once for all
@@ -51,6 +52,10 @@ impl Block<'_> {
                 continue;
             }
             let w = active.compliance(condensation, part);
+            if !w.is_here() {
+                elsewhere(w, own.map(|(at, b)| (at - start, b)), &mut out[start..end]);
+                continue;
+            }
             wide.clear();
             own.for_each(|(at, _)| wide.extend_from_slice(T::column(w, at - start)));
             matmul(
@@ -83,6 +88,28 @@ impl Block<'_> {
             }
         }
         entries
+    }
+}
+
+/// The same with a compliance that an engine has: all columns go there at once.
+fn elsewhere<'a, T: Entry + 'a>(
+    w: &Compliance,
+    entries: impl Iterator<Item = (usize, &'a [T; COLUMNS])>,
+    out: &mut [[T; COLUMNS]],
+) {
+    let n = out.len();
+    let mut x = vec![0.0; n * COLUMNS];
+    for (at, row) in entries {
+        for (k, b) in row.iter().enumerate() {
+            x[k * n + at] = b.to();
+        }
+    }
+    let mut y = vec![0.0; x.len()];
+    w.mul_all(&x, &mut y);
+    for (k, column) in y.chunks_exact(n).enumerate() {
+        for (row, &value) in out.iter_mut().zip(column) {
+            row[k] = T::of(value);
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::identity::Identity;
-use crate::linear::{BlockCsr, Compliance, Digest, Interior, LinearError, Ordered, Workspace};
+use crate::linear::{Compliance, Digest, Interior, LinearError, Matrix, Ordered, Schur, Workspace};
 use crate::math::Vec3;
 use crate::math::vector::{dot, norm};
 
@@ -86,37 +86,20 @@ impl Substructure {
     /// # Errors
     /// Those of the factorisation: the interior is singular if the kept points do not hold it.
     pub fn new(
-        (identity, ordered, matrix): (Identity, &Arc<dyn Ordered>, &BlockCsr),
+        (identity, ordered, matrix): (Identity, &Arc<dyn Ordered>, &dyn Matrix),
         (place, typical): (&dyn Fn(usize) -> Option<Vec3>, f64),
         workspace: &Workspace,
     ) -> Result<Substructure, LinearError> {
         let started = Instant::now();
-        let (interior, mut stiffness) = Arc::clone(ordered).factor(matrix, workspace)?;
+        let (interior, schur) = Arc::clone(ordered).factor(matrix, workspace)?;
         let factor = started.elapsed().as_secs_f64();
         let started = Instant::now();
-        let floating = free_motions(
-            ordered.root(),
-            matrix.block_size(),
-            &stiffness,
-            place,
-            typical,
-        );
-        if let Some((modes, sigma)) = &floating {
-            for mode in modes {
-                for j in 0..mode.len() {
-                    let s = sigma * mode[j];
-                    if s != 0.0 {
-                        let n = mode.len();
-                        let column = &mut stiffness[j * n..(j + 1) * n];
-                        for (k, m) in column.iter_mut().zip(mode).skip(j) {
-                            *k += s * m;
-                        }
-                    }
-                }
-            }
-        }
-        let compliance = Compliance::of(ordered.root().len(), &mut stiffness);
-        workspace.give(stiffness);
+        let root = ordered.root();
+        let floating = free_motions((root, matrix.block_size()), &schur, place, typical)?;
+        let held = floating
+            .as_ref()
+            .map_or((&[][..], 0.0), |(modes, sigma)| (&modes[..], *sigma));
+        let compliance = schur.invert(root.len(), held, workspace);
         let compliance = compliance.map_err(|e| match e {
             LinearError::NotPositive { dof } => LinearError::NotPositive {
                 dof: ordered.root().get(dof).map_or(0, |&d| d as usize),
@@ -180,7 +163,8 @@ impl Substructure {
     pub fn bytes(&self) -> u64 {
         let n = self.root().len() as u64;
         let modes = self.floating.as_ref().map_or(0, |f| f.modes.len() as u64);
-        self.interior.bytes() + self.interior.ordered().bytes() + 12 * n * n + 16 * modes * n
+        let dense = if self.compliance.is_here() { 12 } else { 0 };
+        self.interior.bytes() + self.interior.ordered().bytes() + dense * n * n + 16 * modes * n
     }
 
     /// The kept dofs, ascending.
@@ -191,17 +175,16 @@ impl Substructure {
 
 /// Orthonormal rigid motions that meet next to no stiffness, and what springs to hold them with.
 fn free_motions(
-    root: &[u32],
-    dim: usize,
-    stiffness: &[f64],
+    (root, dim): (&[u32], usize),
+    stiffness: &Schur,
     place: &dyn Fn(usize) -> Option<Vec3>,
     typical: f64,
-) -> Option<(Vec<Vec<f64>>, f64)> {
+) -> Result<Option<FreeMotions>, LinearError> {
     let n = root.len();
     if n == 0 {
-        return None;
+        return Ok(None);
     }
-    let trace: f64 = (0..n).map(|i| stiffness[i * (n + 1)]).sum::<f64>() / n as f64;
+    let trace: f64 = stiffness.trace(n) / n as f64;
     let hidden = root.iter().all(|&dof| place(dof as usize / dim).is_none());
     let sigma = if hidden { trace.max(typical) } else { trace };
     let motions: Vec<Vec<f64>> = if hidden {
@@ -219,41 +202,18 @@ fn free_motions(
                 whole
             })
         };
-        let parts = parts(root, dim, stiffness).into_iter();
+        // Parts hang together by stiffness, dofs of a point always: there is one, but for bodies in pieces, as a cut through a bolt makes them.
+        let of_point = |i: usize, j: usize| root[i] as usize / dim == root[j] as usize / dim;
+        let parts = stiffness.pieces(n, of_point).into_iter();
         parts.flat_map(of_part).collect()
     };
     let basis = orthonormal(motions);
-    let soft: Vec<Vec<f64>> = softest(&basis, stiffness, SOFT * sigma);
-    (!soft.is_empty()).then_some((soft, sigma))
+    let soft = softest(&basis, &stiffness.products(&basis)?, SOFT * sigma);
+    Ok((!soft.is_empty()).then_some((soft, sigma)))
 }
 
-/// The places among the kept dofs that hang together by stiffness, those of a point always: one part, but for bodies in pieces, as a cut through a bolt
-/// makes them.
-fn parts(root: &[u32], dim: usize, stiffness: &[f64]) -> Vec<Vec<usize>> {
-    let n = root.len();
-    let mut up: Vec<usize> = (0..n).collect();
-    fn top(up: &mut [usize], mut i: usize) -> usize {
-        while up[i] != i {
-            up[i] = up[up[i]];
-            i = up[i];
-        }
-        i
-    }
-    for j in 0..n {
-        let column = &stiffness[j * n..(j + 1) * n];
-        for i in j + 1..n {
-            let of_point = root[i] as usize / dim == root[j] as usize / dim;
-            if of_point || column[i] != 0.0 {
-                let (a, b) = (top(&mut up, i), top(&mut up, j));
-                up[a.max(b)] = a.min(b);
-            }
-        }
-    }
-    let mut parts: Vec<Vec<usize>> = vec![Vec::new(); n];
-    (0..n).for_each(|i| parts[top(&mut up, i)].push(i));
-    parts.retain(|part| !part.is_empty());
-    parts
-}
+/// Motions, and the stiffness of springs that hold them.
+type FreeMotions = (Vec<Vec<f64>>, f64);
 
 /// Translations and rotations at the dofs; those about the centre of the points have their size.
 fn rigid_motions(root: &[u32], dim: usize, place: &dyn Fn(usize) -> Option<Vec3>) -> Vec<Vec<f64>> {
@@ -306,14 +266,10 @@ fn orthonormal(vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Combinations of the basis that meet less than `limit` of the stiffness.
-fn softest(basis: &[Vec<f64>], stiffness: &[f64], limit: f64) -> Vec<Vec<f64>> {
+/// Combinations of the basis that meet less than `limit` of the stiffness, of which there are the products with it.
+fn softest(basis: &[Vec<f64>], products: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
     let m = basis.len();
     let n = basis.first().map_or(0, Vec::len);
-    let products: Vec<Vec<f64>> = basis
-        .iter()
-        .map(|v| symmetric_product(stiffness, v))
-        .collect();
     let small = Mat::from_fn(m, m, |i, j| dot(&basis[i], &products[j]));
     let Ok(eigen) = small.self_adjoint_eigen(faer::Side::Lower) else {
         return Vec::new();
@@ -329,21 +285,4 @@ fn softest(basis: &[Vec<f64>], stiffness: &[f64], limit: f64) -> Vec<Vec<f64>> {
             v
         })
         .collect()
-}
-
-/// `S v` from the lower triangle.
-fn symmetric_product(s: &[f64], v: &[f64]) -> Vec<f64> {
-    let n = v.len();
-    let mut out = vec![0.0; n];
-    for j in 0..n {
-        let column = &s[j * n..(j + 1) * n];
-        out[j] += column[j] * v[j];
-        let mut sum = 0.0;
-        for i in j + 1..n {
-            out[i] += column[i] * v[j];
-            sum += column[i] * v[i];
-        }
-        out[j] += sum;
-    }
-    out
 }

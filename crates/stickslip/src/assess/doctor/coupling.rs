@@ -34,7 +34,7 @@ fn held(view: &View, point: usize) -> Option<[[f64; 3]; 3]> {
     for (i, row) in block.iter_mut().enumerate().take(dim) {
         for (j, entry) in row.iter_mut().enumerate().take(dim) {
             let dofs = (model.dofs.of(point, i), model.dofs.of(point, j));
-            *entry = view.solver.stiffness.entry(dofs.0, dofs.1);
+            *entry = view.solver.stiffness.at(dofs.0, dofs.1);
         }
     }
     (block[0][0] > 0.0).then_some(block)

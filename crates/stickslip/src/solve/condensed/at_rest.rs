@@ -3,7 +3,7 @@
 use crate::solve::condenser::{Candidates, Condensed};
 use std::time::Instant;
 
-use crate::linear::{BlockCsr, LinearError};
+use crate::linear::{LinearError, Matrix};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -13,7 +13,6 @@ use crate::newton::condensed::{Amplitudes, CondensedBulk};
 use crate::newton::describe;
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{Recovered, check_candidates, check_change};
-use crate::solve::inertia;
 use crate::solve::iteration::Iteration;
 use crate::solve::solver::Solver;
 use crate::solve::work::Work;
@@ -41,7 +40,7 @@ impl Solver {
         let condensed =
             (condenser.at_rest.as_mut()).expect("bodies were condensed when the step was begun");
         let started = Instant::now();
-        let amplitudes = condensed.amplitudes(stiffness, &external, &constraints);
+        let amplitudes = condensed.amplitudes(&**stiffness, &external, &constraints);
         let amplitudes = amplitudes.map_err(describe)?;
         let Condensed {
             condensation,
@@ -175,7 +174,7 @@ impl Solver {
         }
         let u = &accepted.state.u;
         let known = accepted.internal.take();
-        let internal = known.unwrap_or_else(|| inertia::times(&self.stiffness, u));
+        let internal = known.unwrap_or_else(|| self.stiffness.times(u));
         let fixed = frame.constraints(model, t).fixed;
         let both = accepted.contact.iter().zip(&accepted.external);
         let forces = internal.iter().zip(both);
@@ -228,7 +227,7 @@ impl Condensed {
     /// How much of each load pattern there is in an increment.
     fn amplitudes(
         &mut self,
-        stiffness: &BlockCsr,
+        stiffness: &dyn Matrix,
         external: &[f64],
         constraints: &Constraints,
     ) -> Result<Amplitudes, LinearError> {

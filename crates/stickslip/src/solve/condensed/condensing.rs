@@ -4,7 +4,7 @@ use crate::solve::condenser::{Condensed, Which};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::linear::{BlockCsr, LinearError};
+use crate::linear::{LinearError, Matrix};
 use crate::machine;
 use crate::math::Vec3;
 use crate::model::contact::Contact;
@@ -17,7 +17,6 @@ use crate::newton::condensed::{
 };
 use crate::newton::{Factors, describe};
 use crate::solve::choice::cost_fits;
-use crate::solve::inertia;
 use crate::solve::inertia::in_motion;
 use crate::solve::solver::Solver;
 use crate::solve::work::Work;
@@ -52,7 +51,7 @@ impl Solver {
         condensation.scatter(&u, &mut at);
         let mut carried = vec![0.0; u.len()];
         if u.iter().any(|u| *u != 0.0) {
-            let swept = condensation.sweep(&inertia::times(&self.stiffness, &at));
+            let swept = condensation.sweep(&self.stiffness.times(&at));
             carried = match swept {
                 Ok(swept) => swept.0,
                 Err(e) => return self.breaks(e),
@@ -135,9 +134,9 @@ impl Solver {
         }
     }
 
-    fn matrix(&self, which: Which) -> &BlockCsr {
+    fn matrix(&self, which: Which) -> &dyn Matrix {
         match which {
-            Which::Stiffness => &self.stiffness,
+            Which::Stiffness => &*self.stiffness,
             Which::Increment => in_motion(&self.inertia).matrix().0,
             Which::Of(key) => {
                 let kept = in_motion(&self.inertia).matrix_of(key);
@@ -161,7 +160,9 @@ impl Solver {
             self.condenser.decided = Some(held.to_vec());
             return true;
         }
-        let choice = scene.choose(&cost, (self.matrix(which), held));
+        let matrix = self.matrix(which).kept();
+        let matrix = matrix.expect("only engines that are chosen do without entries");
+        let choice = scene.choose(&cost, (matrix, held));
         let forced = self.method == Solution::Condensed;
         let fits = cost_fits(cost.bytes);
         let method = if forced && fits {

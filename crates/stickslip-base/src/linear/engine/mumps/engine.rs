@@ -4,9 +4,10 @@ use std::sync::atomic::Ordering;
 use super::body::Body;
 use super::job::Job;
 use super::options::MumpsOptions;
+use crate::linear::engine::bare::Bare;
 use crate::linear::engine::contract::{Cut, Engine, EngineReport, Ordered};
 use crate::linear::engine::split::Split;
-use crate::linear::{BlockCsr, Fronts, LinearError};
+use crate::linear::{LinearError, Matrix};
 
 /// MUMPS on the ranks of an MPI job, which ends with the last factor of its bodies.
 #[derive(Debug)]
@@ -49,18 +50,18 @@ impl Engine for Mumps {
 
     fn order(
         self: Arc<Self>,
-        matrix: &BlockCsr,
-        (points, fixed, kept): Cut,
+        matrix: &dyn Matrix,
+        body: Cut,
     ) -> Result<Arc<dyn Ordered>, LinearError> {
-        let split = Split::new(matrix, (points.clone(), fixed, kept))?;
+        let split = Split::new(matrix, body)?;
         if split.interior.is_empty() {
             // There is nothing to eliminate, as in rigid bodies.
-            return Ok(Arc::new(Fronts::analyze(matrix, points, fixed, kept)?));
+            return Ok(Arc::new(Bare(split)));
         }
-        Ok(Arc::new(Body {
-            job: Arc::clone(&self.job),
-            options: self.options,
+        Ok(Arc::new(Body::new(
+            Arc::clone(&self.job),
+            self.options,
             split,
-        }))
+        )))
     }
 }

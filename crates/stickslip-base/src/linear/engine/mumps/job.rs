@@ -1,4 +1,4 @@
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -8,10 +8,12 @@ use std::time::{Duration, Instant};
 
 use super::folder::Folder;
 use super::program;
+use super::refusal::refusal;
+use super::words::{WordReader, WordWriter};
 use crate::linear::LinearError;
 
 /// Version of the protocol.
-const PROTOCOL: &str = "1";
+const PROTOCOL: &str = "2";
 
 /// Bodies with a factor at a time.
 const BODIES: usize = 256;
@@ -107,6 +109,18 @@ impl Job {
         self.alive.load(Ordering::Relaxed)
     }
 
+    /// Why it has ended, if it has.
+    pub fn fault(&self) -> Option<LinearError> {
+        if self.is_alive() {
+            return None;
+        }
+        let mut talk = self.talk.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(match &talk.over {
+            Some(over) => over.clone(),
+            None => talk.died("has died", DIED),
+        })
+    }
+
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
@@ -148,11 +162,42 @@ impl Job {
             return unusable(error);
         }
         self.alive.store(false, Ordering::Relaxed);
-        let mut talk = self.talk.lock().unwrap_or_else(PoisonError::into_inner);
-        match &talk.over {
-            Some(over) => over.clone(),
-            None => talk.died("has died", DIED),
-        }
+        self.fault().unwrap_or_else(|| unusable(error))
+    }
+
+    /// Has the ranks do something with vectors. Returns the path of their file, beside which there are those of what came of it.
+    ///
+    /// # Errors
+    /// [`LinearError::Engine`], and what MUMPS complains of.
+    pub fn send(&self, command: &str, vectors: &[&[f64]]) -> Result<PathBuf, LinearError> {
+        let (name, path) = self.new_file();
+        let write = || -> io::Result<()> {
+            let mut file = WordWriter::new(&path)?;
+            vectors.iter().try_for_each(|v| file.numbers(v))?;
+            file.finish()
+        };
+        write().map_err(|e| self.trouble(&e))?;
+        let answer = self.ask(&format!("{command} {name}"))?;
+        answer.map_err(|words| refusal(&words))?;
+        Ok(path)
+    }
+
+    /// The same, and reads what came of it.
+    ///
+    /// # Errors
+    /// As for [`send`](Job::send).
+    pub fn vectors(
+        &self,
+        command: &str,
+        vectors: &[&[f64]],
+        out: &mut [f64],
+    ) -> Result<(), LinearError> {
+        let result = self.send(command, vectors)?.with_extension("out");
+        let read = WordReader::new(&result).and_then(|mut reader| {
+            reader.numbers(out)?;
+            reader.finish()
+        });
+        read.map_err(|e| self.trouble(&e))
     }
 
     /// Sends a command, and waits for its answer: the words behind `ok`, or behind `error`. Nothing in here uses the threads of rayon: one that waits for others could

@@ -9,12 +9,15 @@ pub struct MumpsOptions {
     pub low_rank: Option<f64>,
     /// Most memory that a rank may take for a body `[bytes]`.
     pub memory: Option<u64>,
+    /// Whether the compliance of the kept dofs stays with the ranks; if `None`, where it would take more than half of the memory that is free here.
+    pub spread: Option<bool>,
 }
 
 impl MumpsOptions {
     /// What results depend on, as a number that is not 0.
     pub(super) fn identity(&self) -> u64 {
         let eps = self.low_rank.unwrap_or(0.0).to_bits();
-        (eps ^ self.ranks as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1
+        let spread = self.spread.map_or(0, |spread| 1 + u64::from(spread)) << 32;
+        (eps ^ spread ^ self.ranks as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1
     }
 }

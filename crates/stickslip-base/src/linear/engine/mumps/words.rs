@@ -1,7 +1,7 @@
 //! Files of words, eight bytes each: what they are, how many there are, the words, a checksum. Both sides run on machines of one kind.
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// Names the format: `spslump1` in little endian.
@@ -15,28 +15,28 @@ fn mix(sum: u64, word: u64) -> u64 {
     mixed ^ (mixed >> 32)
 }
 
-/// Writes a file whose number of words is known beforehand.
+/// Writes a file, whose number of words is entered in the end.
 pub(super) struct WordWriter {
     file: BufWriter<File>,
-    left: u64,
+    count: u64,
     sum: u64,
 }
 
 impl WordWriter {
-    pub fn new(path: &Path, count: u64) -> io::Result<Self> {
+    pub fn new(path: &Path) -> io::Result<Self> {
         let mut file = BufWriter::with_capacity(CHUNK, File::create(path)?);
         file.write_all(&MAGIC.to_ne_bytes())?;
-        file.write_all(&count.to_ne_bytes())?;
+        file.write_all(&0_u64.to_ne_bytes())?;
         Ok(WordWriter {
             file,
-            left: count,
+            count: 0,
             sum: 0,
         })
     }
 
     pub fn word(&mut self, word: u64) -> io::Result<()> {
         self.sum = mix(self.sum, word);
-        self.left = self.left.wrapping_sub(1);
+        self.count += 1;
         self.file.write_all(&word.to_ne_bytes())
     }
 
@@ -45,35 +45,35 @@ impl WordWriter {
     }
 
     pub fn finish(mut self) -> io::Result<()> {
-        if self.left != 0 {
-            return Err(io::Error::other("another number of words than announced"));
-        }
         self.file.write_all(&self.sum.to_ne_bytes())?;
+        self.file
+            .seek(SeekFrom::Start(size_of_val(&MAGIC) as u64))?;
+        self.file.write_all(&self.count.to_ne_bytes())?;
         self.file.flush()
     }
 }
 
-/// Reads a file of a number of words that is known, and deletes it.
+/// Reads a file, and deletes it.
 pub(super) struct WordReader<'a> {
     path: &'a Path,
     file: BufReader<File>,
+    left: u64,
     sum: u64,
 }
 
 impl<'a> WordReader<'a> {
-    pub fn new(path: &'a Path, count: usize) -> io::Result<Self> {
+    pub fn new(path: &'a Path) -> io::Result<Self> {
         let file = File::open(path)?;
         let mut reader = WordReader {
             path,
             file: BufReader::with_capacity(CHUNK, file),
+            left: 0,
             sum: 0,
         };
         if reader.raw()? != MAGIC {
             return Err(io::Error::other("it is something else"));
         }
-        if reader.raw()? != count as u64 {
-            return Err(io::Error::other("it has another length"));
-        }
+        reader.left = reader.raw()?;
         Ok(reader)
     }
 
@@ -83,16 +83,25 @@ impl<'a> WordReader<'a> {
         Ok(u64::from_ne_bytes(bytes))
     }
 
+    pub fn word(&mut self) -> io::Result<u64> {
+        let other = || io::Error::other("it has another length");
+        self.left = self.left.checked_sub(1).ok_or_else(other)?;
+        let word = self.raw()?;
+        self.sum = mix(self.sum, word);
+        Ok(word)
+    }
+
     pub fn numbers(&mut self, out: &mut [f64]) -> io::Result<()> {
         for x in out {
-            let word = self.raw()?;
-            self.sum = mix(self.sum, word);
-            *x = f64::from_bits(word);
+            *x = f64::from_bits(self.word()?);
         }
         Ok(())
     }
 
     pub fn finish(mut self) -> io::Result<()> {
+        if self.left != 0 {
+            return Err(io::Error::other("it has another length"));
+        }
         if self.raw()? != self.sum {
             return Err(io::Error::other("it is damaged"));
         }

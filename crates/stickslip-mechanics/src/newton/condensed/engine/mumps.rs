@@ -26,6 +26,9 @@ pub struct Mumps {
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<f64>,
+    /// Whether the compliance of the contact candidates stays with the ranks. If not given, where it would take more than half of what is free in the first process.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<bool>,
 }
 
 impl Default for Mumps {
@@ -35,6 +38,7 @@ impl Default for Mumps {
             out_of_core: false,
             low_rank: None,
             memory: None,
+            spread: None,
         }
     }
 }
@@ -46,6 +50,7 @@ impl EngineChoice for Mumps {
             out_of_core: self.out_of_core,
             low_rank: self.low_rank,
             memory: self.memory.map(|mb| (1e6 * mb) as u64),
+            spread: self.spread,
         })?;
         Ok(Arc::new(engine))
     }
@@ -62,6 +67,7 @@ impl Samples for Mumps {
             out_of_core: true,
             low_rank: Some(1e-10),
             memory: Some(2000.0),
+            spread: Some(true),
         };
         vec![Mumps::default(), compressed]
     }

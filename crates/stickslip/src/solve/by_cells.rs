@@ -1,0 +1,161 @@
+//! The stiffness of a model that nobody keeps.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use crate::body::Elastic;
+use crate::linear::{BlockCsr, Matrix, Summands};
+use crate::model::definition::{Model, Step};
+use crate::newton::condensed::Identity;
+use crate::system::{Dofs, Links};
+
+/// The stiffness of bodies, rigid links and springs as the sum over them: those of the cells are made anew whenever they are asked for.
+///
+/// A product takes the work of an assembly. An engine that factors elsewhere needs every entry once, and a quasi-static analysis on contact candidates a
+/// product for each pattern of loads and for each sweep over sixteen increments: this is what the entries would take, 0.7 kB a dof in a solid, saved in this process.
+#[derive(Debug)]
+pub(super) struct ByCells {
+    dofs: Dofs,
+    bodies: Vec<(Range<usize>, Elastic)>,
+    links: Links,
+    /// Dofs and stiffness `[N/m]`.
+    springs: Vec<(usize, f64)>,
+    identity: Identity,
+    /// The blocks of the diagonal, row by row.
+    blocks: OnceLock<Vec<f64>>,
+}
+
+impl ByCells {
+    /// That of a model, without its bodies where all steps are explicit: they need no matrix.
+    pub fn new(model: &Model, identity: Identity) -> ByCells {
+        let springs = model.springs.iter().flat_map(|s| s.entries());
+        ByCells {
+            dofs: model.dofs,
+            bodies: stiff(model)
+                .map(|body| (body.points.clone(), body.elastic.clone()))
+                .collect(),
+            links: model.links.clone(),
+            springs: springs.copied().collect(),
+            identity,
+            blocks: OnceLock::new(),
+        }
+    }
+
+    /// The blocks of the diagonal, `dim` numbers a dof.
+    fn blocks(&self) -> &[f64] {
+        self.blocks.get_or_init(|| {
+            let dim = self.dofs.dim;
+            let mut blocks = vec![0.0; dim * self.dofs.count()];
+            self.summands(0..self.dofs.points, &mut |row, column, value| {
+                if row / dim == column / dim {
+                    blocks[row * dim + column % dim] += value;
+                }
+            });
+            blocks
+        })
+    }
+
+    /// Hands out dense matrices, row by row, and their points.
+    fn groups(&self, within: Range<usize>, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
+        for (points, elastic) in &self.bodies {
+            if points.start < within.end && within.start < points.end {
+                elastic.element_matrices(visit);
+            }
+        }
+        for &(dof, stiffness) in &self.springs {
+            let (points, dense) = self.links.spring(dof, stiffness);
+            visit(&points, &dense);
+        }
+    }
+}
+
+impl Matrix for ByCells {
+    fn points(&self) -> usize {
+        self.dofs.points
+    }
+
+    fn block_size(&self) -> usize {
+        self.dofs.dim
+    }
+
+    fn mul_all(&self, all: &[&[f64]]) -> Vec<Vec<f64>> {
+        let dim = self.dofs.dim;
+        let mut out = vec![vec![0.0; self.dofs.count()]; all.len()];
+        let mut own = Vec::new();
+        self.groups(0..self.dofs.points, &mut |points, dense| {
+            let width = points.len() * dim;
+            let dofs = || points.iter().flat_map(|p| p * dim..(p + 1) * dim);
+            for (x, out) in all.iter().zip(&mut out) {
+                own.clear();
+                own.extend(dofs().map(|dof| x[dof]));
+                for (dof, row) in dofs().zip(dense.chunks_exact(width)) {
+                    out[dof] += row.iter().zip(&own).map(|(k, x)| k * x).sum::<f64>();
+                }
+            }
+        });
+        out
+    }
+
+    fn diagonal(&self) -> Vec<f64> {
+        let dim = self.dofs.dim;
+        let own = |dof: usize| self.blocks()[dof * dim + dof % dim];
+        (0..self.dofs.count()).map(own).collect()
+    }
+
+    /// Within a point, of which many are asked for, from the blocks of the diagonal.
+    fn at(&self, row: usize, column: usize) -> f64 {
+        let dim = self.dofs.dim;
+        if row / dim == column / dim {
+            return self.blocks()[row * dim + column % dim];
+        }
+        let mut sum = 0.0;
+        self.summands(row / dim..row / dim + 1, &mut |i, j, value| {
+            sum += if (i, j) == (row, column) { value } else { 0.0 };
+        });
+        sum
+    }
+
+    fn summands(&self, points: Range<usize>, visit: &mut Summands) {
+        let dim = self.dofs.dim;
+        self.groups(points, &mut |points, dense| {
+            let dof = |k: usize| points[k / dim] * dim + k % dim;
+            let width = points.len() * dim;
+            for (i, row) in dense.chunks_exact(width).enumerate() {
+                for (j, &value) in row.iter().enumerate() {
+                    visit(dof(i), dof(j), value);
+                }
+            }
+        });
+    }
+
+    fn kept(&self) -> Result<&BlockCsr, [u64; 2]> {
+        Err(self.identity.words())
+    }
+
+    fn make(&self) -> BlockCsr {
+        let Dofs { points, dim } = self.dofs;
+        let mut stiffness = BlockCsr::from_couplings(points, dim, &mut |visit| {
+            (self.bodies.iter()).for_each(|(_, elastic)| elastic.couplings(visit));
+            for link in self.links.all() {
+                visit(&[link.hidden, link.hidden + 1]);
+            }
+        });
+        (self.bodies.iter()).for_each(|(_, elastic)| elastic.stiffness(&mut stiffness));
+        for &(dof, k) in &self.springs {
+            self.links.add_spring(&mut stiffness, dof, k);
+        }
+        stiffness
+    }
+}
+
+/// The bodies whose matrix is needed: an explicit analysis needs none.
+pub(super) fn stiff(model: &Model) -> impl Iterator<Item = &crate::model::definition::Body> {
+    let needed = !model.steps.iter().all(Step::is_explicit);
+    model.elastic().filter(move |_| needed)
+}
+
+/// Whether an analysis does without the entries: factors are elsewhere, and nothing moves.
+pub(super) fn suffices(model: &Model) -> bool {
+    let at_rest = |step: &Step| step.dynamic.is_none() && step.modal.is_none();
+    model.engine.as_dyn().condenses() && model.steps.iter().all(at_rest)
+}
