@@ -10,6 +10,7 @@ use faer::linalg::cholesky::llt::inverse::{inverse, inverse_scratch};
 use faer::{MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
+use super::elsewhere::Elsewhere;
 use super::factor::zeros;
 use super::{LinearError, Spread};
 
@@ -24,16 +25,6 @@ pub struct Compliance {
     values: Vec<f64>,
     single: OnceLock<Vec<f32>>,
     spread: Option<Elsewhere>,
-}
-
-/// A matrix that an engine has, or the rows and columns of it that are meant.
-#[derive(Debug)]
-struct Elsewhere {
-    by: Arc<dyn Spread>,
-    /// Rows of the whole.
-    size: usize,
-    /// Those that are meant.
-    list: Vec<u32>,
 }
 
 /// Columns below which one task does everything.
@@ -279,34 +270,6 @@ impl Compliance {
     pub fn bytes(&self) -> u64 {
         let single = self.single.get().map_or(0, Vec::len);
         8 * self.values.len() as u64 + 4 * single as u64
-    }
-}
-
-impl Elsewhere {
-    /// Products with vectors of as many entries as rows are meant.
-    fn products(&self, x: &[f64], y: &mut [f64]) {
-        let (n, all) = (self.list.len().max(1), self.size.max(1));
-        assert!(
-            x.len() == y.len() && x.len().is_multiple_of(n),
-            "length of vectors"
-        );
-        if x.iter().all(|x| *x == 0.0) {
-            return y.fill(0.0);
-        }
-        let mut wide = vec![0.0; x.len() / n * all];
-        for (wide, x) in wide.chunks_mut(all).zip(x.chunks(n)) {
-            for (&at, x) in self.list.iter().zip(x) {
-                wide[at as usize] = *x;
-            }
-        }
-        let Ok(products) = self.by.products(&wide) else {
-            return y.fill(f64::NAN);
-        };
-        for (products, y) in products.chunks(all).zip(y.chunks_mut(n)) {
-            for (&at, y) in self.list.iter().zip(y) {
-                *y = products[at as usize];
-            }
-        }
     }
 }
 

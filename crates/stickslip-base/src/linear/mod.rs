@@ -8,6 +8,7 @@ mod block_csr;
 mod compliance;
 mod digest;
 mod eigen;
+mod elsewhere;
 mod engine;
 mod error;
 mod factor;

@@ -45,8 +45,8 @@ impl Schur {
             Schur::Here(values) => {
                 for j in 0..n {
                     let column = &values[j * n..(j + 1) * n];
-                    for i in j + 1..n {
-                        if together(i, j) || column[i] != 0.0 {
+                    for (i, &value) in column.iter().enumerate().skip(j + 1) {
+                        if together(i, j) || value != 0.0 {
                             union.join(i, j);
                         }
                     }

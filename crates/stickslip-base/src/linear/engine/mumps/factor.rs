@@ -10,7 +10,7 @@ use super::refusal::refusal;
 use super::root::Root;
 use super::words::WordReader;
 use crate::linear::engine::contract::{FactorEffort, Interior, Ordered};
-use crate::linear::{LinearError, Matrix, Schur, Workspace};
+use crate::linear::{LinearError, Matrix, Numbers, Schur, Workspace};
 
 /// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix.
 const TRUST: f64 = 1e-3;
@@ -123,15 +123,7 @@ impl Factor {
                 pieces,
                 trace: figure(4).unwrap_or(f64::NAN),
             })),
-            false => {
-                let path = body.job.folder().join(format!("{file}.schur"));
-                let mut values = workspace.take(c * c)?;
-                if c > 0 {
-                    let read = read_triangle(&path, c, &mut values);
-                    read.map_err(|e| body.job.trouble(&e))?;
-                }
-                Schur::Here(values)
-            }
+            false => Schur::Here(body.read_schur(&file, workspace)?),
         };
         let factor = Factor {
             body: Arc::clone(body),
@@ -186,14 +178,25 @@ impl Factor {
     }
 }
 
-/// The lower triangle of `c` rows, column by column; zeros above it.
-fn read_triangle(path: &Path, c: usize, values: &mut [f64]) -> io::Result<()> {
-    values.fill(0.0);
-    let mut reader = WordReader::new(path)?;
-    for (j, column) in values.chunks_exact_mut(c).enumerate() {
-        reader.numbers(&mut column[j..])?;
+impl Body {
+    /// The Schur complement that rank 0 has written: of its lower triangle, column by column.
+    fn read_schur(&self, file: &str, workspace: &Workspace) -> Result<Numbers, LinearError> {
+        let c = self.split.root.len();
+        let mut values = workspace.take(c * c)?;
+        values.fill(0.0);
+        let path = self.job.folder().join(format!("{file}.schur"));
+        let mut read = || -> io::Result<()> {
+            let mut reader = WordReader::new(&path)?;
+            for (j, column) in values.chunks_exact_mut(c.max(1)).enumerate() {
+                reader.numbers(&mut column[j..])?;
+            }
+            reader.finish()
+        };
+        if c > 0 {
+            read().map_err(|e| self.job.trouble(&e))?;
+        }
+        Ok(values)
     }
-    reader.finish()
 }
 
 impl Interior for Factor {
@@ -289,7 +292,9 @@ impl Factor {
                 reader.numbers(&mut values)?;
                 for (&row, value) in rows.iter().zip(&values) {
                     // Those of kept dofs are known.
-                    column.get_mut(row as usize).map(|out| *out = *value);
+                    if let Some(out) = column.get_mut(row as usize) {
+                        *out = *value;
+                    }
                 }
             }
             reader.finish()?;
