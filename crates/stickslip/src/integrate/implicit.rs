@@ -292,12 +292,6 @@ impl Implicit {
     ) -> Guess {
         let internal = solver.elastic(model, &u);
         let stage = self.elastic_at_stage((model, frame), solver, &u, &internal);
-        let mut u = increment.predict();
-        constraints.impose(&mut u);
-        model.links.impose(&mut u);
-        let internal = solver.stiffness.times(&u);
-        let stage = mix(self.alphas.alpha_f, &frame.motion.internal, &internal);
-        let inertia = in_motion(&solver.inertia);
         let known = (stage.as_slice(), external, weights[0]);
         let (mut forces, scale) = self.balance((model, frame), solver, increment, &u, known);
         let weight = weights[1];

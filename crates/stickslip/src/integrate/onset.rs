@@ -117,7 +117,6 @@ impl Implicit {
             true => 0.5 * dot(&frame.state.u, &internal),
             false => solver.strain_energy(model, &frame.state.u),
         };
-        let internal = solver.stiffness.times(&frame.state.u);
         let energy = &mut frame.ledger;
         let strain = strain + energy.thermal;
         energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
@@ -225,7 +224,6 @@ fn start_motion(
     energy.initial += energy.kinetic - before;
     frame.motion = Motion {
         internal: solver.elastic(model, &frame.state.u),
-        internal: solver.stiffness.times(&frame.state.u),
         start: frame.state.u.clone(),
         travel: 0.0,
     };

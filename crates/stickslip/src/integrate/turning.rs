@@ -15,7 +15,6 @@ use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::check_change;
-use crate::solve::inertia::times;
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
 use crate::system::{State, StepFailure};
@@ -98,7 +97,7 @@ fn pass(
     (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
     let mut external = Vec::new();
     sight.load(model, &u, trial.to, &mut external);
-    let missed = difference(&solver.elastic(model, &u), &times(&solver.stiffness, &u));
+    let missed = difference(&solver.elastic(model, &u), &solver.stiffness.times(&u));
     let mut at = State {
         t: trial.to,
         u,

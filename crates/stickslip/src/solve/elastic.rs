@@ -1,7 +1,7 @@
 //! What bodies resist displacements and velocities with. Those with frames of their own ([`Corotations`](crate::system::Corotations)) do in these, any others
 //! along the axes that displacements have.
 
-use super::inertia::{in_motion, times};
+use super::inertia::in_motion;
 use super::solver::Solver;
 use crate::math::vector::dot;
 use crate::model::definition::Model;
@@ -14,11 +14,11 @@ impl Solver {
     pub fn elastic(&self, model: &Model, u: &[f64]) -> Vec<f64> {
         let bodies = &model.corotations;
         if bodies.is_empty() {
-            return times(&self.stiffness, u);
+            return self.stiffness.times(u);
         }
         let turns = bodies.turns(u);
         let local = bodies.local(&turns, u);
-        let mut forces = times(&self.stiffness, &local);
+        let mut forces = self.stiffness.times(&local);
         bodies.outward(&turns, &local, &mut forces);
         forces
     }
@@ -27,10 +27,10 @@ impl Solver {
     pub fn strain_energy(&self, model: &Model, u: &[f64]) -> f64 {
         let bodies = &model.corotations;
         if bodies.is_empty() {
-            return 0.5 * dot(u, &times(&self.stiffness, u));
+            return 0.5 * dot(u, &self.stiffness.times(u));
         }
         let local = bodies.local(&bodies.turns(u), u);
-        0.5 * dot(&local, &times(&self.stiffness, &local))
+        0.5 * dot(&local, &self.stiffness.times(&local))
     }
 
     /// Elastic forces at the stage of a scheme, which lies between the start and the end of an increment with forces `internal`. What turns is in its frame
@@ -49,7 +49,7 @@ impl Solver {
         }
         let strained = |u: &[f64]| bodies.local(&bodies.turns(u), u);
         let mean = mix(old, &strained(before), &strained(u));
-        let mut forces = times(&self.stiffness, &mean);
+        let mut forces = self.stiffness.times(&mean);
         let stage = mix(old, before, u);
         let turns = bodies.turns(&stage);
         bodies.outward(&turns, &bodies.local(&turns, &stage), &mut forces);

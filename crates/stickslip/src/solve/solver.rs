@@ -9,9 +9,7 @@ use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;
-use crate::linear::{BlockCsr, Digest, Engine};
 use crate::linear::{BlockCsr, Digest, Engine, Matrix};
-use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
 use crate::newton::condensed::{Identity, Library};
@@ -136,11 +134,6 @@ impl Solver {
             bulk: &mut SparseBulk::new(matrix, external, fixed, origin, linearised),
         }
         .solve(task.constraints, task.rate, (task.from, at))
-    }
-
-    /// Strain energy of bodies and springs `[J]`.
-    pub fn strain_energy(&self, u: &[f64]) -> f64 {
-        0.5 * dot(u, &self.stiffness.times(u))
     }
 }
 
