@@ -86,9 +86,9 @@ pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Pa
     let largest = packed.meta["largest"].as_f64().unwrap_or(0.0);
     let factor = crate::plot::scale(skin.size(), largest, sheets.iter().flatten());
     packed.meta["scale"] = json!(factor);
-    let (modes, shapes) = modes::pack(results, &skin, limit / 4, notes)?;
-    packed.meta["modes"] = json!(modes);
-    packed.blobs.extend(shapes);
+    let shapes = modes::pack(results, &skin, limit / 4, notes)?;
+    packed.meta["modes"] = json!(shapes.meta);
+    packed.blobs.extend(shapes.blobs);
     Ok(packed)
 }
 

@@ -20,7 +20,14 @@ struct Shape {
     file: String,
 }
 
-/// Packs as many shapes as fit into `limit` bytes, those that grow fastest first: their descriptions, and arrays by key.
+/// What the view needs of shapes: their descriptions, and packed arrays by their keys.
+#[derive(Debug, Clone, Default)]
+pub struct Shapes {
+    pub meta: Vec<Value>,
+    pub blobs: Vec<(String, String)>,
+}
+
+/// Packs as many shapes as fit into `limit` bytes, those that grow fastest first.
 ///
 /// # Errors
 /// [`Error::Io`] if a file that is listed is missing or damaged.
@@ -29,7 +36,7 @@ pub fn pack(
     skin: &Skin,
     limit: u64,
     notes: &mut Vec<String>,
-) -> Result<(Vec<Value>, Vec<(String, String)>), Error> {
+) -> Result<Shapes, Error> {
     let mut shapes = Vec::new();
     for step in 1..=steps(results) {
         shapes.extend(listed(&results.directory, step)?);
@@ -43,18 +50,18 @@ pub fn pack(
             shapes.len()
         ));
     }
-    let (mut described, mut blobs) = (Vec::new(), Vec::new());
+    let mut out = Shapes::default();
     for (k, shape) in kept.into_iter().map(|k| &shapes[k]).enumerate() {
         let file = results.directory.join(&shape.file);
         let (parts, values) = packed(&file, skin)?;
         let quantised = pack::quantise(&values);
         let key = format!("mode{k}");
-        described.push(json!({
+        out.meta.push(json!({
             "key": key, "label": shape.label, "parts": parts, "range": quantised.range,
         }));
-        blobs.push((key, pack::shorts(&quantised.values)));
+        out.blobs.push((key, pack::shorts(&quantised.values)));
     }
-    Ok((described, blobs))
+    Ok(out)
 }
 
 /// How many steps the problem has; none, where it is not known.
