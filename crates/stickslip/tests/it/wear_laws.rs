@@ -20,6 +20,20 @@ fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
     );
 }
 
+/// Friction where a law asks for its energy: a point sticks at first by a spring, which takes a part of the way below [`STUCK`]. Other laws are tried without.
+fn friction(law: &str) -> String {
+    match law.contains("energy") {
+        true => format!("friction.coulomb = {{ mu = {MU} }}"),
+        false => String::new(),
+    }
+}
+
+const STUCK: f64 = 5e-6;
+
+fn tolerance(law: &str) -> f64 {
+    if law.contains("energy") { STUCK } else { 1e-8 }
+}
+
 /// A block held across and pressed by a load on a rigid flat, which slides by `PATH` beneath it in one unit of time.
 fn pressed(wear: &str, increments: usize) -> Simulation {
     run(&format!(
@@ -34,10 +48,11 @@ step = [{{ name = "press", increments.fixed = 1 }}, {{ name = "slide", increment
 [interface.joint]
 secondary = "block.bottom"
 primary = "flat"
-friction.coulomb = {{ mu = {MU} }}
 enforcement.augmented-lagrangian = {{ error = 1e-10 }}
+{friction}
 {wear}
-"#
+"#,
+        friction = friction(wear)
     ))
 }
 
@@ -97,7 +112,7 @@ fn every_law_takes_off_the_depth_of_its_formula() {
         ] {
             let simulation = pressed(&format!("wear.{law}\n{more}"), 3);
             let found = simulation.summary.last["joint.CWEARMAX"];
-            close(found, depth, 1e-8, &format!("{law} {more}"));
+            close(found, depth, tolerance(law), &format!("{law} {more}"));
             assert!(simulation.summary.quality.met, "{law} {more}");
         }
     }
@@ -141,16 +156,18 @@ step = [{{ name = "press", increments.fixed = 1 }}, {{ name = "fret", cycles = {
 [interface.joint]
 secondary = "block.bottom"
 primary = "flat"
-friction.coulomb = {{ mu = {MU} }}
 enforcement.augmented-lagrangian = {{ error = 1e-10 }}
+{friction}
 wear.{law}
-"#
+"#,
+            friction = friction(law)
         );
         let found = run(&text).summary.last["joint.CWEARMAX"];
         close(
             found,
             1e-6 * PRESSURE * expected,
-            1e-7,
+            // It sticks anew at every turn, four times in what is computed.
+            4.0 * tolerance(law),
             &format!("{law} {jump}"),
         );
     }
@@ -265,13 +282,14 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
     let volume = |s: &Simulation| s.summary.last["joint.CWEARVOL"];
     let at_rest = volume(&driven(", increments.fixed = 20", ""));
     close(at_rest, 3e-6 * 40.0 * 0.64, 0.01, "at rest");
+    // An explicit step is not damped: slider and rail go on swinging from the moment in which springs take over, and the mean force is not the load.
     for (dynamic, tolerance) in [
         (", increments.fixed = 40, dynamic = {}", 0.01),
         (
             ", increments.fixed = 40, dynamic = { scheme.newmark = {} }",
             0.01,
         ),
-        (", dynamic = { scheme.central-difference = {} }", 0.02),
+        (", dynamic = { scheme.central-difference = {} }", 0.05),
     ] {
         for feedback in ["", "wear-feedback = \"explicit\""] {
             let what = format!("{dynamic} {feedback}");
@@ -283,6 +301,9 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
             }
             close(lost[0] / lost[1], 2.0, 1e-12, &what);
             close(volume(&simulation), at_rest, tolerance, &what);
+            // Whatever the force is, friction takes its part of what wears.
+            let rubbed = simulation.summary.last["joint.ALLFD"] / 0.1;
+            close(volume(&simulation), 3e-6 * rubbed, 2e-3, &what);
             let energy = &simulation.summary.energy_quality;
             assert!(energy.residual < 0.02, "{what}: {energy:?}");
         }
