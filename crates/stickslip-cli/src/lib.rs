@@ -51,7 +51,7 @@ enum Command {
     Models(commands::models::Arguments),
     Schema(commands::schema::Arguments),
     Report(commands::report::Arguments),
-    Plot(commands::plot::Arguments),
+    Plot(Box<commands::plot::Arguments>),
     Convert(commands::convert::Arguments),
     Completions(commands::completions::Arguments),
     Man(commands::man::Arguments),

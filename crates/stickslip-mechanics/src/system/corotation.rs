@@ -398,13 +398,10 @@ mod tests {
                 );
             }
             let (mut sum, mut moment) = ([0.0; 3], [0.0; 3]);
-            for p in 0..6 {
+            for (p, &place) in places.iter().enumerate().take(6) {
                 let force = bodies.dofs.vector(&f, p);
                 sum = add(sum, force);
-                moment = add(
-                    moment,
-                    cross(add(places[p], bodies.dofs.vector(&u, p)), force),
-                );
+                moment = add(moment, cross(add(place, bodies.dofs.vector(&u, p)), force));
             }
             assert!(distance(sum, [0.0; 3]) < 1e-14 && distance(moment, [0.0; 3]) < 1e-13);
             assert!(f[6 * dim..].iter().all(|f| *f == 0.0));
@@ -420,9 +417,9 @@ mod tests {
                 _ => rotation([0.0, 0.6, -0.8], 2.9),
             };
             let mut moved = u.clone();
-            for p in 0..6 {
-                let x = mat_vec(&more, add(places[p], bodies.dofs.vector(&u, p)));
-                bodies.put(p, sub(x, places[p]), &mut moved);
+            for (p, &place) in places.iter().enumerate().take(6) {
+                let x = mat_vec(&more, add(place, bodies.dofs.vector(&u, p)));
+                bodies.put(p, sub(x, place), &mut moved);
             }
             let (f, g) = (force(&bodies, &u, &k), force(&bodies, &moved, &k));
             for p in 0..6 {
@@ -441,8 +438,8 @@ mod tests {
             let local = bodies.local(&turns, &u);
             let spin = [0.0, 0.0, 1.7];
             let mut v = vec![0.5; 7 * dim];
-            for p in 0..6 {
-                let x = add(places[p], bodies.dofs.vector(&u, p));
+            for (p, &place) in places.iter().enumerate().take(6) {
+                let x = add(place, bodies.dofs.vector(&u, p));
                 let velocity = add([0.3, -0.2, 0.0], cross(spin, x));
                 bodies.put(p, velocity, &mut v);
             }

@@ -139,11 +139,12 @@ impl<'a> Sight<'a> {
         let (dofs, points) = (model.dofs, &model.mesh.points);
         let placed = self.frames.in_frames(points, &constraints.values);
         for p in model.corotations.points().flatten() {
-            for dof in dofs.of(p, 0)..dofs.of(p + 1, 0) {
-                if constraints.fixed[dof] {
-                    constraints.values[dof] = placed[dof];
-                }
-            }
+            let own = dofs.of(p, 0)..dofs.of(p + 1, 0);
+            let fixed = constraints.fixed[own.clone()].iter();
+            let placed = placed[own.clone()].iter();
+            let values = constraints.values[own].iter_mut();
+            let all = values.zip(placed).zip(fixed).filter(|(_, fixed)| **fixed);
+            all.for_each(|((value, placed), _)| *value = *placed);
         }
         constraints
     }

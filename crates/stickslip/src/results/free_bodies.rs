@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn a_rotation_vector_gives_its_rotation() {
         let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
-        for angle in [0.0, 1e-9, 0.3, 2.0, 3.1415, std::f64::consts::PI] {
+        for angle in [0.0, 1e-9, 0.3, 2.0, 3.1, std::f64::consts::PI] {
             let found = rotation_vector(&rotation(axis, angle));
             let sign = if found[0] < 0.0 { -1.0 } else { 1.0 };
             let expected = scale(sign * angle, axis);

@@ -202,7 +202,7 @@ fn a_pendulum_swings_as_slowly_as_its_angle_asks_for() {
     "#;
     let record = run(text);
     let (d, inertia) = (0.5, (1.0 + 0.01) / 12.0 + 0.25);
-    let quarter = 1.8540746773 * (inertia / (9.81 * d) as f64).sqrt();
+    let quarter = 1.8540746773 * f64::sqrt(inertia / (9.81 * d));
     let (times, angles) = (column(&record, "TIME"), column(&record, "rod.UR3"));
     let after = angles
         .iter()
