@@ -62,7 +62,7 @@ fn run(folder: &Path, words: &[&str]) {
 
 #[test]
 fn a_run_over_cycles_that_was_killed_leaves_the_same_table_of_cycles() {
-    for (name, jump) in [("fixed", "2"), ("chosen", "{ error = 0.02 }")] {
+    for (name, jump) in [("fixed", "2"), ("chosen", "{ error = 0.002 }")] {
         let folder = support::place("cycles", name, &CASE.replace("JUMP", jump));
         run(&folder, &["run", "case.toml", "-q", "-o", "whole"]);
         let wanted = below(&folder.join("whole"));

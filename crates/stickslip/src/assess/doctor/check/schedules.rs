@@ -169,7 +169,8 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
             continue;
         }
         let largest = table.rows().iter().fold(0.0_f64, |m, r| m.max(r[1].abs()));
-        let length = piece.end - piece.start;
+        // Times of tables are those of one cycle.
+        let length = (step.cycles).map_or(piece.end - piece.start, |cycles| cycles.period);
         let mut rows = vec![[piece.start, from], [piece.start, table.at(piece.start)]];
         let within = table.rows().iter();
         rows.extend(within.filter(|r| r[0] > piece.start && r[0] <= piece.end));
