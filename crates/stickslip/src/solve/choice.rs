@@ -23,6 +23,9 @@ const SERVES: f64 = 6.0;
 /// reading the factor twice. Between what press-and-slide in slip (7, 5, 1.8) and a slab with its whole face in contact (12, 3, 1.8) took.
 const SPARSE_KRYLOV: f64 = 10.0;
 const SPARSE_SERVES: f64 = 4.0;
+
+/// Least part of the arithmetic of a factor with the candidates last that one in an order of its own takes.
+const FREE_ORDER: f64 = 0.25;
 const SPARSE_SOLVE: f64 = 1.8;
 
 /// Candidate dofs relative to all below which no other way can be cheaper, if the inverse is not the larger part of the work.
@@ -102,10 +105,12 @@ impl Scene<'_> {
         }
         let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
         let mut ways = vec![(Solution::Condensed, condensed, bytes)];
-        // Only now it is worth while to know what the others cost.
-        if let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
+        // Only now it is worth while to know what the others cost; of the sparse matrix that takes an ordering of its own.
+        let refactored = 1.0 + iterations / SPARSE_SERVES;
+        let hopeless = fits(bytes) && FREE_ORDER * cost.factor / DENSE * refactored > condensed;
+        if !hopeless && let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
             let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
-            let sparse = flops / DENSE * (1.0 + iterations / SPARSE_SERVES)
+            let sparse = flops / DENSE * refactored
                 + iterations
                     * SPARSE_KRYLOV
                     * SPARSE_SOLVE

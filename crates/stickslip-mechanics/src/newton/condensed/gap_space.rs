@@ -9,24 +9,22 @@
 //! whose matrix is that of the preconditioner: a Krylov step takes one product with the compliance, where one in the forces at the dofs takes another to come
 //! from there to the gaps.
 
+use super::gap_matrix::Placed;
 use super::preconditioner::Preconditioner;
 use super::rows::Rows;
 use super::tangent::{Precision, Tangent};
 use crate::linear::{GmresReport, GmresSettings, gmres_inexact};
 
 /// Finds the forces at the active dofs from the displacements `u` that they have without; `None` where gaps curve, bodies float, or the factor is of other
-/// points.
+/// points. `kept` has the products with the compliance if they were made before.
 pub(super) fn solve(
     (tangent, preconditioner): (&Tangent, &Preconditioner),
+    (rows, count): (&[Rows], usize),
+    kept: Option<&Placed>,
     u: &[f64],
-    precision: Precision,
-    settings: GmresSettings,
+    (precision, settings): (Precision, GmresSettings),
 ) -> Option<(Vec<f64>, GmresReport)> {
-    if !straight(tangent) {
-        return None;
-    }
-    let (rows, count) = Rows::of(tangent.blocks);
-    if !preconditioner.is_of(&rows, count) {
+    if !straight(tangent) || !preconditioner.is_of(rows, count) {
         return None;
     }
     // -Bᵀ q
@@ -41,7 +39,11 @@ pub(super) fn solve(
     let mut q = vec![0.0; count];
     let report = gmres_inexact(
         &mut |v, out, error| {
-            let u = tangent.apply_compliance(&against(v), precision.within(error));
+            let precision = precision.within(error);
+            if let Some(kept) = kept {
+                return kept.apply(v, out, precision);
+            }
+            let u = tangent.apply_compliance(&against(v), precision);
             rows.iter().for_each(|rows| rows.apply_changes(&u, out));
             out.iter_mut().zip(v).for_each(|(out, v)| *out = v - *out);
         },
@@ -54,6 +56,6 @@ pub(super) fn solve(
 }
 
 /// Whether there is nothing in the tangent but gaps and slips that do not curve.
-fn straight(tangent: &Tangent) -> bool {
+pub(super) fn straight(tangent: &Tangent) -> bool {
     tangent.springs.is_empty() && tangent.blocks.iter().all(|b| b.block.hessian.is_empty())
 }

@@ -22,6 +22,7 @@ mod bulk;
 mod condensation;
 pub mod engine;
 mod file;
+mod gap_matrix;
 mod gap_space;
 mod identity;
 mod library;

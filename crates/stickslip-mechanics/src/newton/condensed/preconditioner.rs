@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::gap_matrix::{GapMatrix, Placed};
 use super::lu::Lu;
 use super::rows::Rows;
 use super::small_matrix::SmallMatrix;
@@ -17,6 +18,7 @@ pub(super) struct Preconditioner {
     rows: Arc<Vec<Rows>>,
     /// Rows of gaps and slips.
     count: usize,
+    order: Option<Vec<usize>>,
     lu: Lu,
     /// `σ` and `Z` at the active dofs of each spring.
     springs: Vec<(f64, Vec<f64>)>,
@@ -27,9 +29,11 @@ pub(super) struct Preconditioner {
 pub(super) struct Factored {
     rows: Arc<Vec<Rows>>,
     count: usize,
+    /// Where it was made of a [`GapMatrix`]: when each point had come.
+    order: Option<Vec<usize>>,
 }
 
-crate::keep!(Factored { rows, count });
+crate::keep!(Factored { rows, count, order });
 
 /// Amplification `C W Bᵀ` up to which the factor may be in single precision: of its seven digits three are left.
 const SINGLE: f64 = 1e4;
@@ -38,11 +42,19 @@ const SINGLE: f64 = 1e4;
 pub(super) const SMALL: usize = 600;
 
 impl Preconditioner {
-    /// Factors the tangent of an iteration.
-    pub fn of(tangent: &Tangent) -> Result<Preconditioner, StepFailure> {
-        let (rows, count) = Rows::of(tangent.blocks);
-        let rows = Arc::new(rows);
-        Preconditioner::again(Factored { rows, count }, tangent)
+    /// Factors the tangent of an iteration, with the compliance of gaps and slips if it is known.
+    pub fn of(
+        tangent: &Tangent,
+        (rows, count): (&[Rows], usize),
+        gaps: Option<&GapMatrix>,
+    ) -> Result<Preconditioner, StepFailure> {
+        let factored = Factored {
+            rows: Arc::new(rows.to_vec()),
+            count,
+            order: gaps.map(|gaps| gaps.order(rows)),
+        };
+        let kept = gaps.and_then(|gaps| gaps.place(rows));
+        Preconditioner::made(factored, tangent, kept)
     }
 
     /// What it was made of beside the bodies.
@@ -50,12 +62,30 @@ impl Preconditioner {
         Factored {
             rows: Arc::clone(&self.rows),
             count: self.count,
+            order: self.order.clone(),
         }
     }
 
     /// Factors the tangent of an iteration before; the blocks of the one given play no part.
     pub fn again(factored: Factored, tangent: &Tangent) -> Result<Preconditioner, StepFailure> {
-        let Factored { rows, count } = factored;
+        let gaps = factored.order.as_ref().map(|order| {
+            let mut ranked: Vec<(usize, &Rows)> =
+                order.iter().copied().zip(&*factored.rows).collect();
+            ranked.sort_by_key(|(rank, _)| *rank);
+            let rows = ranked.into_iter().map(|(_, rows)| rows.clone()).collect();
+            GapMatrix::of(rows, tangent)
+        });
+        let rows = Arc::clone(&factored.rows);
+        let kept = gaps.as_ref().and_then(|gaps| gaps.place(&rows));
+        Preconditioner::made(factored, tangent, kept)
+    }
+
+    fn made(
+        factored: Factored,
+        tangent: &Tangent,
+        kept: Option<Placed>,
+    ) -> Result<Preconditioner, StepFailure> {
+        let Factored { rows, count, order } = factored;
         let springs: Vec<(f64, Vec<f64>)> = tangent
             .springs
             .iter()
@@ -69,6 +99,7 @@ impl Preconditioner {
             rows: &rows,
             count,
             springs: &springs,
+            kept,
         };
         let Some(lu) = single(&matrix).or_else(|| double(&matrix)) else {
             return Err(StepFailure::new(
@@ -79,6 +110,7 @@ impl Preconditioner {
         Ok(Preconditioner {
             rows,
             count,
+            order,
             lu,
             springs,
         })

@@ -2,8 +2,10 @@
 
 use super::active::{Active, Placed};
 use super::condensation::Condensation;
+use super::gap_matrix::{self, GapMatrix};
 use super::gap_space;
 use super::preconditioner::{Factored, Preconditioner, SMALL};
+use super::rows::Rows;
 use super::tangent::{Precision, Spring, Tangent};
 use crate::linear::{GmresSettings, gmres_inexact};
 use crate::math::vector::norm;
@@ -23,6 +25,10 @@ pub struct ReducedSystem {
     preconditioner: Option<Preconditioner>,
     /// What the preconditioner was made of where it is made anew every time: the columns of a friction problem have the same.
     made_of: Vec<ContactBlock>,
+    /// The points of the last solution whose gaps did not curve, by their gradients.
+    seen: Vec<[u64; 2]>,
+    /// The compliance of gaps and slips, while gradients stay.
+    gaps: Option<GapMatrix>,
 }
 
 /// What a solution consists of.
@@ -108,9 +114,17 @@ impl Attempt {
 pub struct ReducedRecipe {
     active: Option<Vec<usize>>,
     factored: Option<Factored>,
+    seen: Vec<[u64; 2]>,
+    /// The points of the compliance of gaps and slips in their order.
+    gaps: Option<Vec<Rows>>,
 }
 
-crate::keep!(ReducedRecipe { active, factored });
+crate::keep!(ReducedRecipe {
+    active,
+    factored,
+    seen,
+    gaps
+});
 
 impl ReducedSystem {
     /// What it was made of.
@@ -118,6 +132,8 @@ impl ReducedSystem {
         ReducedRecipe {
             active: self.active.as_ref().map(|a| a.list.clone()),
             factored: self.preconditioner.as_ref().map(Preconditioner::factored),
+            seen: self.seen.clone(),
+            gaps: self.gaps.as_ref().map(|gaps| gaps.rows().to_vec()),
         }
     }
 
@@ -146,10 +162,13 @@ impl ReducedSystem {
         };
         let make = |factored| Preconditioner::again(factored, &tangent);
         let preconditioner = recipe.factored.map(make).transpose()?;
+        let gaps = recipe.gaps.map(|rows| GapMatrix::of(rows, &tangent));
         Ok(ReducedSystem {
             active: Some(active),
             preconditioner,
             made_of: Vec::new(),
+            seen: recipe.seen,
+            gaps,
         })
     }
 
@@ -184,7 +203,10 @@ impl ReducedSystem {
         let touched = Active::touched(condensation, blocks);
         let suits = self.active.as_ref().is_some_and(|a| a.suits(&touched));
         if !suits {
+            // Positions in the list tell points apart.
             self.active = None;
+            self.gaps = None;
+            self.seen.clear();
         }
         let tiny = 3 * blocks.len() + springs.len() <= TINY;
         let same = tiny && self.made_of == blocks;
@@ -215,9 +237,13 @@ impl ReducedSystem {
         // The residual of this system is that of the forces themselves, which are much smaller where interfaces are stiff.
         let tolerance = (tolerance * norm(b) / norm(&rhs).max(f64::MIN_POSITIVE))
             .clamp(TOLERANCES.0, TOLERANCES.1);
+        let (rows, count) = Rows::of(tangent.blocks);
+        keep_gaps((&mut self.gaps, &mut self.seen), (&rows, count), &tangent);
+        let gaps = self.gaps.as_ref();
         let (y, iterations) = solve_preconditioned(
             &tangent,
-            &mut self.preconditioner,
+            (&rows, count),
+            (&mut self.preconditioner, gaps),
             (&u, &rhs),
             tolerance,
             (settings, statistics),
@@ -249,11 +275,33 @@ fn springs(condensation: &Condensation) -> Vec<Spring<'_>> {
         .collect()
 }
 
+/// Keeps the compliance of gaps and slips while they are those of the solution before.
+fn keep_gaps(
+    (gaps, seen): (&mut Option<GapMatrix>, &mut Vec<[u64; 2]>),
+    (rows, count): (&[Rows], usize),
+    tangent: &Tangent,
+) {
+    let mut parts = tangent.condensation.parts.iter();
+    let suits = count > TINY && gap_space::straight(tangent);
+    if !suits || !parts.all(|part| part.compliance.is_here()) {
+        *gaps = None;
+        seen.clear();
+        return;
+    }
+    let keys: Vec<[u64; 2]> = rows.iter().map(Rows::key).collect();
+    *gaps = gap_matrix::hardly_change(&keys, seen).then(|| {
+        let known = gaps.take().unwrap_or_default();
+        known.with(rows, tangent)
+    });
+    *seen = keys;
+}
+
 /// Solves with the factor that was kept, or with a fresh one where that does not do; which is kept if it is good. Returns the solution and all
 /// iterations.
 fn solve_preconditioned(
     tangent: &Tangent,
-    kept: &mut Option<Preconditioner>,
+    (rows, count): (&[Rows], usize),
+    (kept, gaps): (&mut Option<Preconditioner>, Option<&GapMatrix>),
     (u, rhs): (&[f64], &[f64]),
     tolerance: f64,
     (settings, statistics): (&Settings, &mut Statistics),
@@ -271,17 +319,24 @@ fn solve_preconditioned(
             None => Factor::Fresh,
         },
     };
+    let placed = gaps.and_then(|gaps| gaps.place(rows));
     let mut spent = 0;
     loop {
         let preconditioner = match kept {
             Some(preconditioner) => &*preconditioner,
             None => {
                 statistics.reduced += 1;
-                kept.insert(Preconditioner::of(tangent)?)
+                kept.insert(Preconditioner::of(tangent, (rows, count), gaps)?)
             }
         };
         let asked = attempt.gmres(tolerance, patience);
-        let in_gaps = gap_space::solve((tangent, preconditioner), u, attempt.precision, asked);
+        let in_gaps = gap_space::solve(
+            (tangent, preconditioner),
+            (rows, count),
+            placed.as_ref(),
+            u,
+            (attempt.precision, asked),
+        );
         let (y, report) = in_gaps.unwrap_or_else(|| {
             let mut y = vec![0.0; rhs.len()];
             let report = gmres_inexact(

@@ -1,7 +1,11 @@
 use super::active::{NONE, Placed};
+use super::gap_matrix::Tied;
+use crate::linear::Digest;
+use crate::math::vector::dot;
+use crate::math::{identity, inverse, transpose_vec};
 
 /// The rows of one contact point: gradients of its gap and slips over the active dofs, and how the forces along them change.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Rows {
     /// Positions in the active list.
     pub at: Vec<u32>,
@@ -12,6 +16,9 @@ pub(super) struct Rows {
     /// Changes `C`, row by row.
     changes: Vec<f64>,
 }
+
+/// Part of a change of forces that may be left over: rounding.
+const UNTIED: f64 = 1e-10;
 
 impl Rows {
     /// The rows of all points that have any, and how many there are.
@@ -62,6 +69,56 @@ impl Rows {
         let width = self.at.len();
         let row = &self.gradients[q * width..(q + 1) * width];
         at_active(&self.at, row)
+    }
+
+    /// What tells its gradients from those of other points, and from its own when it has moved on.
+    pub fn key(&self) -> [u64; 2] {
+        let mut digest = Digest::default();
+        digest.indices(&self.at);
+        digest.floats(&self.gradients);
+        digest.finish()
+    }
+
+    /// `S` with `C = S B`; `None` where forces follow from more than gaps and slips, or where these are not independent.
+    pub fn tied(&self) -> Option<Tied> {
+        let (count, width) = (self.count(), self.at.len());
+        let line = |of: &[f64], k: usize| -> Vec<f64> {
+            at_active(&self.at, &of[k * width..(k + 1) * width])
+                .map(|(_, value)| value)
+                .collect()
+        };
+        let b: Vec<Vec<f64>> = (0..count).map(|k| line(&self.gradients, k)).collect();
+        // C = S B, so that C Bᵀ = S (B Bᵀ)
+        let mut gram = identity();
+        for (row, b_i) in gram.iter_mut().zip(&b) {
+            for (entry, b_j) in row.iter_mut().zip(&b) {
+                *entry = dot(b_i, b_j);
+            }
+        }
+        let (inverse, _) = inverse(&gram)?;
+        let mut values = [[0.0; 3]; 3];
+        for (k, s) in values.iter_mut().enumerate().take(count) {
+            let c = line(&self.changes, k);
+            let mut along = [0.0; 3];
+            along.iter_mut().zip(&b).for_each(|(a, b)| *a = dot(&c, b));
+            *s = transpose_vec(&inverse, along);
+            let size = c.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+            let left = c.iter().enumerate().map(|(i, c)| {
+                let made: f64 = s.iter().zip(&b).map(|(s, b)| s * b[i]).sum();
+                (c - made).abs()
+            });
+            if left.fold(0.0, f64::max) > UNTIED * size {
+                return None;
+            }
+        }
+        Some(Tied { count, values })
+    }
+
+    /// `out = B u`.
+    pub fn apply_gradients(&self, u: &[f64], out: &mut [f64]) {
+        for (q, out) in out.iter_mut().enumerate() {
+            *out = self.gradient(q).map(|(at, b)| b * u[at]).sum();
+        }
     }
 
     /// `q = C u`.

@@ -6,6 +6,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
+use super::gap_matrix::Placed;
 use super::lu::Entry;
 use super::rows::{Rows, at_active};
 use super::tangent::Tangent;
@@ -25,6 +26,8 @@ pub(super) struct SmallMatrix<'a> {
     pub count: usize,
     /// `σ` and `Z` at the active dofs of each spring.
     pub springs: &'a [(f64, Vec<f64>)],
+    /// `B W Bᵀ` where it is known; without springs.
+    pub kept: Option<Placed<'a>>,
 }
 
 /// Some columns of `Bᵀ`, and what the compliance makes of them.
@@ -116,6 +119,9 @@ fn elsewhere<'a, T: Entry + 'a>(
 impl SmallMatrix<'_> {
     /// The matrix, column by column, and the size of `C W Bᵀ`.
     pub fn assemble<T: Entry>(&self) -> (Vec<T>, f64) {
+        if let Some(kept) = &self.kept {
+            return kept.assemble();
+        }
         let size = self.count + self.springs.len();
         // `Bᵀ` column by column: the points' rows spread over the active dofs
         let columns: Vec<(&Rows, usize)> = self

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::active::{Active, NONE, Placed};
 use super::condensation::Condensation;
+use super::rows::Rows;
 use crate::math::vector::{dot, norm};
 
 /// One artificial spring of a floating part.
@@ -66,6 +67,22 @@ impl Tangent<'_> {
             })
             .collect();
         parts.concat()
+    }
+
+    /// `W Bᵀ` of one row of a point, forces of springs left out.
+    pub fn displacement_along(&self, rows: &Rows, q: usize) -> Vec<f64> {
+        let mut u = vec![0.0; self.active.len()];
+        for (at, b) in rows.gradient(q) {
+            let part = self.active.starts.partition_point(|&start| start <= at) - 1;
+            let range = self.active.starts[part]..self.active.starts[part + 1];
+            let (n, column) = (range.len(), at - range.start);
+            let w = self.active.compliance(self.condensation, part).values();
+            let column = &w[column * n..(column + 1) * n];
+            for (u, w) in u[range].iter_mut().zip(column) {
+                *u += b * w;
+            }
+        }
+        u
     }
 
     /// `Z` of a spring at an active dof.

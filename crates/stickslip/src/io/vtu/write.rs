@@ -331,20 +331,24 @@ impl Array {
     }
 }
 
+/// Part of a block that compression has to save before it is worth its time: fields are of digits that look like noise, indices and what is zero are not.
+const WORTH: f64 = 0.25;
+
 /// Appends the blocks of an array behind their header: number of blocks, size of a block and of an incomplete last one
-/// (zero if there is none), compressed sizes.
+/// (zero if there is none), compressed sizes. What the first block of an array does not gain by is not tried on the others.
 fn compress(bytes: &[u8], out: &mut Vec<u8>) {
-    let blocks: Vec<Vec<u8>> = bytes
-        .chunks(BLOCK)
-        .map(|block| {
-            let level = flate2::Compression::fast();
-            let mut encoder = flate2::bufread::ZlibEncoder::new(block, level);
-            let mut packed = Vec::with_capacity(block.len() / 2);
-            std::io::Read::read_to_end(&mut encoder, &mut packed)
-                .expect("reading from memory does not fail");
-            packed
-        })
-        .collect();
+    let mut level = flate2::Compression::fast();
+    let mut blocks: Vec<Vec<u8>> = Vec::new();
+    for block in bytes.chunks(BLOCK) {
+        let mut encoder = flate2::bufread::ZlibEncoder::new(block, level);
+        let mut packed = Vec::with_capacity(block.len() + block.len() / 64);
+        std::io::Read::read_to_end(&mut encoder, &mut packed)
+            .expect("reading from memory does not fail");
+        if packed.len() as f64 > (1.0 - WORTH) * block.len() as f64 {
+            level = flate2::Compression::none();
+        }
+        blocks.push(packed);
+    }
     let mut header = vec![blocks.len(), BLOCK, bytes.len() % BLOCK];
     header.extend(blocks.iter().map(Vec::len));
     out.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
