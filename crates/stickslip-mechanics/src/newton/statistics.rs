@@ -24,6 +24,8 @@ pub struct Statistics {
     pub krylov: usize,
     /// Factorisations of matrices of gaps and slips.
     pub reduced: usize,
+    /// Linear systems of a condensed model whose products with the compliance of gaps and slips were kept from one before.
+    pub kept_gaps: usize,
     /// Evaluations of all interfaces, with their tangents or without.
     pub evaluations: usize,
     /// Seconds in looking for substructures made before, reading them included.
@@ -72,6 +74,7 @@ crate::keep!(Statistics {
     substructures_read,
     krylov,
     reduced,
+    kept_gaps,
     evaluations,
     seconds_find,
     seconds_order,

@@ -210,6 +210,21 @@ fn examples_go_on_with_the_same_bits() {
     example("closing-gaps", &[]);
 }
 
+#[test]
+fn the_compliance_of_gaps_that_is_kept_goes_on_with_the_same_bits() {
+    // Two hundred points that stick, slip and open, whose gradients stay.
+    let set = [
+        "body.lower.generate.box.cells=[15,15,4]",
+        "body.upper.generate.box.cells=[14,14,4]",
+        "interface.joint.kinematics.small-sliding={}",
+        "interface.joint.friction.coulomb.mu=0.1",
+        "support.top-z.z=-1e-4",
+        "amplitude.press.table=[[0, 0], [1, 1], [2, -0.1]]",
+        "solver.method=\"condensed\"",
+    ];
+    example("press-and-slide", &set);
+}
+
 /// Keeps the last checkpoint that is told of.
 #[derive(Default)]
 struct Keeper(Option<Snapshot>);

@@ -320,6 +320,7 @@ fn solve_preconditioned(
         },
     };
     let placed = gaps.and_then(|gaps| gaps.place(rows));
+    statistics.kept_gaps += usize::from(placed.is_some());
     let mut spent = 0;
     loop {
         let preconditioner = match kept {

@@ -334,25 +334,43 @@ impl Array {
 /// Part of a block that compression has to save before it is worth its time: fields are of digits that look like noise, indices and what is zero are not.
 const WORTH: f64 = 0.25;
 
+/// What is tried to find out: so many pieces of so many bytes, all over the block.
+const PIECES: usize = 4;
+const PIECE: usize = 1 << 12;
+
 /// Appends the blocks of an array behind their header: number of blocks, size of a block and of an incomplete last one
-/// (zero if there is none), compressed sizes. What the first block of an array does not gain by is not tried on the others.
+/// (zero if there is none), compressed sizes.
 fn compress(bytes: &[u8], out: &mut Vec<u8>) {
-    let mut level = flate2::Compression::fast();
-    let mut blocks: Vec<Vec<u8>> = Vec::new();
-    for block in bytes.chunks(BLOCK) {
-        let mut encoder = flate2::bufread::ZlibEncoder::new(block, level);
-        let mut packed = Vec::with_capacity(block.len() + block.len() / 64);
-        std::io::Read::read_to_end(&mut encoder, &mut packed)
-            .expect("reading from memory does not fail");
-        if packed.len() as f64 > (1.0 - WORTH) * block.len() as f64 {
-            level = flate2::Compression::none();
-        }
-        blocks.push(packed);
-    }
+    let packed = |block: &[u8]| match is_noise(block) {
+        true => deflate(block, flate2::Compression::none()),
+        false => deflate(block, flate2::Compression::fast()),
+    };
+    let blocks: Vec<Vec<u8>> = bytes.chunks(BLOCK).map(packed).collect();
     let mut header = vec![blocks.len(), BLOCK, bytes.len() % BLOCK];
     header.extend(blocks.iter().map(Vec::len));
     out.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
     out.extend(blocks.iter().flatten());
+}
+
+/// Whether compression would save next to nothing.
+fn is_noise(block: &[u8]) -> bool {
+    if block.len() < 2 * PIECES * PIECE {
+        return false;
+    }
+    let step = block.len() / PIECES;
+    let pieces: Vec<&[u8]> = (0..PIECES)
+        .map(|k| &block[k * step..k * step + PIECE])
+        .collect();
+    let left = deflate(&pieces.concat(), flate2::Compression::fast()).len();
+    left as f64 > (1.0 - WORTH) * (PIECES * PIECE) as f64
+}
+
+fn deflate(bytes: &[u8], level: flate2::Compression) -> Vec<u8> {
+    let mut encoder = flate2::bufread::ZlibEncoder::new(bytes, level);
+    let mut packed = Vec::with_capacity(bytes.len() + bytes.len() / 64);
+    std::io::Read::read_to_end(&mut encoder, &mut packed)
+        .expect("reading from memory does not fail");
+    packed
 }
 
 /// A text as the value of an XML attribute.
