@@ -108,7 +108,11 @@ pub(super) fn take(
         if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
             best = Some((measure, length));
         }
-        if demand.is_met(measure) || halvings >= demand.halvings(measure, line_search) {
+        // Where points leave the surface or come back to it forces jump, by no more than is in play. Shorter steps would come nearer and nearer to the edge and
+        // gain less and less.
+        let jumps = halvings == 0 && measure <= balance.scale && attempt.system.passes_edges();
+        let met = demand.is_met(measure) || jumps;
+        if met || halvings >= demand.halvings(measure, line_search) {
             break balance;
         }
         halvings += 1;

@@ -77,6 +77,12 @@ impl System<'_> {
         sets.map(ActiveSet::put_back).sum()
     }
 
+    /// Whether points pass outer edges with a tentative evaluation.
+    pub(super) fn passes_edges(&mut self) -> bool {
+        let mut sets = self.contact.iter_mut().filter_map(|f| f.active_set());
+        sets.any(|set| set.passes_edges())
+    }
+
     /// The most rounds that a force may need beyond those of multipliers.
     pub(super) fn patience(&self) -> usize {
         let most = self.contact.iter().map(|f| f.patience()).max();

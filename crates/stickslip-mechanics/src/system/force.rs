@@ -164,6 +164,10 @@ pub trait ActiveSet {
 
     /// At an equilibrium: points that were lost on the way get another chance, once. Returns how many there were.
     fn put_back(&mut self) -> usize;
+
+    /// Whether a tentative evaluation has points beyond an outer edge that the iterate before it has not, or the other way round. Each point has a few such
+    /// passages in an attempt, then it stays where it is.
+    fn passes_edges(&self) -> bool;
 }
 
 /// Counts of contact points by status.

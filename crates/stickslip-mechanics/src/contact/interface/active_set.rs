@@ -1,6 +1,7 @@
 //! Points that change status, as Newton's method sees them.
 
 use super::definition::Interface;
+use super::on_facet::MOST_LEFT;
 use crate::system::ActiveSet;
 
 impl ActiveSet for Interface {
@@ -23,5 +24,15 @@ impl ActiveSet for Interface {
             }
         }
         count
+    }
+
+    fn passes_edges(&self) -> bool {
+        let evaluations = match self.unknown() && self.attempt.tentative {
+            true => &self.cache.trial,
+            false => &self.cache.last,
+        };
+        let both = self.attempt.flips.iter().zip(&evaluations.points);
+        let mut passing = both.filter(|(flips, e)| flips.over != e.over);
+        passing.any(|(flips, _)| flips.left < MOST_LEFT)
     }
 }

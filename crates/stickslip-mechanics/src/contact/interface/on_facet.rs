@@ -11,7 +11,7 @@ use crate::contact::surface::Facet;
 use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
 
 /// How often a point may slide off an outer edge before it stays off.
-const MOST_LEFT: usize = 2;
+pub(super) const MOST_LEFT: usize = 2;
 
 /// A point that no facet carries.
 struct Off {
