@@ -15,7 +15,7 @@ use crate::contact::surface::{ContactPoint, Facet, connect};
 use crate::math::{Vec3, add_scaled};
 use crate::registry::Family;
 use crate::shape::ElementKind;
-use crate::system::{Assembler, Dofs, Force, Schedule, Stage, State};
+use crate::system::{ActiveSet, Assembler, Dofs, Force, Schedule, Stage, State};
 
 const CELLS: usize = 4;
 
@@ -381,5 +381,56 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
                 assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
             }
         }
+    }
+}
+
+/// Passing an outer edge is seen before it is settled, in both directions and with both kinds of unknowns, and comes to an end.
+#[test]
+fn points_pass_edges_a_few_times_only() {
+    for enforcement in EnforcementModel::samples() {
+        let mut interface = sample(ElementKind::Quad4, KinematicsModel::default());
+        interface.laws.enforcement = enforcement;
+        let dofs = interface.dofs;
+        // All points of the secondary stay, or go beyond the edge together.
+        let state = |interface: &Interface, way: f64| {
+            let mut u = vec![0.0; dofs.count()];
+            let nodes = interface.points.iter().flat_map(|p| &p.nodes);
+            nodes.for_each(|&node| u[dofs.of(node, 0)] = way);
+            State {
+                t: 1.0,
+                u,
+                ..State::default()
+            }
+        };
+        let [on, off] = [0.0, 2.0].map(|way| state(&interface, way));
+        let mut out = Assembler::new(dofs.count());
+        let mut passes = |interface: &mut Interface, at: &State| {
+            let stage = Stage {
+                from: &on,
+                at,
+                dt: 1.0,
+                rate: None,
+            };
+            out.tentative = true;
+            out.reset(true);
+            interface.prepare(&stage);
+            interface.assemble(&stage, &mut out).expect("forces");
+            let passes = interface.passes_edges();
+            interface.settle();
+            passes
+        };
+        let stage = Stage {
+            from: &on,
+            at: &on,
+            dt: 1.0,
+            rate: None,
+        };
+        interface.prepare(&stage);
+        interface.begin();
+        passes(&mut interface, &on);
+        assert!(!passes(&mut interface, &on), "nothing moves");
+        let course = [&off, &off, &on, &off, &on, &off];
+        let seen = course.map(|at| passes(&mut interface, at));
+        assert_eq!(seen, [true, false, true, true, false, false]);
     }
 }
