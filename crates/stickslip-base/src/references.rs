@@ -54,7 +54,7 @@ references! {
     archard_1953: "J. F. Archard, Contact and rubbing of flat surfaces, Journal of Applied Physics 24 (1953) 981-988.",
     fouvry_1995: "S. Fouvry, Ph. Kapsa, L. Vincent, Analysis of sliding behaviour for fretting loadings: determination of transition criteria, Wear 185 (1995) 35-46.",
     fouvry_2003: "S. Fouvry, T. Liskiewicz, P. Kapsa, S. Hannel, E. Sauger, An energy description of wear mechanisms and its applications to oscillating sliding contacts, Wear 255 (2003) 287-298.",
-    findley_1959: "W. N. Findley, A theory for the effect of mean stress on fatigue of metals under combined torsion and axial load or bending, Journal of Engineering for Industry 81 (1959) 301-305.",
+    findley_1959: "W. N. Findley, A theory for the effect of mean stress on fatigue of metals under combined torsion and axial load or bending, Journal of Engineering for Industry 81 (1959) 301.",
     smith_1970: "K. N. Smith, P. Watson, T. H. Topper, A stress-strain function for the fatigue of metals, Journal of Materials 5 (1970) 767-778.",
     ruiz_1984: "C. Ruiz, P. H. B. Boddington, K. C. Chen, An investigation of fatigue and fretting in a dovetail joint, Experimental Mechanics 24 (1984) 208-217.",
     dang_van_1993: "K. Dang Van, Macro-micro approach in high-cycle multiaxial fatigue, in: Advances in Multiaxial Fatigue, ASTM STP 1191, 1993, 120-130.",

@@ -1,6 +1,6 @@
 //! What a cycle of a fretting contact was: forces, displacements, what was dissipated and worn off.
 //!
-//! The loop of the tangential force `Q` over the displacement `δ` is judged as in fretting tests ([`fouvry_1995`](crate::references::fouvry_1995)): the energy ratio is the
+//! The loop of the tangential force `Q` over the displacement `δ` is judged as in fretting tests (see [`fouvry_1995`](crate::references::fouvry_1995)): the energy ratio is the
 //! area of the loop over that of the box around it, `A = E_d / (4 δ* Q*)`, with the amplitudes `δ*` and `Q*`.
 
 use super::history::Row;
