@@ -523,6 +523,8 @@ pub struct Step {
     pub abrupt: Option<bool>,
     /// How it is solved.
     pub procedure: Procedure,
+    /// `*MODAL DAMPING`.
+    pub damping: ModalDamping,
     /// Its cards in order.
     pub actions: Vec<Action>,
     /// What is printed.
@@ -535,6 +537,15 @@ pub struct Step {
     pub output_times: Vec<String>,
     /// Where.
     pub place: Place,
+}
+
+/// `*MODAL DAMPING`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ModalDamping {
+    /// Ratios by mode, from the first on; those behind have none.
+    pub ratios: Vec<f64>,
+    /// `RAYLEIGH`: relative to mass and stiffness.
+    pub rayleigh: [f64; 2],
 }
 
 /// How a step is solved. Times are `[initial increment, period, smallest, largest]`, 0 for the default.
@@ -574,6 +585,15 @@ pub enum Procedure {
         /// `FRICTION DAMPING`.
         friction_damping: bool,
     },
+    /// `*STEADY STATE DYNAMICS`.
+    Harmonic {
+        /// Lowest and highest frequency.
+        range: [f64; 2],
+        /// How many frequencies from a mode to the next, both counted; over the whole range where there is no bias.
+        points: usize,
+        /// How much they crowd at the modes.
+        bias: Option<f64>,
+    },
 }
 
 impl Step {
@@ -582,12 +602,21 @@ impl Step {
         matches!(self.procedure, Procedure::Dynamic { .. })
     }
 
-    /// Whether it looks for modes, and nothing moves in it.
+    /// Whether it looks for modes or superposes them, and nothing moves in it.
     pub fn is_modal(&self) -> bool {
-        matches!(
-            self.procedure,
-            Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. }
-        )
+        self.procedure.is_modal()
+    }
+
+    /// Whether its loads shake.
+    pub fn is_harmonic(&self) -> bool {
+        matches!(self.procedure, Procedure::Harmonic { .. })
+    }
+}
+
+impl Procedure {
+    /// Whether it is about small vibrations, and takes no time.
+    pub fn is_modal(&self) -> bool {
+        !matches!(self, Procedure::Static { .. } | Procedure::Dynamic { .. })
     }
 }
 
@@ -619,6 +648,8 @@ pub enum Action {
         value: f64,
         /// Amplitude.
         amplitude: Option<String>,
+        /// Whether it is the imaginary part of a load that shakes.
+        imaginary: bool,
         /// Where.
         place: Place,
     },
@@ -639,6 +670,8 @@ pub enum Action {
         load: Distributed,
         /// Amplitude.
         amplitude: Option<String>,
+        /// Whether it is the imaginary part of a load that shakes.
+        imaginary: bool,
         /// Where.
         place: Place,
     },

@@ -73,6 +73,8 @@ const CARDS: &[(&str, Read)] = &[
     ("DYNAMIC", |r, c| r.dynamics(c)),
     ("FREQUENCY", |r, c| r.frequency(c)),
     ("COMPLEXFREQUENCY", |r, c| r.complex_frequency(c)),
+    ("STEADYSTATEDYNAMICS", |r, c| r.steady_state(c)),
+    ("MODALDAMPING", |r, c| r.modal_damping(c)),
     ("MOTION", |r, c| r.material_motion(c)),
     ("BOUNDARY", |r, c| r.boundary(c)),
     ("CLOAD", |r, c| r.forces(c)),
@@ -107,7 +109,7 @@ pub(super) const BENEATH: [&str; 7] = [
 ];
 
 /// Cards that name something, and are read in spite of errors. What they name is looked for later: that it is missing would only be a second error.
-pub(super) const NAMES: [&str; 24] = [
+pub(super) const NAMES: [&str; 25] = [
     "PART",
     "ENDPART",
     "ASSEMBLY",
@@ -132,10 +134,11 @@ pub(super) const NAMES: [&str; 24] = [
     "DYNAMIC",
     "FREQUENCY",
     "COMPLEXFREQUENCY",
+    "STEADYSTATEDYNAMICS",
 ];
 
 /// Procedures that are refused.
-pub(super) const OTHER_PROCEDURES: [&str; 22] = [
+pub(super) const OTHER_PROCEDURES: [&str; 21] = [
     "ANNEAL",
     "BUCKLE",
     "CFD",
@@ -154,7 +157,6 @@ pub(super) const OTHER_PROCEDURES: [&str; 22] = [
     "ROBUSTDESIGN",
     "SENSITIVITY",
     "SOILS",
-    "STEADYSTATEDYNAMICS",
     "SUBSTRUCTUREGENERATE",
     "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
     "VISCO",

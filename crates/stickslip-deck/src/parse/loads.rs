@@ -138,6 +138,7 @@ impl Reader<'_> {
         }
         self.operation(card, Action::ClearForces);
         let amplitude = self.course(card);
+        let imaginary = self.imaginary(card);
         for data in &card.data {
             let (Some(target), Some(component)) =
                 (self.target(data, 0), self.direction(data, 1, 6))
@@ -153,6 +154,7 @@ impl Reader<'_> {
                 component,
                 value,
                 amplitude: amplitude.clone(),
+                imaginary,
                 place: data.place,
             });
         }
@@ -178,14 +180,14 @@ impl Reader<'_> {
 
     pub(super) fn distribute(
         &mut self,
-        amplitude: &Option<String>,
+        (amplitude, imaginary): &(Option<String>, bool),
         load: Distributed,
         place: Place,
     ) {
-        let amplitude = amplitude.clone();
         self.act(Action::Distributed {
             load,
-            amplitude,
+            amplitude: amplitude.clone(),
+            imaginary: *imaginary,
             place,
         });
     }
@@ -195,7 +197,7 @@ impl Reader<'_> {
             return;
         }
         self.operation(card, Action::ClearDistributed);
-        let amplitude = self.course(card);
+        let course = (self.course(card), self.imaginary(card));
         for data in &card.data {
             let Some(first) = data.fields.first().cloned() else {
                 continue;
@@ -206,7 +208,7 @@ impl Reader<'_> {
             if what == "P" && self.deck.surfaces.contains_key(&name) {
                 self.faces_once(&name, data.place);
                 let p = self.number(data, 2, 0.0);
-                self.distribute(&amplitude, Distributed::Surface(name, p), data.place);
+                self.distribute(&course, Distributed::Surface(name, p), data.place);
                 continue;
             }
             let elements = match first.is_empty() && matches!(what.as_str(), "GRAV" | "CENTRIF") {
@@ -225,7 +227,7 @@ impl Reader<'_> {
             };
             self.no_more(data, count, &what);
             if let Some(load) = self.load(data, elements, &what, value) {
-                self.distribute(&amplitude, load, data.place);
+                self.distribute(&course, load, data.place);
             }
         }
     }
@@ -300,7 +302,7 @@ impl Reader<'_> {
             return;
         }
         self.operation(card, Action::ClearDistributed);
-        let amplitude = self.course(card);
+        let course = (self.course(card), self.imaginary(card));
         for data in &card.data {
             let name = data.fields.first().map(|f| self.name(f));
             let name = name.unwrap_or_default();
@@ -315,7 +317,7 @@ impl Reader<'_> {
             }
             self.faces_once(&name, data.place);
             let p = self.number(data, 2, 0.0);
-            self.distribute(&amplitude, Distributed::Surface(name, p), data.place);
+            self.distribute(&course, Distributed::Surface(name, p), data.place);
         }
     }
 

@@ -7,6 +7,7 @@ mod elements;
 mod fields;
 mod generate;
 mod generate_elements;
+mod harmonic;
 mod initial;
 mod instances;
 mod interaction;

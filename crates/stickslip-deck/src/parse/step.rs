@@ -112,11 +112,7 @@ impl Reader<'_> {
             );
             return;
         }
-        let frequency = matches!(
-            procedure,
-            Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. }
-        );
-        if self.deck.steps.last().is_some_and(|s| s.perturbation) && !frequency {
+        if self.deck.steps.last().is_some_and(|s| s.perturbation) && !procedure.is_modal() {
             self.error(
                 card.place,
                 format!(
@@ -275,7 +271,7 @@ impl Reader<'_> {
             self.error(
                 place,
                 "the step does not say how it is solved",
-                "write *STATIC, *DYNAMIC, *FREQUENCY or *COMPLEX FREQUENCY in it",
+                "write *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY or *STEADY STATE DYNAMICS in it",
             );
         }
     }

@@ -26,7 +26,7 @@ pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
         _ if help == LAW => "materials that are not linear elastic",
         _ if help == HEAT_HELP => HEAT,
         _ if help == TIME => {
-            "analyses other than *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY"
+            "analyses other than *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY and *STEADY STATE DYNAMICS"
         }
         _ => return None,
     })

@@ -2,8 +2,7 @@
 
 use super::row::{Row, refused_card};
 
-pub(super) const TIME: &str =
-    "only *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY steps are computed";
+pub(super) const TIME: &str = "only *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY and *STEADY STATE DYNAMICS steps are computed";
 pub(super) const HEAT: &str = "heat does not flow here: give the temperatures themselves, by *TEMPERATURE in a *STATIC or *DYNAMIC step";
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 pub(super) const LAW: &str =
@@ -48,8 +47,6 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("ELECTROMAGNETICS", TIME),
     refused_card("BUCKLE", TIME),
     refused_card("MODALDYNAMIC", TIME),
-    refused_card("MODALDAMPING", TIME),
-    refused_card("STEADYSTATEDYNAMICS", TIME),
     refused_card("GREEN", TIME),
     refused_card("SENSITIVITY", TIME),
     refused_card("CFD", TIME),

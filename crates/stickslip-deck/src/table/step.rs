@@ -8,7 +8,8 @@ const FLUID: &str = "it is about fluids, and bodies are solid";
 const SUBMODEL: &str =
     "results of other runs are not read: prescribe the displacements of the cut by *BOUNDARY";
 const CYCLIC: &str = "cyclic symmetry is not computed: model the whole body";
-const FREQUENCY: &str = "loads of steady vibrations are not computed";
+const STILL: &str = "supports stand still in steady vibrations: let forces shake";
+const DIRECT: &str = "the answer is as good as the residual that is told of each frequency, however it is found: leave it out, and write INTERVAL=RANGE for frequencies without regard to modes";
 const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
 const FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";
 const ZERO: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
@@ -136,6 +137,42 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
+        "STEADYSTATEDYNAMICS",
+        Data::Line("lowest frequency, highest frequency, number of points, bias"),
+        &[
+            read("INTERVAL"),
+            read("FREQUENCYSCALE"),
+            read("HARMONIC"),
+            idle("SOLVER", NUMERICS),
+            idle(
+                "FRICTIONDAMPING",
+                "friction of steady sliding damps here as in modes",
+            ),
+            refused("DIRECT", DIRECT),
+            refused("SUBSPACEPROJECTION", DIRECT),
+            refused("REALONLY", "damping counts: leave REAL ONLY out"),
+            refused("CYCMPC", CYCLIC),
+            refused(
+                "NLGEOM",
+                "stress does not stiffen bodies, as strains are small: leave NLGEOM out",
+            ),
+        ],
+    ),
+    card(
+        "MODALDAMPING",
+        Data::Any,
+        &[
+            read("RAYLEIGH"),
+            read("MODAL"),
+            refused(
+                "STRUCTURAL",
+                "damping that does not grow with the frequency is not computed: near a resonance a ratio of half its size does the same",
+            ),
+            refused("DEFINITION", "give ratios by the number of modes"),
+            refused("VISCOUS", "give ratios by the number of modes"),
+        ],
+    ),
+    card(
         "MOTION",
         Data::Any,
         &[
@@ -163,7 +200,7 @@ pub(super) const ROWS: &[Row] = &[
             read("TIMEDELAY"),
             read("FIXED"),
             read("TYPE"),
-            refused("LOADCASE", FREQUENCY),
+            refused("LOADCASE", STILL),
             refused("SUBMODEL", SUBMODEL),
             refused("STEP", SUBMODEL),
             refused("DATASET", SUBMODEL),
@@ -180,7 +217,7 @@ pub(super) const ROWS: &[Row] = &[
             read("OP"),
             read("AMPLITUDE"),
             read("TIMEDELAY"),
-            refused("LOADCASE", FREQUENCY),
+            read("LOADCASE"),
             refused("SUBMODEL", SUBMODEL),
             refused("STEP", SUBMODEL),
             refused("DATASET", SUBMODEL),
@@ -188,8 +225,8 @@ pub(super) const ROWS: &[Row] = &[
             refused("OMEGA0", CYCLIC),
             refused("CYCLICMODE", CYCLIC),
             refused("FOLLOWER", FOLLOWER),
-            refused("REAL", FREQUENCY),
-            refused("IMAGINARY", FREQUENCY),
+            read("REAL"),
+            read("IMAGINARY"),
             refused("USER", SUBROUTINE),
         ],
     ),
@@ -221,7 +258,7 @@ pub(super) const ROWS: &[Row] = &[
             read("OP"),
             read("AMPLITUDE"),
             read("TIMEDELAY"),
-            refused("LOADCASE", FREQUENCY),
+            read("LOADCASE"),
             refused("SUBMODEL", SUBMODEL),
             refused("STEP", SUBMODEL),
             refused("DATASET", SUBMODEL),
@@ -229,8 +266,8 @@ pub(super) const ROWS: &[Row] = &[
             refused("CYCLICMODE", CYCLIC),
             refused("FOLLOWER", FOLLOWER),
             refused("ORIENTATION", "give components along the global axes"),
-            refused("REAL", FREQUENCY),
-            refused("IMAGINARY", FREQUENCY),
+            read("REAL"),
+            read("IMAGINARY"),
             harmless(
                 "CONSTANTRESULTANT",
                 "pressures act on the faces as they were at first, which keeps their resultant",
@@ -244,14 +281,14 @@ pub(super) const ROWS: &[Row] = &[
             read("OP"),
             read("AMPLITUDE"),
             read("TIMEDELAY"),
-            refused("LOADCASE", FREQUENCY),
+            read("LOADCASE"),
             refused("SUBMODEL", SUBMODEL),
             refused("STEP", SUBMODEL),
             refused("DATASET", SUBMODEL),
             refused("FOLLOWER", FOLLOWER),
             refused("ORIENTATION", "give components along the global axes"),
-            refused("REAL", FREQUENCY),
-            refused("IMAGINARY", FREQUENCY),
+            read("REAL"),
+            read("IMAGINARY"),
             harmless(
                 "CONSTANTRESULTANT",
                 "pressures act on the faces as they were at first, which keeps their resultant",

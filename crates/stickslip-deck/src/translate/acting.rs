@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::harmonic::Part;
 use super::job::Job;
 use super::{courses, toml};
 use crate::card::Place;
@@ -105,6 +106,16 @@ pub(super) fn two_courses(job: &mut Job, place: Place) {
 /// Opens the table of a load and writes what all have in common.
 pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
     let name = job.fresh("load", &toml::name(name));
+    if job.part != Part::Lasting {
+        job.table("load", &name, place);
+        job.out.line(&format!("set = {}", toml::text(set)));
+        job.shaking
+            .push((name.clone(), job.part, when.steps.clone()));
+        // It acts in no step but as what shakes.
+        job.active
+            .push(("loads", name, vec![false; when.steps.len()]));
+        return;
+    }
     // From the first step on, where steps change without amplitudes as they usually do not.
     let unusual = when.amplitude.is_none() && courses::unusual(job.deck);
     let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::harmonic::Part;
 use super::spans::duration;
 use super::toml::{self, Writer};
 use crate::card::Place;
@@ -26,6 +27,10 @@ pub(super) struct Job<'a> {
     pub(super) sliding: Vec<(usize, String)>,
     /// What steps do with pretensions: step and line.
     pub(super) tensions: Vec<(usize, String)>,
+    /// Which loads are written.
+    pub(super) part: Part,
+    /// Loads that shake: name, part, by step.
+    pub(super) shaking: Vec<(String, Part, Vec<bool>)>,
     /// Starts and lengths of the steps.
     pub(super) spans: Vec<[f64; 2]>,
 }
@@ -50,6 +55,8 @@ impl<'a> Job<'a> {
             changes: Vec::new(),
             sliding: Vec::new(),
             tensions: Vec::new(),
+            part: Part::Lasting,
+            shaking: Vec::new(),
             spans: spans.collect(),
         }
     }

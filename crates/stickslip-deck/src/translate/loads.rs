@@ -6,6 +6,7 @@ use stickslip::mesh::FacetRef;
 
 use super::acting::{Acting, Given, When, collect, label, open, two_courses};
 use super::bodies::Bodies;
+use super::harmonic::Part;
 use super::job::Job;
 use super::sets::Sets;
 use super::supports::turned;
@@ -15,9 +16,12 @@ use crate::card::Place;
 use crate::deck::{Action, Distributed, SurfaceParts};
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    forces(job, bodies, sets);
-    pressures(job, bodies, sets);
-    super::volumes::write(job, bodies, sets);
+    for part in Part::of(job.deck) {
+        job.part = part;
+        forces(job, bodies, sets);
+        pressures(job, bodies, sets);
+        super::volumes::write(job, bodies, sets);
+    }
     initial(job, bodies, sets);
 }
 
@@ -30,7 +34,10 @@ pub(super) fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
     for (i, step) in job.deck.steps.iter().enumerate() {
         // The first force of a step replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
-        for action in &step.actions {
+        if job.part.begins_anew() {
+            state.clear();
+        }
+        for action in job.part.actions(step) {
             match action {
                 Action::ClearForces => state.clear(),
                 Action::Force {
@@ -39,6 +46,7 @@ pub(super) fn forces_by_step(job: &mut Job) -> Option<Vec<Forces>> {
                     value,
                     amplitude,
                     place,
+                    ..
                 } => {
                     for node in job.nodes(target) {
                         let at = turned(job, node, *component);
@@ -237,11 +245,15 @@ fn pressures_by_step(job: &mut Job, bodies: &Bodies) -> Option<Vec<Pressures>> {
     for (i, step) in job.deck.steps.iter().enumerate() {
         // As forces: the first pressure of a step on a face replaces what was there, further ones add to it.
         let mut touched = BTreeSet::new();
-        for action in &step.actions {
+        if job.part.begins_anew() {
+            state.clear();
+        }
+        for action in job.part.actions(step) {
             let Action::Distributed {
                 load,
                 amplitude,
                 place,
+                ..
             } = action
             else {
                 if *action == Action::ClearDistributed {

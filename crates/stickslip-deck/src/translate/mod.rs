@@ -5,6 +5,7 @@ mod bodies;
 mod body_tables;
 mod contact;
 mod courses;
+mod harmonic;
 mod job;
 mod links;
 mod lint;
@@ -67,6 +68,7 @@ impl Deck {
         sliding::write(&mut job, &bodies);
         supports::write(&mut job, &bodies, &mut sets);
         loads::write(&mut job, &bodies, &mut sets);
+        harmonic::write(&mut job, &bodies);
         temperatures::write(&mut job, &bodies, &mut sets);
         links::write(&mut job, &bodies, &mut sets);
         let drawn = pretensions::write(&mut job, &bodies, &mut sets);

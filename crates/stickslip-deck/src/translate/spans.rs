@@ -10,7 +10,7 @@ pub(super) fn times(step: &Step) -> [f64; 4] {
     match step.procedure {
         Procedure::Static { times, .. } | Procedure::Dynamic { times, .. } => times,
         // It takes no time, and next to none is left for it.
-        Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. } => [0.0, BRIEF, 0.0, 0.0],
+        _ => [0.0, BRIEF, 0.0, 0.0],
     }
 }
 

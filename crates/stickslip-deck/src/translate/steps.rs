@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::io::frd::Encoding;
 
+use super::harmonic;
 use super::job::Job;
 use super::spans::{duration, times};
 use super::toml;
@@ -16,7 +17,7 @@ pub(super) fn write(job: &mut Job) {
         job.error(
             Default::default(),
             "the deck has no step",
-            "a deck needs *STEP with *STATIC, *DYNAMIC, *FREQUENCY or *COMPLEX FREQUENCY",
+            "a deck needs *STEP with *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY or *STEADY STATE DYNAMICS",
         );
         return;
     }
@@ -28,7 +29,7 @@ pub(super) fn write(job: &mut Job) {
         job.out
             .line(&format!("duration = {}", toml::number(length)));
         acting(job, i);
-        match modes(step) {
+        match modes(step).or_else(|| harmonic::line(job, i)) {
             Some(line) => job.out.line(&line),
             None => {
                 let sizes = increments(step).join(", ");
@@ -81,7 +82,7 @@ fn increments(step: &Step) -> Vec<String> {
         Procedure::Dynamic {
             direct, explicit, ..
         } => (direct, explicit),
-        Procedure::Frequency { .. } | Procedure::ComplexFrequency { .. } => (false, false),
+        _ => (false, false),
     };
     let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
     let mut sizes = Vec::new();
@@ -129,7 +130,7 @@ fn modes(step: &Step) -> Option<String> {
                 "complex-modes = {{ count = {count}{to}, friction-damping = {friction_damping} }}"
             ));
         }
-        Procedure::Static { .. } | Procedure::Dynamic { .. } => return None,
+        _ => return None,
     };
     let ends = ["from", "to"].into_iter().zip(range);
     let ends = ends.filter(|(_, f)| *f > 0.0);

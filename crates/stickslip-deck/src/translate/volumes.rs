@@ -63,7 +63,10 @@ fn accelerations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let (mut state, mut by_step) = (State::new(), Vec::new());
     for (i, step) in job.deck.steps.iter().enumerate() {
         let mut touched: BTreeSet<Key> = BTreeSet::new();
-        for action in &step.actions {
+        if job.part.begins_anew() {
+            state.clear();
+        }
+        for action in job.part.actions(step) {
             if *action == Action::ClearDistributed {
                 state.clear();
             }
@@ -71,6 +74,7 @@ fn accelerations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 load,
                 amplitude,
                 place,
+                ..
             } = action
             else {
                 continue;
@@ -183,7 +187,10 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let (mut state, mut by_step) = (State::new(), Vec::new());
     for (i, step) in job.deck.steps.iter().enumerate() {
         let mut touched = BTreeSet::new();
-        for action in &step.actions {
+        if job.part.begins_anew() {
+            state.clear();
+        }
+        for action in job.part.actions(step) {
             if *action == Action::ClearDistributed {
                 state.clear();
             }
@@ -191,6 +198,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 load: Distributed::Body(elements, axis, force),
                 amplitude,
                 place,
+                ..
             } = action
             else {
                 continue;

@@ -7,6 +7,7 @@ mod couplings;
 mod elements;
 mod generated;
 mod habits;
+mod harmonic;
 mod heat;
 mod instances;
 mod instances_wrong;

@@ -1,8 +1,9 @@
 //! The answer to harmonic forces: `(K + i ω C - ω² M) x = f`, by superposition of modes.
 //!
 //! The space is that of the real modes up to above the highest frequency, of the displacements at rest under the forces, by which all higher modes answer, and of
-//! those under the friction of both. Damping and friction are projected as they are: nothing says that modes do not share them. What that leaves open in the
-//! equations of all dofs is added to the space while it is too much, and is told of every frequency.
+//! those under the friction of both. Damping and friction are projected as they are: nothing says that modes do not share them. Damping that is given by mode is
+//! `Σ d (M φ)(M φ)ᵀ`, `d` = 2 ζ ω, which changes no other mode. What the space leaves open in the equations of all dofs is added to it while it is too much, and is
+//! told of every frequency.
 
 use std::f64::consts::TAU;
 
@@ -10,11 +11,11 @@ use super::linear::{Linear, fault};
 use super::map::{GOOD, ROUNDS};
 use super::outcome::{ModalOutcome, Response, ResponseRow};
 use super::quadratic::UNSTABLE;
-use super::real::lowest;
+use super::real::{frequency, lowest};
 use super::reduced::{Reduced, extend, images};
 use super::shifted::Shifted;
 use crate::error::RunError;
-use crate::linear::DenseLu;
+use crate::linear::{DenseLu, RealModes};
 use crate::math::vector::dot;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -41,15 +42,20 @@ pub(crate) fn response(
 ) -> Result<ModalOutcome, RunError> {
     let shifted = Shifted::new(linear, frame, true)?;
     let mut solves = 0;
-    let forces = forces(model, linear, plan);
-    let reduced = space(&shifted, &forces, plan, &mut solves);
+    let mut shaken = Shaken {
+        shifted: &shifted,
+        forces: forces(model, linear, plan),
+        frequencies: Vec::new(),
+        modal: Vec::new(),
+    };
+    let reduced = shaken.space(plan, &mut solves);
     let mut answer = Response {
         columns: columns(model),
         dimension: reduced.basis.len(),
         ..Response::default()
     };
-    for frequencies in plan.frequencies.chunks(TRIED) {
-        let found = answers(&shifted, &reduced, &forces, frequencies, &mut solves);
+    for frequencies in shaken.frequencies.chunks(TRIED) {
+        let found = shaken.answers(&reduced, frequencies, &mut solves);
         for (frequency, (mut shape, residual, _)) in frequencies.iter().zip(found) {
             if !residual.is_finite() {
                 let message = format!("nothing resists the forces at the frequency {frequency}");
@@ -101,75 +107,118 @@ fn forces(model: &Model, linear: &Linear, plan: &HarmonicPlan) -> Pair {
     forces
 }
 
-/// The space in which the equations are solved.
-fn space(shifted: &Shifted, forces: &Pair, plan: &HarmonicPlan, solves: &mut usize) -> Reduced {
-    let highest = plan.frequencies.iter().copied().fold(0.0, f64::max);
-    let below = (BEYOND * TAU * highest).powi(2);
-    let count = plan.count.min(shifted.linear.free());
-    let modes = lowest(shifted, count, below);
-    *solves += modes.solves + 2;
-    let mut basis = Vec::new();
-    let mut block = extend(shifted, &mut basis, modes.vectors);
-    block.extend(extend(shifted, &mut basis, shifted.solved(forces)));
-    let images = images(shifted, &block, solves);
-    extend(shifted, &mut basis, images);
-    let pace = (TAU * highest).max(f64::MIN_POSITIVE);
-    let mut reduced = Reduced::new(shifted, basis, pace);
-    let every = plan.frequencies.len().div_ceil(TRIED).max(1);
-    let tried: Vec<f64> = plan.frequencies.iter().copied().step_by(every).collect();
-    for _ in 0..ROUNDS {
-        let found = answers(shifted, &reduced, forces, &tried, solves);
-        let open = found
-            .into_iter()
-            .filter(|(_, residual, _)| *residual > GOOD);
-        let rests: Vec<Vec<f64>> = open.flat_map(|(.., rest)| rest).collect();
-        if rests.is_empty() {
-            break;
-        }
-        let mut basis = std::mem::take(&mut reduced.basis);
-        extend(shifted, &mut basis, rests);
-        reduced = Reduced::new(shifted, basis, pace);
-    }
-    reduced
+/// What is solved.
+struct Shaken<'a> {
+    shifted: &'a Shifted<'a>,
+    /// Forces by dof.
+    forces: Pair,
+    frequencies: Vec<f64>,
+    /// Damping by mode: `d` and `M φ`.
+    modal: Vec<(f64, Vec<f64>)>,
 }
 
-/// The answers at frequencies, what they leave open relative to what is in them, and the displacements at rest under that.
-fn answers(
-    shifted: &Shifted,
-    reduced: &Reduced,
-    forces: &Pair,
-    frequencies: &[f64],
-    solves: &mut usize,
-) -> Vec<(Pair, f64, Vec<Vec<f64>>)> {
-    let found: Vec<Pair> = frequencies
-        .iter()
-        .map(|f| reduced.answer(forces, TAU * f))
-        .collect();
-    let each = found.iter().zip(frequencies);
-    let open: Vec<Vec<f64>> = each
-        .flat_map(|(x, f)| open(shifted.linear, forces, x, TAU * f))
-        .collect();
-    let solved = shifted.solved(&open);
-    *solves += solved.len();
-    let rests = open.chunks(2).zip(solved.chunks(2));
-    let all = found.into_iter().zip(rests).map(|(x, (open, solved))| {
-        let residual = shifted.relative(open, solved, &x);
-        (x, residual, solved.to_vec())
-    });
-    all.collect()
-}
+/// An answer, what it leaves open relative to what is in it, and the displacements at rest under that.
+type Answer = (Pair, f64, Vec<Vec<f64>>);
 
-/// `f - (K + i ω C - ω² M) x`.
-fn open(linear: &Linear, forces: &Pair, x: &Pair, omega: f64) -> Pair {
-    let parts = [0, 1].map(|q| linear.forces(&x[q], 1.0));
-    let mut open = forces.clone();
-    for (q, sign) in [(0, -1.0), (1, 1.0)] {
-        let ([k, _, m], [_, c, _]) = (&parts[q], &parts[1 - q]);
-        for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {
-            open[q][i] -= k[i] - omega * omega * m[i] + sign * omega * c[i];
+impl Shaken<'_> {
+    /// The space in which the equations are solved; frequencies and damping follow from its modes.
+    fn space(&mut self, plan: &HarmonicPlan, solves: &mut usize) -> Reduced {
+        let shifted = self.shifted;
+        let highest = plan.frequencies.highest();
+        let below = (BEYOND * TAU * highest).powi(2);
+        let count = plan.count.min(shifted.linear.free());
+        let modes = lowest(shifted, count, below);
+        *solves += modes.solves + 2;
+        self.take(plan, &modes);
+        let mut basis = Vec::new();
+        let mut block = extend(shifted, &mut basis, modes.vectors);
+        block.extend(extend(shifted, &mut basis, shifted.solved(&self.forces)));
+        let images = images(shifted, &block, solves);
+        extend(shifted, &mut basis, images);
+        let pace = (TAU * highest).max(f64::MIN_POSITIVE);
+        let mut reduced = self.reduced(basis, pace);
+        let every = self.frequencies.len().div_ceil(TRIED).max(1);
+        let tried: Vec<f64> = self.frequencies.iter().copied().step_by(every).collect();
+        for _ in 0..ROUNDS {
+            let found = self.answers(&reduced, &tried, solves);
+            let open = found
+                .into_iter()
+                .filter(|(_, residual, _)| *residual > GOOD);
+            let rests: Vec<Vec<f64>> = open.flat_map(|(.., rest)| rest).collect();
+            if rests.is_empty() {
+                break;
+            }
+            let mut basis = std::mem::take(&mut reduced.basis);
+            extend(shifted, &mut basis, rests);
+            reduced = self.reduced(basis, pace);
         }
+        reduced
     }
-    open
+
+    /// What follows from the modes.
+    fn take(&mut self, plan: &HarmonicPlan, modes: &RealModes) {
+        let (linear, shift) = (self.shifted.linear, self.shifted.shift());
+        let values = modes.values.iter();
+        let frequencies: Vec<f64> = values.map(|v| frequency(*v, shift)).collect();
+        self.frequencies = plan.frequencies.among(&frequencies);
+        let each = frequencies.iter().zip(&modes.vectors).enumerate();
+        let damped = each.filter_map(|(i, (frequency, x))| {
+            let d = plan.damping.of(i, TAU * frequency);
+            (d > 0.0).then(|| (d, linear.times(&linear.mass, x)))
+        });
+        self.modal = damped.collect();
+    }
+
+    fn reduced(&self, basis: Vec<Vec<f64>>, pace: f64) -> Reduced {
+        let mut reduced = Reduced::new(self.shifted, basis, pace);
+        let r = reduced.basis.len();
+        for (d, image) in &self.modal {
+            let along: Vec<f64> = reduced.basis.iter().map(|q| dot(q, image)).collect();
+            for (k, c) in reduced.damping.iter_mut().enumerate() {
+                *c += d * along[k / r] * along[k % r];
+            }
+        }
+        reduced
+    }
+
+    /// The answers at frequencies.
+    fn answers(&self, reduced: &Reduced, frequencies: &[f64], solves: &mut usize) -> Vec<Answer> {
+        let found: Vec<Pair> = frequencies
+            .iter()
+            .map(|f| reduced.answer(&self.forces, TAU * f))
+            .collect();
+        let each = found.iter().zip(frequencies);
+        let open: Vec<Vec<f64>> = each.flat_map(|(x, f)| self.open(x, TAU * f)).collect();
+        let solved = self.shifted.solved(&open);
+        *solves += solved.len();
+        let rests = open.chunks(2).zip(solved.chunks(2));
+        let all = found.into_iter().zip(rests).map(|(x, (open, solved))| {
+            let residual = self.shifted.relative(open, solved, &x);
+            (x, residual, solved.to_vec())
+        });
+        all.collect()
+    }
+
+    /// `f - (K + i ω C - ω² M) x`.
+    fn open(&self, x: &Pair, omega: f64) -> Pair {
+        let linear = self.shifted.linear;
+        let mut parts = [0, 1].map(|q| linear.forces(&x[q], 1.0));
+        for (part, x) in parts.iter_mut().zip(x) {
+            for (d, image) in &self.modal {
+                let along = d * dot(image, x);
+                let of_mode = part[1].iter_mut().zip(image);
+                of_mode.for_each(|(c, m)| *c += along * m);
+            }
+        }
+        let mut open = self.forces.clone();
+        for (q, sign) in [(0, -1.0), (1, 1.0)] {
+            let ([k, _, m], [_, c, _]) = (&parts[q], &parts[1 - q]);
+            for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {
+                open[q][i] -= k[i] - omega * omega * m[i] + sign * omega * c[i];
+            }
+        }
+        open
+    }
 }
 
 impl Reduced {

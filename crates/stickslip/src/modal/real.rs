@@ -116,7 +116,7 @@ fn above(shifted: &Shifted, from: f64, count: usize) -> RealModes {
 }
 
 /// Cycles per unit of time of `ω²`; zero of what has no stiffness.
-fn frequency(value: f64, shift: f64) -> f64 {
+pub(super) fn frequency(value: f64, shift: f64) -> f64 {
     match value > NOTHING * shift {
         true => value.sqrt() / TAU,
         false => 0.0,

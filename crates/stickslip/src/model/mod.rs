@@ -30,6 +30,9 @@ pub use heat::Heat;
 pub use kick::{Growth, Kick, Share};
 pub use ledger::{EnergyLedger, EnergyQuality};
 pub use limits::{GateMode, Limits};
-pub use modal::{ComplexPlan, HarmonicPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+pub use modal::{
+    ComplexPlan, Frequencies, HarmonicPlan, KickPlan, MapPlan, Modal, ModalDamping, RealPlan,
+    SteadyPlan,
+};
 pub use scene::Scene;
 pub use setup::Setup;

@@ -1,5 +1,7 @@
 //! Steps in which nothing moves: which vibrations are looked for about the state that is reached.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::interface::Steady;
 
 /// What is looked for in a step without increments.
@@ -59,12 +61,91 @@ pub struct ComplexPlan {
 pub struct HarmonicPlan {
     /// Loads by name, with the phases by which they lead `[rad]`.
     pub loads: Vec<(String, f64)>,
-    /// Frequencies `[1/s]`.
-    pub frequencies: Vec<f64>,
+    /// At which.
+    pub frequencies: Frequencies,
+    /// Damping of the real modes, beside all other.
+    pub damping: ModalDamping,
     /// Most modes of the space in which it is found.
     pub count: usize,
     /// Whether displacements of all points are written.
     pub shapes: bool,
+}
+
+/// At which frequencies an answer is looked for `[1/s]`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Frequencies {
+    /// At these.
+    At(Vec<f64>),
+    /// From each of the lowest, those of the real modes between, and the highest to the next.
+    AmongModes {
+        /// Lowest and highest.
+        range: [f64; 2],
+        /// How many from one to the next, both counted.
+        points: usize,
+        /// How much they crowd at the two: 1 is even.
+        bias: f64,
+    },
+}
+
+impl Frequencies {
+    /// The highest.
+    pub(crate) fn highest(&self) -> f64 {
+        match self {
+            Frequencies::At(all) => all.iter().copied().fold(0.0, f64::max),
+            Frequencies::AmongModes { range, .. } => range[1],
+        }
+    }
+
+    /// All of them, where real modes have these frequencies, the lowest first.
+    pub(crate) fn among(&self, modes: &[f64]) -> Vec<f64> {
+        let (range, points, bias) = match self {
+            Frequencies::At(all) => return all.clone(),
+            Frequencies::AmongModes {
+                range,
+                points,
+                bias,
+            } => (*range, (*points).max(2), *bias),
+        };
+        let mut ends = vec![range[0]];
+        ends.extend(modes.iter().filter(|f| range[0] < **f && **f < range[1]));
+        ends.push(range[1]);
+        let mut all = vec![range[0]];
+        for pair in ends.windows(2) {
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            let at = |k: usize| {
+                let even = 2.0 * k as f64 / (points - 1) as f64 - 1.0;
+                middle + half * even.abs().powf(1.0 / bias) * even.signum()
+            };
+            all.extend((1..points - 1).map(at));
+            all.push(pair[1]);
+        }
+        all.dedup();
+        all
+    }
+}
+
+/// `damping` of a harmonic step: what real modes lose, each by itself, beside what bodies, dashpots and contact dissipate.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct ModalDamping {
+    /// Damping ratios by the number of the mode, 1 being critical; the last is that of all that follow: `ratios = [0.02]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ratios: Vec<f64>,
+    /// Adds `mass / (2 ω)` to each ratio `[1/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
+    pub mass: f64,
+    /// Adds `stiffness ω / 2` to each ratio `[time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
+    pub stiffness: f64,
+}
+
+impl ModalDamping {
+    /// What the velocity of a mode of mass one is multiplied with, by its number from 0 and its angular frequency: `2 ζ ω`.
+    pub(crate) fn of(&self, number: usize, omega: f64) -> f64 {
+        let ratio = self.ratios.get(number).or(self.ratios.last());
+        2.0 * ratio.unwrap_or(&0.0) * omega + self.mass + self.stiffness * omega * omega
+    }
 }
 
 /// Friction relative to that of the step.

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::{HarmonicPlan, Modal};
+use crate::model::{Frequencies, HarmonicPlan, Modal, ModalDamping};
 
 /// `harmonic` of a step: amplitude and phase of the displacements at probes under loads that go with the cosine of time, about the state that the step before has reached,
 /// with its closed contacts and the friction of `steady` sliding, and with all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Loads that
@@ -29,6 +29,14 @@ pub struct Harmonic {
     /// How many frequencies, ends counted.
     #[cfg_attr(feature = "schema", schemars(range(min = 2)))]
     pub points: usize,
+    /// Frequencies crowd at the modes: `points` of them from each of `from`, the frequencies of the real modes between, and `to` to the next, ends counted, the nearer to
+    /// the ends the larger this is. 1 is even; 3 is what Abaqus and CalculiX take if not told otherwise. If not given, `points` are spread evenly from `from` to `to`.
+    #[cfg_attr(feature = "schema", schemars(extend("minimum" = 1)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bias: Option<f64>,
+    /// Damping of the real modes, beside that of bodies, dashpots and contact: `damping.ratios = [0.02]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<ModalDamping>,
     /// At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub count: usize,
@@ -45,6 +53,8 @@ impl Default for Harmonic {
             from: 0.0,
             to: None,
             points: 101,
+            bias: None,
+            damping: None,
             count: 200,
             shapes: false,
         }
@@ -59,12 +69,19 @@ impl Harmonic {
         let (from, last) = (self.from, self.points.max(2) - 1);
         let to = self.to.unwrap_or(from);
         let range = (0..=last).map(|k| from + (to - from) * k as f64 / last as f64);
+        let frequencies = match (self.frequencies.is_empty(), self.bias) {
+            (false, _) => Frequencies::At(self.frequencies.clone()),
+            (true, None) => Frequencies::At(range.collect()),
+            (true, Some(bias)) => Frequencies::AmongModes {
+                range: [from, to],
+                points: self.points,
+                bias,
+            },
+        };
         Modal::Harmonic(HarmonicPlan {
             loads: loads.collect(),
-            frequencies: match self.frequencies.is_empty() {
-                true => range.collect(),
-                false => self.frequencies.clone(),
-            },
+            frequencies,
+            damping: self.damping.clone().unwrap_or_default(),
             count: self.count,
             shapes: self.shapes,
         })

@@ -66,6 +66,80 @@ fn a_mass_on_a_spring_and_a_dashpot_answers_as_its_equation_says() {
     near(found[1], 3.0 * b + 4.0 * a, 1e-10);
 }
 
+#[test]
+fn modes_have_damping_of_their_own_and_frequencies_crowd_at_them() {
+    // ω = 10: twice the ratio times that beside the dashpot, or mass + stiffness ω².
+    for (damping, more) in [
+        ("ratios = [0.05]", 1.0),
+        ("mass = 0.5, stiffness = 0.01", 1.5),
+        ("ratios = [0.05], mass = 0.5", 1.5),
+    ] {
+        let asked = format!(
+            "loads = [\"shake\"], from = 1, to = 5, points = 5, bias = 3, damping = {{ {damping} }}"
+        );
+        let answer = response(modes(&oscillator(&asked)));
+        let mode = 10.0 / TAU;
+        let inner = 0.5_f64.cbrt();
+        let between =
+            |a: f64, b: f64| [-inner, 0.0, inner].map(|part| 0.5 * (a + b) + 0.5 * (b - a) * part);
+        let mut wanted = vec![1.0];
+        wanted.extend(between(1.0, mode));
+        wanted.push(mode);
+        wanted.extend(between(mode, 5.0));
+        wanted.push(5.0);
+        assert_eq!(answer.rows.len(), wanted.len());
+        for (row, frequency) in answer.rows.iter().zip(wanted) {
+            near(row.frequency, frequency, 1e-9);
+            assert!(row.residual < 1e-10, "{:e}", row.residual);
+            let omega = TAU * row.frequency;
+            let (still, damped) = (100.0 - omega * omega, (2.0 + more) * omega);
+            let square = still * still + damped * damped;
+            near(row.values[0][0], 3.0 * still / square, 1e-9);
+            near(row.values[0][1], -3.0 * damped / square, 1e-9);
+        }
+    }
+}
+
+/// Where all modes are superposed, Rayleigh's damping of a body is the same, said of the body or of its modes.
+#[test]
+fn damping_of_all_modes_is_that_of_the_body() {
+    let plate = |rayleigh: &str, damping: &str| {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-stress"
+body.plate = {{ generate.rectangle = {{ to = [2, 1], cells = [3, 2] }}, material = "m"{rayleigh} }}
+material.m.isotropic = {{ young = 50.0, poisson = 0.3, density = 1.0 }}
+support.wall = {{ set = "plate.left", x = 0, y = 0 }}
+set.corner = {{ of = "plate", point = [2, 1] }}
+probe.corner = {{ point = [2, 1] }}
+output.every = 0
+load.shake = {{ set = "corner", nodal-force = {{ value = [1, 2] }} }}
+[[step]]
+loads = []
+[[step]]
+harmonic = {{ loads = ["shake"], from = 0.2, to = 30, points = 40{damping} }}
+"#
+        );
+        response(modes(&text))
+    };
+    let of_body = plate(", rayleigh = { mass = 0.3, stiffness = 0.002 }", "");
+    let of_modes = plate("", ", damping = { mass = 0.3, stiffness = 0.002 }");
+    let free = plate("", "");
+    let mut moved = 0.0_f64;
+    for ((a, b), none) in of_body.rows.iter().zip(&of_modes.rows).zip(&free.rows) {
+        for ((a, b), none) in a.values.iter().zip(&b.values).zip(&none.values) {
+            let size = a[0].hypot(a[1]);
+            assert!(
+                (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-8 * size,
+                "{a:?} {b:?}"
+            );
+            moved = moved.max((a[0] - none[0]).hypot(a[1] - none[1]) / size);
+        }
+    }
+    assert!(moved > 0.1, "{moved:e}");
+}
+
 /// `x` of `(K + i ω C - ω² M) x = f`, by one dense matrix.
 fn direct(outcome: &ModalOutcome, forces: &[f64], omega: f64) -> Vec<[f64; 2]> {
     let (n, [k, c, m]) = matrices(outcome);
@@ -147,6 +221,15 @@ fn what_cannot_shake_is_refused() {
         ("loads = [\"shake\"], to = 3, from = 4", "is not below"),
         ("loads = [\"shake\"], to = 3, frequencies = [1]", "exclude"),
         ("loads = [\"shake\"], frequencies = [-1]", "not negative"),
+        ("loads = [\"shake\"], to = 3, bias = 0.5", "is below 1"),
+        (
+            "loads = [\"shake\"], frequencies = [1], bias = 3",
+            "exclude",
+        ),
+        (
+            "loads = [\"shake\"], to = 3, damping.ratios = [-0.1]",
+            "damping of modes is not negative",
+        ),
         (
             "loads = [\"shake\"], to = 3, phases.turned = 9",
             "not among the `loads`",

@@ -137,11 +137,11 @@ fn harmonic(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)
         let message = format!("`{name}` is not among the `loads` that shake");
         findings.add(&["step", i, "harmonic", "phases", name], message, "");
     }
-    let range = harmonic.to.is_some() || harmonic.from != 0.0;
+    let range = harmonic.to.is_some() || harmonic.from != 0.0 || harmonic.bias.is_some();
     match (harmonic.frequencies.is_empty(), harmonic.to) {
         (false, _) if range => findings.add(
             &at("frequencies"),
-            "`frequencies` exclude `from`, `to` and `points`",
+            "`frequencies` exclude `from`, `to`, `points` and `bias`",
             "keep one of the two",
         ),
         (true, None) => findings.add(
@@ -161,6 +161,18 @@ fn harmonic(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)
         .any(|f| !(f.is_finite() && *f >= 0.0))
     {
         findings.add(&at("frequencies"), "frequencies are not negative", "");
+    }
+    if harmonic.bias.is_some_and(|b| !(b.is_finite() && b >= 1.0)) {
+        let message = "`bias` is below 1: frequencies would keep away from the modes";
+        findings.add(&at("bias"), message, "`bias = 3`");
+    }
+    if let Some(damping) = &harmonic.damping {
+        let sound = |v: &f64| v.is_finite() && *v >= 0.0;
+        if !damping.ratios.iter().all(sound) || !sound(&damping.mass) || !sound(&damping.stiffness)
+        {
+            let message = "damping of modes is not negative";
+            findings.add(&at("damping"), message, "`damping.ratios = [0.02]`");
+        }
     }
     if problem.probe.is_empty() && !harmonic.shapes {
         let help = "add `[probe.NAME]`, or `shapes = true`";
