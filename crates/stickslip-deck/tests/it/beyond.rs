@@ -36,13 +36,13 @@ fn networks_heat_and_other_analyses_are_one_line_each() {
     let text = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 2., 0., 0.\n*ELEMENT, TYPE=D, ELSET=G\n1, 1, 2, 3\n2, 3, 2, 1\n\
                 *MATERIAL, NAME=GAS\n*SPECIFIC HEAT\n1000.\n*FLUID SECTION, TYPE=PIPE, ELSET=G, MATERIAL=GAS\n1.\n*INITIAL CONDITIONS, TYPE=MASS FLOW\nN, 1.\n\
                 *STEP\n*HEAT TRANSFER\n1., 1.\n*BOUNDARY\n1, 11, 11, 300.\nN, 0, 0, 3.\n*DFLUX\nG, S1, 1.\n*END STEP\n\
-                *STEP\n*BUCKLE\n5\n*END STEP\n*STEP\n*STEADY STATE DYNAMICS\n1., 2.\n*END STEP\n";
+                *STEP\n*BUCKLE\n5\n*END STEP\n*STEP\n*MODAL DYNAMIC\n1., 2.\n*END STEP\n";
     says(
         text,
         &[
             "job.inp:5: error: networks of flows are not computed: 2 elements of type D, 1 *FLUID SECTION",
             "job.inp:16: error: temperatures by heat transfer are not computed: 1 *HEAT TRANSFER, 1 *DFLUX",
-            "job.inp:25: error: analyses other than *STATIC, *DYNAMIC, *FREQUENCY and *COMPLEX FREQUENCY are not computed: 1 *BUCKLE, 1 *STEADY STATE DYNAMICS",
+            "job.inp:25: error: analyses other than *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY and *STEADY STATE DYNAMICS are not computed: 1 *BUCKLE, 1 *MODAL DYNAMIC",
             "what else there is to say",
         ],
     );
