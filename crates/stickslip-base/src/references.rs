@@ -46,6 +46,7 @@ references! {
     simoncini_szyld_2003: "V. Simoncini, D. B. Szyld, Theory of inexact Krylov subspace methods and applications to scientific computing, SIAM Journal on Scientific Computing 25 (2003) 454-477.",
     shabana_2013: "A. A. Shabana, Dynamics of Multibody Systems, 4th ed., Cambridge University Press, 2013.",
     nour_omid_rankin_1991: "B. Nour-Omid, C. C. Rankin, Finite rotation analysis and consistent linearization using projectors, Computer Methods in Applied Mechanics and Engineering 93 (1991) 353-384.",
+    simo_wong_1991: "J. C. Simo, K. K. Wong, Unconditionally stable algorithms for rigid body dynamics that exactly preserve energy and momentum, International Journal for Numerical Methods in Engineering 31 (1991) 19-52.",
     westergaard_1939: "H. M. Westergaard, Bearing pressures and cracks, Journal of Applied Mechanics 6 (1939) A49-A53.",
     persson_2001: "B. N. J. Persson, Theory of rubber friction and contact mechanics, Journal of Chemical Physics 115 (2001) 3840-3861.",
     mccool_1986: "J. I. McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60.",

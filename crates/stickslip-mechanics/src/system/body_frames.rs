@@ -9,17 +9,18 @@
 //!
 //! `BodyFrames` is this map and the transpose of its derivative for forces and tangent blocks; the derivative of the derivative, by which forces turn with the
 //! frame, is left to Newton's iteration. It is of the size of what contact carries over the length of the body, beside the stiffness of contact.
+//!
+//! A rigid body is one without `w`: its own hidden points carry the frame, or those of a reference point. In space the rotation of such a frame is counted from
+//! the start of an increment ([`Spinning`](super::Spinning)), so that it is small whatever the body has turned by.
 
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::frame_pose::{FramePose, exponential, product};
 use super::links::columns;
 use super::{Assembler, ContactBlock, Dofs, Link};
-use crate::math::{
-    Mat3, Vec3, add, add_scaled, cross, dot, identity, mat_vec, norm, outer, rotation, scale, sub,
-    transpose_vec,
-};
+use crate::math::{Mat3, Vec3, add, cross, mat_vec, scale, sub, transpose_vec};
 
 /// A body that is described in a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,12 +29,14 @@ pub struct BodyFrame {
     pub points: Range<usize>,
     /// What the frame goes with.
     pub carrier: Carrier,
+    /// Whether they stand still in it.
+    pub rigid: bool,
 }
 
 /// What the frame of a body goes with.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Carrier {
-    /// A reference point: its motion is among the unknowns.
+    /// A reference point, or a rigid body itself: its motion is among the unknowns.
     Reference {
         /// Its hidden points, as those of its link.
         hidden: usize,
@@ -41,6 +44,8 @@ pub enum Carrier {
         centre: Vec3,
         /// The length that rotations are multiplied by `[m]`.
         length: f64,
+        /// The rotation where that of the unknowns is zero.
+        base: Mat3,
     },
     /// Nothing: it stands still there. Bodies that turn freely ([`Corotations`](super::Corotations)) are seen from such frames for an increment.
     Still(FramePose),
@@ -53,64 +58,6 @@ impl BodyFrame {
             Carrier::Reference { hidden, .. } => Some(hidden),
             Carrier::Still(_) => None,
         }
-    }
-}
-
-/// Where a frame is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FramePose {
-    /// `R`.
-    pub turn: Mat3,
-    /// `c` `[m]`.
-    pub centre: Vec3,
-    /// `c + q` `[m]`.
-    pub now: Vec3,
-    /// The spin that goes with a change of `θ`, column by column.
-    spin: Mat3,
-}
-
-impl FramePose {
-    /// Of a frame that stands still, turned about the place `centre`, which is at `now` in space.
-    pub fn still(turn: Mat3, centre: Vec3, now: Vec3) -> Self {
-        FramePose {
-            turn,
-            centre,
-            now,
-            spin: [[0.0; 3]; 3],
-        }
-    }
-
-    /// The same with places counted from there.
-    #[must_use]
-    pub fn counted_from(self, origin: Vec3) -> Self {
-        FramePose {
-            centre: sub(self.centre, origin),
-            now: sub(self.now, origin),
-            ..self
-        }
-    }
-
-    /// Turns a symmetric tensor, xx yy zz xy yz xz, from the axes of the frame to those of space.
-    pub fn turn_tensor(&self, tensor: &mut [f64]) {
-        let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| tensor[k]);
-        let inner = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        // Row i of R A; A is symmetric.
-        let half = self.turn.map(|row| mat_vec(&inner, row));
-        let at = |i: usize, j: usize| dot(half[i], self.turn[j]);
-        let turned = [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)];
-        tensor.copy_from_slice(&turned);
-    }
-
-    /// Where the point at `x` at first is in space with this displacement in the frame.
-    pub fn place(&self, x: Vec3, w: Vec3) -> Vec3 {
-        let arm = add(sub(x, self.centre), w);
-        add(self.now, mat_vec(&self.turn, arm))
-    }
-
-    /// The displacement in the frame of what is at a place in space.
-    pub fn displacement(&self, x: Vec3, place: Vec3) -> Vec3 {
-        let arm = transpose_vec(&self.turn, sub(place, self.now));
-        sub(arm, sub(x, self.centre))
     }
 }
 
@@ -150,6 +97,84 @@ impl BodyFrames {
         self.all.iter().position(|f| f.points.contains(&point))
     }
 
+    /// Whether rigid bodies have any of them.
+    pub fn any_rigid(&self) -> bool {
+        self.all.iter().any(|f| f.rigid)
+    }
+
+    /// Hidden points of frames that turn freely in space: those that carry rigid bodies.
+    pub fn spun(&self) -> Vec<(usize, f64)> {
+        let mut out: Vec<(usize, f64)> = Vec::new();
+        let rigid = self.all.iter().filter(|f| f.rigid && self.dofs.dim == 3);
+        for frame in rigid {
+            if let Carrier::Reference { hidden, length, .. } = frame.carrier
+                && out.iter().all(|(h, _)| *h != hidden)
+            {
+                out.push((hidden, length));
+            }
+        }
+        out
+    }
+
+    fn is_spun(&self, frame: &BodyFrame) -> bool {
+        let hidden = frame.hidden();
+        let mut all = self.all.iter();
+        self.dofs.dim == 3 && hidden.is_some() && all.any(|f| f.rigid && f.hidden() == hidden)
+    }
+
+    /// The same with rotations in space counted from where displacements `u` have led to.
+    #[must_use]
+    pub fn from_here(&self, u: &[f64]) -> Self {
+        let mut out = self.clone();
+        for (frame, own) in out.all.iter_mut().zip(&self.all) {
+            let here = self.pose(own, u).turn;
+            if let Carrier::Reference { base, .. } = &mut frame.carrier
+                && self.is_spun(own)
+            {
+                *base = here;
+            }
+        }
+        out
+    }
+
+    /// The same with further frames.
+    #[must_use]
+    pub fn with(mut self, more: impl IntoIterator<Item = BodyFrame>) -> Self {
+        self.all.extend(more);
+        self
+    }
+
+    /// Writes velocities and accelerations in space of the points of rigid bodies, with those of their hidden points, whose rotations are along the axes of the body.
+    pub fn move_points(&self, points: &[Vec3], u: &[f64], [v, a]: [&mut [f64]; 2]) {
+        for (frame, pose) in self.all.iter().zip(self.poses(u)) {
+            let Carrier::Reference { hidden, length, .. } = frame.carrier else {
+                continue;
+            };
+            if !frame.rigid {
+                continue;
+            }
+            let turning = |x: &[f64]| {
+                let x = scale(1.0 / length, self.dofs.vector(x, hidden + 1));
+                match self.dofs.dim {
+                    2 => [0.0, 0.0, x[0]],
+                    _ => x,
+                }
+            };
+            let (spin, turn) = (turning(v), turning(a));
+            let (way, pull) = (self.dofs.vector(v, hidden), self.dofs.vector(a, hidden));
+            for p in frame.points.clone() {
+                let arm = sub(points[p], pose.centre);
+                let swept = cross(spin, arm);
+                let bent = add(cross(turn, arm), cross(spin, swept));
+                let own = self.dofs.of(p, 0)..self.dofs.of(p + 1, 0);
+                let moved = add(way, mat_vec(&pose.turn, swept));
+                let pulled = add(pull, mat_vec(&pose.turn, bent));
+                v[own.clone()].copy_from_slice(&moved[..self.dofs.dim]);
+                a[own].copy_from_slice(&pulled[..self.dofs.dim]);
+            }
+        }
+    }
+
     /// Whether a hidden point, or the one after it, is that of a frame.
     pub fn carries(&self, link: &Link) -> bool {
         self.all.iter().any(|f| f.hidden() == Some(link.hidden))
@@ -161,13 +186,14 @@ impl BodyFrames {
     }
 
     fn pose(&self, frame: &BodyFrame, u: &[f64]) -> FramePose {
-        let (hidden, centre, length) = match frame.carrier {
+        let (hidden, centre, length, base) = match frame.carrier {
             Carrier::Still(pose) => return pose,
             Carrier::Reference {
                 hidden,
                 centre,
                 length,
-            } => (hidden, centre, length),
+                base,
+            } => (hidden, centre, length, base),
         };
         let theta = scale(1.0 / length, self.dofs.vector(u, hidden + 1));
         let theta = match self.dofs.dim {
@@ -176,10 +202,10 @@ impl BodyFrames {
         };
         let (turn, spin) = exponential(theta);
         FramePose {
-            turn,
+            turn: product(&base, &turn),
             centre,
             now: add(centre, self.dofs.vector(u, hidden)),
-            spin,
+            spin: product(&base, &spin),
         }
     }
 
@@ -274,8 +300,12 @@ impl BodyFrames {
         for c in 0..dim {
             forces[self.dofs.of(hidden, c)] += force[c];
         }
-        let moment = cross(sub(place, pose.now), force);
-        let moment = scale(1.0 / length, transpose_vec(&pose.spin, moment));
+        let moment = scale(1.0 / length, cross(sub(place, pose.now), force));
+        // Moments on what turns freely in space stay along its axes.
+        let moment = match self.is_spun(frame) {
+            true => moment,
+            false => transpose_vec(&pose.spin, moment),
+        };
         match dim {
             2 => forces[self.dofs.of(hidden + 1, 0)] += moment[2],
             _ => {
@@ -296,7 +326,9 @@ impl BodyFrames {
         };
         let first = reference.map_or(dof, |(hidden, _)| self.dofs.of(hidden, c));
         let mut row = [(first, 0.0); 7];
-        for j in 0..self.dofs.dim {
+        // Points of rigid bodies do not move in their frames.
+        let own = if frame.rigid { 0 } else { self.dofs.dim };
+        for j in 0..own {
             row[1 + j] = (self.dofs.of(point, j), pose.turn[c][j]);
         }
         let Some((hidden, length)) = reference else {
@@ -434,38 +466,10 @@ impl InSpace {
     }
 }
 
-/// Angle below which series are as good as the functions they are of.
-const SMALL: f64 = 1e-4;
-
-/// The rotation of a rotation vector, by Rodrigues' formula, and the matrix `T` of its spin: `δR Rᵀ = [T δθ]×`,
-/// `T = a 1 + b [θ]× + c θ θᵀ` with `a = sin φ / φ`, `b = (1 - cos φ) / φ²`, `c = (1 - a) / φ²`.
-fn exponential(theta: Vec3) -> (Mat3, Mat3) {
-    let angle = norm(theta);
-    if angle == 0.0 {
-        return (identity(), identity());
-    }
-    let turn = rotation(scale(1.0 / angle, theta), angle);
-    let square = angle * angle;
-    let a = angle.sin() / angle;
-    let (b, c) = if angle < SMALL {
-        (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
-    } else {
-        ((1.0 - angle.cos()) / square, (1.0 - a) / square)
-    };
-    let dyad = outer(theta, theta);
-    let unit = identity();
-    let spin = std::array::from_fn(|i| {
-        let turned = cross(theta, unit[i]);
-        // Row i of [θ]× is -θ × e_i.
-        add(add_scaled(scale(a, unit[i]), -b, turned), scale(c, dyad[i]))
-    });
-    (turn, spin)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{distance, transpose_vec};
+    use crate::math::{distance, identity};
 
     fn noise(count: usize, seed: f64) -> Vec<f64> {
         let number = |i: usize| (12.9898 * (i as f64 + seed)).sin() * 0.7;
@@ -481,7 +485,9 @@ mod tests {
                 hidden: 5,
                 centre: [0.3, -0.2, if dim == 3 { 0.5 } else { 0.0 }],
                 length: 0.8,
+                base: identity(),
             },
+            rigid: false,
         };
         let places = noise(15, 3.0);
         let points = places.chunks(3).map(|x| match dim {

@@ -10,6 +10,9 @@
 //! velocities or accelerations are made; `transfer` gives the hidden dofs what acts on the points before anything is balanced;
 //! Newton transforms contact blocks before they are solved with. Supports and initial velocities are turned into values of
 //! hidden dofs once, in `problem/build/rigid.rs`.
+//!
+//! A rigid body that turns by any angle has a frame ([`BodyFrames`](super::BodyFrames)) that its hidden points carry. Its points stand still in that, so that here
+//! they follow nothing: the rows of `T` are zero, and what acts on the points has been handed to the frame before.
 
 use std::ops::Range;
 
@@ -20,6 +23,8 @@ use crate::math::{Vec3, norm, scale};
 /// What a rigid body may do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
+    /// Nothing of its own: a reference point carries it.
+    Carried,
     /// Move along y: all that axial symmetry leaves.
     Axial,
     /// Move in the plane and turn in it.
@@ -48,6 +53,8 @@ pub struct Link {
     pub length: f64,
     /// What the body may do.
     pub freedom: Freedom,
+    /// Whether a frame places the points, so that they may turn by any angle.
+    pub framed: bool,
 }
 
 impl Link {
@@ -56,6 +63,7 @@ impl Link {
         let move_along = |i| (dofs.of(self.hidden, i), Motion::Translation(i));
         let turn = self.hidden + 1;
         match self.freedom {
+            Freedom::Carried => Vec::new(),
             Freedom::Axial => vec![move_along(1)],
             Freedom::Plane => vec![
                 move_along(0),
@@ -80,8 +88,11 @@ impl Link {
         all.find(|(_, m)| *m == motion).map(|(dof, _)| dof)
     }
 
-    /// By which hidden dofs a point moves in a direction, and how far.
+    /// By which hidden dofs a point moves in a direction, and how far; of what a frame places, nothing is left to say.
     fn row(&self, dofs: Dofs, point: usize, component: usize) -> Row {
+        if self.framed {
+            return [(dofs.of(self.hidden, component), 0.0); 3];
+        }
         self.row_at(dofs, self.arms[point - self.points.start], component)
     }
 
@@ -90,6 +101,7 @@ impl Link {
         let arm = scale(1.0 / self.length, arm);
         let (q, turn) = (dofs.of(self.hidden, component), self.hidden + 1);
         match (self.freedom, component) {
+            (Freedom::Carried, _) => [(q, 0.0); 3],
             (Freedom::Axial, 1) => [(q, 1.0), (q, 0.0), (q, 0.0)],
             (Freedom::Axial, _) => [(q, 0.0); 3],
             (Freedom::Plane, 0) => [(q, 1.0), (dofs.of(turn, 0), -arm[1]), (q, 0.0)],
@@ -207,6 +219,13 @@ impl Links {
         let (point, component) = self.dofs.locate(dof);
         let link = &self.all[self.of_point(point)?];
         Some(link.row(self.dofs, point, component))
+    }
+
+    /// The same where the body has not turned yet: velocities and supports at the start.
+    pub fn row_at_start(&self, dof: usize) -> Option<Row> {
+        let (point, component) = self.dofs.locate(dof);
+        let link = &self.all[self.of_point(point)?];
+        Some(link.row_at(self.dofs, link.arms[point - link.points.start], component))
     }
 
     /// Visits the dofs of all points of rigid bodies with their rows.
@@ -341,9 +360,10 @@ impl Links {
         Some((new, rows))
     }
 
-    /// The largest rotation `[rad]`.
+    /// The largest rotation `[rad]` of those that are linearised.
     pub fn largest_rotation(&self, u: &[f64]) -> f64 {
-        let angles = self.all.iter().map(|l| norm(l.rotation(self.dofs, u)));
+        let linear = self.all.iter().filter(|l| !l.framed);
+        let angles = linear.map(|l| norm(l.rotation(self.dofs, u)));
         angles.fold(0.0, f64::max)
     }
 }
@@ -430,6 +450,7 @@ mod tests {
             hidden,
             length,
             freedom,
+            framed: false,
         };
         (
             dofs,

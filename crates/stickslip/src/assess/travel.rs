@@ -52,6 +52,7 @@ impl View<'_> {
     /// How far a body has turned at the last accepted state.
     fn turning(&self, body: &Body, strained: &State) -> Turning {
         match body.rigid {
+            Some(rigid) if self.model.links.all()[rigid.link].framed => Turning::default(),
             Some(rigid) => Turning {
                 mean: norm(
                     self.model.links.all()[rigid.link]
@@ -66,11 +67,8 @@ impl View<'_> {
 
     /// The largest displacement of a body `[m]`.
     pub(crate) fn way(&self, body: &Body) -> f64 {
-        let dofs = self.model.dofs;
-        let ways = body
-            .points
-            .clone()
-            .map(|p| norm(dofs.vector(&self.frame.state.u, p)));
+        let (dofs, u) = (self.model.dofs, self.displacements());
+        let ways = body.points.clone().map(|p| norm(dofs.vector(&u, p)));
         ways.fold(0.0, |m, way| if way > m || way.is_nan() { way } else { m })
     }
 

@@ -1,18 +1,21 @@
 //! One explicit increment.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::drift::Drift;
 use super::explicit::{Explicit, unstable};
 use super::integrator::Integrator;
+use super::sight::{enter_here, leave};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::solve::accepted::Accepted;
 use crate::solve::solver::Solver;
-use crate::system::{Cause, Constraints, Force, Stage, State, StepFailure};
+use crate::system::{Cause, Constraints, Force, Spinning, Stage, State, StepFailure};
 use crate::time::Trial;
 
 /// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
@@ -46,21 +49,33 @@ impl Integrator for Explicit {
             None => Arc::new(frame.constraints(model, trial.to)),
         };
         let mut at = predict(model, frame, &constraints, trial);
-        self.evaluate(model, frame, contact, (&at, dt))?;
-        let external = if self.loaded {
-            frame.external(model, trial.to)
-        } else {
+        let drift = Drift::new(model, frame, &constraints);
+        drift.predict(self, (&constraints.fixed, dt), &mut at);
+        let u = drift.place(&at.u);
+        self.evaluate((model, frame), contact, (&at, dt), &u)?;
+        let external = if !self.loaded {
             frame.load.clone()
+        } else if model.frames.any_rigid() {
+            frame.external_at(model, trial.to, &u)
+        } else {
+            frame.external(model, trial.to)
         };
+        let there = Spinning::new(&model.frames, &u);
+        let mut acting = Cow::Borrowed(&external);
+        if !there.is_empty() {
+            there.into_axes(acting.to_mut());
+        }
         let end = End {
-            from: frame,
+            from: drift.from(),
             constraints: &constraints,
-            external: &external,
+            external: &acting,
             dt,
         };
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
-        self.turn(&end, &mut at, &mut forces, &mut total);
+        self.turn(&end, &mut at, (&mut forces, &drift), &mut total);
+        there.outward(&vec![0.0; u.len()], &mut forces);
+        at.u = u;
         total.finite &= total.kinetic.is_finite();
         model.links.impose(&mut at.v);
         model.links.impose(&mut at.a);
@@ -177,26 +192,37 @@ impl Explicit {
     /// Forces of bodies, damping and interfaces at the end.
     fn evaluate(
         &mut self,
-        model: &Model,
-        frame: &Frame,
+        (model, frame): (&Model, &Frame),
         contact: &mut Contact,
         (at, dt): (&State, f64),
+        u: &[f64],
     ) -> Result<(), StepFailure> {
-        self.resist(model, &at.u);
+        self.resist(model, u);
         model.links.transfer(&mut self.force);
-        self.damp(model, (&at.u, &at.v));
+        self.damp(model, (u, &at.v));
         self.out.reset(false);
+        let frames = enter_here(model, contact, u);
+        let there = Spinning::new(&model.frames, u);
+        let (mut from, mut seen) = (Cow::Borrowed(&frame.state), Cow::Borrowed(at));
+        if !there.is_empty() {
+            there.enter(&mut from.to_mut().u);
+            seen.to_mut().u = u.to_vec();
+            there.enter(&mut seen.to_mut().u);
+        }
         let stage = Stage {
-            from: &frame.state,
-            at,
+            from: &from,
+            at: &seen,
             dt,
             rate: None,
         };
-        for interface in &mut contact.interfaces {
+        let mut interfaces = contact.interfaces.iter_mut();
+        let assembled = interfaces.try_for_each(|interface| {
             interface.begin();
             interface.prepare(&stage);
-            interface.assemble(&stage, &mut self.out)?;
-        }
+            interface.assemble(&stage, &mut self.out)
+        });
+        leave(model, contact, frames);
+        assembled?;
         contact.couplings.assemble(&stage, &mut self.out)?;
         model.links.transfer(&mut self.out.residual);
         Ok(())
@@ -276,16 +302,28 @@ impl Explicit {
     }
 
     /// The same for rotations of rigid bodies, whose inertia is no diagonal.
-    fn turn(&self, end: &End, at: &mut State, forces: &mut [f64], total: &mut Sums) {
+    fn turn(
+        &self,
+        end: &End,
+        at: &mut State,
+        (forces, drift): (&mut [f64], &Drift),
+        total: &mut Sums,
+    ) {
         let (constraints, dt) = (end.constraints, end.dt);
         let from = &end.from.state;
-        let State { v, a, .. } = at;
         for spin in &self.spins {
             let range = spin.range();
             let mut moment = [0.0; 3];
             for (m, i) in moment.iter_mut().zip(range.clone()) {
                 *m = end.external[i] - self.force[i] - self.out.residual[i];
             }
+            if drift.has(spin) {
+                let gained = drift.kick(spin, (end.from, dt), moment, at);
+                total.turned[1] += 8.0 / (dt * dt) * gained;
+                total.kinetic += spin.square(spin.of(&at.v));
+                continue;
+            }
+            let State { v, a, .. } = at;
             let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
             let inertial = spin.force(turn);
             let mut free = [spin.of(&from.a), turn];

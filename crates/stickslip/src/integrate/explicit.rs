@@ -16,7 +16,7 @@ use crate::model::definition::{Dynamic, Model};
 use crate::model::frame::Frame;
 use crate::solve::inertia::lumped;
 use crate::solve::spin::{Spin, mobility};
-use crate::system::{Assembler, Constraints};
+use crate::system::{Assembler, Constraints, Spinning};
 use crate::time::scheme::Method;
 
 /// What explicit increments need beside the state.
@@ -176,6 +176,18 @@ impl Explicit {
         2.0 / omega / ((1.0 + ratio * ratio).sqrt() + ratio)
     }
 
+    /// Angular momenta by dof of rigid bodies with spins `v`, along the axes of the bodies.
+    pub(crate) fn angular(&self, v: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; v.len()];
+        for spin in &self.spins {
+            let range = spin.range();
+            let own = spin.force(spin.of(v));
+            let size = range.len();
+            out[range].copy_from_slice(&own[..size]);
+        }
+        out
+    }
+
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         let moved: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
         let turned: f64 = self.spins.iter().map(|s| s.square(s.of(v))).sum();
@@ -306,12 +318,18 @@ impl Explicit {
                 false => (self.inverse[i] * balance(i), 0.0),
             })
             .unzip();
+        let spinning = Spinning::new(&model.frames, &frame.state.u);
+        let mut moments: Vec<f64> = (0..load.len())
+            .map(|i| load[i] - self.force[i] - contact[i])
+            .collect();
+        spinning.into_axes(&mut moments);
+        if !spinning.is_empty() {
+            let v = &frame.state.v;
+            spinning.add_steady(-1.0, (v, &self.angular(v)), &mut moments);
+        }
         for spin in &self.spins {
             let range = spin.range();
-            let mut moment = [0.0; 3];
-            for (m, i) in moment.iter_mut().zip(range.clone()) {
-                *m = load[i] - self.force[i] - contact[i];
-            }
+            let moment = spin.of(&moments);
             let turn = spin.acceleration(moment, &constraints.fixed, [0.0; 3]);
             let dim = range.len();
             a[range].copy_from_slice(&turn[..dim]);

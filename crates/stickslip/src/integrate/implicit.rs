@@ -4,6 +4,8 @@ use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
 use super::sight::Acting;
+use std::borrow::Cow;
+
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
@@ -17,7 +19,7 @@ use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
-use crate::system::{Cause, Constraints, Rate, Stage, State, StepFailure};
+use crate::system::{Cause, Constraints, Rate, Spinning, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
@@ -73,7 +75,7 @@ impl Integrator for Implicit {
         solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
-        match model.corotations.is_empty() {
+        match model.corotations.is_empty() && !model.frames.any_rigid() {
             true => {
                 let acting = Acting::new(model, frame, trial.to);
                 self.increment((model, frame), acting, contact, solver, trial)
@@ -135,12 +137,15 @@ impl Implicit {
         }
         constraints.impose(&mut u);
         model.links.impose(&mut u);
-        let now = (&increment, weights);
+        let still = Spinning::default();
+        let spinning = sight.as_ref().map_or(&still, |sight| &sight.spinning);
+        let now = (&increment, weights, spinning);
         let mut guess = scheme.guess(model, frame, solver, now, (u, &external));
-        let (gain, mut shift) = increment.rate();
+        let (mut gain, mut shift) = increment.rate();
         if let Some(sight) = &sight {
             // Contact is in space.
             sight.turn_out(&mut shift);
+            sight.rate(model, &increment, (&fixed, &mut gain, &mut shift));
         }
         let rate = Rate {
             gain: &gain,
@@ -188,7 +193,8 @@ impl Implicit {
         scheme.locate(model, frame, contact, trial)?;
         let mut solved = solved;
         let weight = (weights[1], impulse);
-        let mut flow = scheme.flow((model, frame), solver, (&fixed, &from.a, weight), &solved);
+        let from_there = (&fixed[..], &from.a[..], weight);
+        let mut flow = scheme.flow((model, frame), solver, from_there, (&solved, spinning));
         let inertia = in_motion(&solver.inertia);
         if impulse {
             let kick = kicked(model, inertia, &fixed, &solved.contact)?;
@@ -287,13 +293,14 @@ impl Implicit {
         model: &Model,
         frame: &Frame,
         solver: &Solver,
-        (increment, weights): (&Increment, [f64; 2]),
+        (increment, weights, spinning): (&Increment, [f64; 2], &Spinning),
         (u, external): (Vec<f64>, &[f64]),
     ) -> Guess {
         let internal = solver.elastic(model, &u);
         let stage = self.elastic_at_stage((model, frame), solver, &u, &internal);
         let known = (stage.as_slice(), external, weights[0]);
-        let (mut forces, scale) = self.balance((model, frame), solver, increment, &u, known);
+        let motion = (increment, spinning);
+        let (mut forces, scale) = self.balance((model, frame), solver, motion, &u, known);
         let weight = weights[1];
         forces.iter_mut().for_each(|f| *f /= weight);
         Guess {
@@ -408,7 +415,7 @@ impl Implicit {
         &self,
         (model, frame): (&Model, &Frame),
         solver: &Solver,
-        increment: &Increment,
+        (increment, spinning): (&Increment, &Spinning),
         u: &[f64],
         (internal, external, old): (&[f64], &[f64], f64),
     ) -> (Vec<f64>, f64) {
@@ -422,12 +429,21 @@ impl Implicit {
         for (a, _) in a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
             *a = 0.0;
         }
-        let inertial = inertia.mass_times(&a);
+        let mut inertial = inertia.mass_times(&a);
+        let mut start = (Cow::Borrowed(&frame.load), Cow::Borrowed(&frame.contact));
+        if !spinning.is_empty() {
+            let momenta = [&from.v, &v].map(|v| inertia.mass_times(v));
+            let ends = [(&from.v[..], &momenta[0][..]), (&v, &momenta[1])];
+            spinning.add_gyroscopic((u, increment.dt, alpha_f), ends, &mut inertial);
+            spinning.lean(u, start.0.to_mut());
+            spinning.lean(u, start.1.to_mut());
+        }
+        let (load, contact) = start;
         let stage = mix(alpha_f, &from.u, u);
         let damping = solver.damping_force(model, &stage, &mix(alpha_f, &from.v, &v));
-        let load = mix(alpha_f, &frame.load, external);
+        let load = mix(alpha_f, &load, external);
         let forces = (0..u.len())
-            .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * frame.contact[i])
+            .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * contact[i])
             .collect();
         let size = |x: &[f64]| dot(x, x).sqrt();
         let scale = size(&inertial).max(size(&load)).max(size(internal));
@@ -452,7 +468,7 @@ impl Implicit {
         (model, frame): (&Model, &Frame),
         solver: &Solver,
         (fixed, a, (weight, impulse)): (&[bool], &[f64], (f64, bool)),
-        solved: &Solved,
+        (solved, spinning): (&Solved, &Spinning),
     ) -> Flow {
         let alphas = self.alphas;
         let inertia = in_motion(&solver.inertia);
@@ -473,11 +489,16 @@ impl Implicit {
             true => (weight - 1.0) * dot(&solved.contact, &du),
         };
         let load = difference(&solved.external, &frame.load);
-        let mut numerical = dot(&du, &inertia.mass_times(&stage_a))
-            - dot(&mean_v, &inertia.mass_times(&dv))
-            + solved.elastic
-            + contact
-            - half * dot(&load, &du);
+        let mut inertial = inertia.mass_times(&stage_a);
+        if !spinning.is_empty() {
+            let momenta = [&from.v, &to.v].map(|v| inertia.mass_times(v));
+            let ends = [(&from.v[..], &momenta[0][..]), (&to.v, &momenta[1])];
+            let at = (&to.u[..], to.t - from.t, alphas.alpha_f);
+            spinning.add_gyroscopic(at, ends, &mut inertial);
+        }
+        let mut numerical =
+            dot(&du, &inertial) - dot(&mean_v, &inertia.mass_times(&dv)) + solved.elastic + contact
+                - half * dot(&load, &du);
         let mut damped = 0.0;
         if !model.corotations.is_empty() {
             // As it acts at the stage.

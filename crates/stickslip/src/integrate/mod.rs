@@ -34,6 +34,7 @@
 //! under force has something to lean on.
 
 pub(crate) mod central_difference;
+mod drift;
 pub(crate) mod explicit;
 pub(crate) mod implicit;
 pub(crate) mod impulse;

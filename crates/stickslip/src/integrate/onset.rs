@@ -2,6 +2,7 @@
 
 use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
+use super::sight::{enter_here, leave};
 use crate::body::couplings::Couplings;
 use crate::error::Error;
 use crate::math::vector::dot;
@@ -11,7 +12,7 @@ use crate::model::frame::{Frame, Motion};
 use crate::solve::inertia::Inertia;
 use crate::solve::inertia::in_motion;
 use crate::solve::solver::{Solver, entries};
-use crate::system::{Links, Stage, State, StepFailure};
+use crate::system::{Links, Spinning, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
@@ -79,7 +80,7 @@ impl Implicit {
         solver: &mut Solver,
         (t, dt): (f64, f64),
     ) -> Option<Vec<f64>> {
-        let (before, at) = at_start(frame, t, dt);
+        let (before, at) = at_start(model, frame, t, dt);
         let stage = Stage {
             from: &before,
             at: &at,
@@ -260,8 +261,10 @@ fn begin_along_mode(
 }
 
 /// Where bodies are at the start of a motion, and where they were `dt` before with the velocities that they have.
-fn at_start(frame: &Frame, t: f64, dt: f64) -> (State, State) {
-    let State { u, v, .. } = &frame.state;
+fn at_start(model: &Model, frame: &Frame, t: f64, dt: f64) -> (State, State) {
+    let v = &frame.state.v;
+    let mut u = frame.state.u.clone();
+    Spinning::new(&model.frames, &frame.state.u).enter(&mut u);
     let before = State {
         t: t - dt,
         u: u.iter().zip(v).map(|(u, v)| u - dt * v).collect(),
@@ -269,7 +272,7 @@ fn at_start(frame: &Frame, t: f64, dt: f64) -> (State, State) {
     };
     let at = State {
         t,
-        u: u.clone(),
+        u,
         ..State::default()
     };
     (before, at)
@@ -284,7 +287,7 @@ pub(crate) fn initial_contact(
     t: f64,
     dt: f64,
 ) -> Result<Vec<f64>, StepFailure> {
-    let (before, at) = at_start(frame, t, dt);
+    let (before, at) = at_start(model, frame, t, dt);
     let u = &frame.state.u;
     let stage = Stage {
         from: &before,
@@ -293,11 +296,15 @@ pub(crate) fn initial_contact(
         rate: None,
     };
     let mut forces = vec![0.0; u.len()];
-    for interface in &mut contact.interfaces {
-        let stored = interface.add_initial(&stage, &mut forces)?;
-        frame.ledger.initial += stored;
-        frame.ledger.contact += stored;
-    }
+    let frames = enter_here(model, contact, u);
+    let interfaces = contact.interfaces.iter_mut();
+    let stored: Result<f64, StepFailure> =
+        interfaces.map(|i| i.add_initial(&stage, &mut forces)).sum();
+    leave(model, contact, frames);
+    let stored = stored?;
+    frame.ledger.initial += stored;
+    frame.ledger.contact += stored;
+    Spinning::new(&model.frames, u).outward(&vec![0.0; u.len()], &mut forces);
     contact.couplings.begin_motion(t, &frame.state.v);
     (contact.couplings).add_initial(t, (u, &frame.state.v), &mut forces);
     model.links.transfer(&mut forces);
@@ -369,9 +376,15 @@ fn initial_acceleration(
     let inertia = in_motion(&solver.inertia);
     let internal = &frame.motion.internal;
     let damping = solver.damping_force(model, &frame.state.u, &frame.state.v);
-    let force: Vec<f64> = (0..internal.len())
+    let mut force: Vec<f64> = (0..internal.len())
         .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
         .collect();
+    let spinning = Spinning::new(&model.frames, &frame.state.u);
+    if !spinning.is_empty() {
+        spinning.into_axes(&mut force);
+        let v = &frame.state.v;
+        spinning.add_steady(-1.0, (v, &inertia.mass_times(v)), &mut force);
+    }
     let fixed = frame.constraints(model, t).fixed;
     let mut accelerate = inertia.accelerator(&fixed, lag);
     frame.state.a = accelerate(&force)?;

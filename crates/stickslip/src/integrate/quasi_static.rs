@@ -27,7 +27,7 @@ impl Integrator for QuasiStatic {
         if let Some(broken) = solver.condenser.broken() {
             return Err(broken.clone());
         }
-        if !model.corotations.is_empty() {
+        if model.turns_freely() {
             return self.turning((model, frame), contact, solver, trial);
         }
         let external = frame.external(model, trial.to);

@@ -2,19 +2,23 @@
 //!
 //! Nodal masses do not depend on direction, so that motion has the same equations along the axes of any frame that stands still. From one that stands where the
 //! body will be, it turns by as little as that is wrong, so that matrices that were factored once are good derivatives.
+//!
+//! Rigid bodies have their motion among the unknowns; in space it is counted from the start of the increment ([`Spinning`]).
 
 use std::sync::Arc;
 
 use crate::contact::interface::Interface;
-use crate::math::{norm, scale};
+use crate::math::{Vec3, norm, scale};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::{Frame, Motion};
 use crate::newton::Converged;
 use crate::solve::accepted::Accepted;
 use crate::system::{
-    BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, State, StepFailure,
+    BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, Spinning, State, StepFailure,
 };
+use crate::time::newmark::Increment;
+use crate::time::scheme::Alphas;
 
 /// Most times that an increment is solved again with forces that have been found where it ended. Each leaves the part of the imbalance by which bodies are
 /// strained, and by which they have turned otherwise than expected.
@@ -50,7 +54,12 @@ impl<'a> Acting<'a> {
 pub(super) struct Sight<'a> {
     /// The start, along the axes of space.
     pub outer: &'a Frame,
-    pub frames: Arc<BodyFrames>,
+    /// The frames of elastic bodies.
+    pub frames: BodyFrames,
+    /// Those and the ones of rigid bodies: what interfaces need.
+    pub all: Arc<BodyFrames>,
+    /// How rigid bodies turn.
+    pub spinning: Spinning,
 }
 
 impl<'a> Sight<'a> {
@@ -71,17 +80,22 @@ impl<'a> Sight<'a> {
         let all = each.map(|(points, turn)| BodyFrame {
             points,
             carrier: Carrier::Still(turn.pose()),
+            rigid: false,
         });
+        let all: Vec<BodyFrame> = all.collect();
+        let carried = model.frames.from_here(&frame.state.u);
         Sight {
             outer: frame,
-            frames: Arc::new(BodyFrames::new(model.dofs, all.collect())),
+            all: Arc::new(carried.with(all.iter().cloned())),
+            frames: BodyFrames::new(model.dofs, all),
+            spinning: Spinning::new(&model.frames, &frame.state.u),
         }
     }
 
     /// Lets interfaces see bodies from here; the frames that they had.
     pub fn enter(&self, model: &Model, contact: &mut Contact) -> Vec<Arc<BodyFrames>> {
         let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
-        let each = interfaces.map(|i| std::mem::replace(&mut i.frames, Arc::clone(&self.frames)));
+        let each = interfaces.map(|i| std::mem::replace(&mut i.frames, Arc::clone(&self.all)));
         each.collect()
     }
 
@@ -95,21 +109,28 @@ impl<'a> Sight<'a> {
             }
             values
         };
+        let acting = |values: &[f64]| {
+            let mut values = turned(values);
+            if !values.is_empty() {
+                self.spinning.into_axes(&mut values);
+            }
+            values
+        };
         Frame {
             state: State {
                 t: outer.state.t,
-                u: self.frames.in_frames(points, &outer.state.u),
+                u: self.place(points, &outer.state.u),
                 v: turned(&outer.state.v),
                 a: turned(&outer.state.a),
             },
-            forces: turned(&outer.forces),
-            contact: turned(&outer.contact),
-            load: turned(&outer.load),
+            forces: acting(&outer.forces),
+            contact: acting(&outer.contact),
+            load: acting(&outer.load),
             motion: Motion {
-                internal: turned(&outer.motion.internal),
+                internal: acting(&outer.motion.internal),
                 start: match outer.motion.start.is_empty() {
                     true => Vec::new(),
-                    false => self.frames.in_frames(points, &outer.motion.start),
+                    false => self.place(points, &outer.motion.start),
                 },
                 travel: outer.motion.travel,
             },
@@ -117,20 +138,66 @@ impl<'a> Sight<'a> {
         }
     }
 
+    /// Displacements as they are seen.
+    pub fn place(&self, points: &[Vec3], u: &[f64]) -> Vec<f64> {
+        let mut u = self.frames.in_frames(points, u);
+        self.spinning.enter(&mut u);
+        u
+    }
+
+    /// Displacements in space.
+    fn out(&self, points: &[Vec3], u: &[f64]) -> Vec<f64> {
+        let mut u = self.frames.in_space(points, u);
+        self.spinning.leave(&mut u);
+        u
+    }
+
     /// Where bodies that turn freely are expected to end. Their accelerations have no part in it: those of a scheme without dissipation ring.
     pub fn expect(&self, model: &Model, start: &State, dt: f64, u: &mut [f64]) {
         model.corotations.go_on((&start.u, &start.v), dt, u);
     }
 
-    /// What acts from outside at a time, where displacements are as seen.
-    pub fn load(&self, model: &Model, u: &[f64], t: f64, out: &mut Vec<f64>) {
-        let still = !model.loads.iter().any(|l| l.follows);
-        if still && !out.is_empty() {
+    /// Lets the points of rigid bodies that nothing holds have the velocities that Newmark's relations give their bodies.
+    pub fn rate(
+        &self,
+        model: &Model,
+        increment: &Increment,
+        (fixed, gain, shift): (&[bool], &mut [f64], &mut [f64]),
+    ) {
+        let (dofs, from) = (model.dofs, increment.from);
+        if !model.frames.any_rigid() {
             return;
         }
-        let u = self.frames.in_space(&model.mesh.points, u);
-        *out = self.outer.external_at(model, t, &u);
+        let (mut v, mut a) = (from.v.clone(), from.a.clone());
+        self.all
+            .move_points(&model.mesh.points, &from.u, [&mut v, &mut a]);
+        let Alphas { beta, gamma, .. } = increment.alphas;
+        let dt = increment.dt;
+        for frame in self.all.all().iter().filter(|f| f.rigid) {
+            let hidden = frame.hidden().unwrap_or_default();
+            let own = dofs.of(hidden, 0)..dofs.of(hidden + 2, 0);
+            if fixed[own].iter().all(|f| *f) {
+                continue;
+            }
+            for i in dofs.of(frame.points.start, 0)..dofs.of(frame.points.end, 0) {
+                gain[i] = gamma / beta;
+                let turned = dt * (1.0 - 0.5 * gamma / beta) * a[i];
+                shift[i] = dt * ((1.0 - gamma / beta) * v[i] + turned);
+            }
+        }
+    }
+
+    /// What acts from outside at a time, where displacements are as seen.
+    pub fn load(&self, model: &Model, u: &[f64], t: f64, out: &mut Vec<f64>) {
+        let turning = model.frames.any_rigid() || model.loads.iter().any(|l| l.follows);
+        if (model.loads.is_empty() || !turning) && !out.is_empty() {
+            return;
+        }
+        let seen = self.out(&model.mesh.points, u);
+        *out = self.outer.external_at(model, t, &seen);
         self.frames.turn_in(&[], out);
+        self.spinning.into_axes(out);
+        self.spinning.lean(u, out);
     }
 
     /// What is prescribed: points of bodies that turn are held altogether.
@@ -146,12 +213,19 @@ impl<'a> Sight<'a> {
             let all = values.zip(placed).zip(fixed).filter(|(_, fixed)| **fixed);
             all.for_each(|((value, placed), _)| *value = *placed);
         }
+        let Constraints { values, fixed, .. } = &mut constraints;
+        self.spinning.enter_prescribed(values, fixed);
         constraints
     }
 
     /// Turns vectors by dof from how they are seen to space.
     pub fn turn_out(&self, vectors: &mut [f64]) {
         self.frames.turn_out(&[], vectors);
+    }
+
+    /// It without the start.
+    pub fn outlook(&self) -> Outlook {
+        (self.frames.clone(), self.spinning.clone())
     }
 
     /// Whether an increment that Newton's method has found balances with the forces where it ended without those of interfaces, and the size of what
@@ -202,6 +276,20 @@ impl<'a> Sight<'a> {
     }
 }
 
+/// Lets interfaces see rigid bodies that turn in space from where they are at displacements `u`; the frames that they had.
+pub(super) fn enter_here(model: &Model, contact: &mut Contact, u: &[f64]) -> Vec<Arc<BodyFrames>> {
+    if model.frames.spun().is_empty() {
+        return Vec::new();
+    }
+    let here = Arc::new(model.frames.from_here(u));
+    let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
+    let each = interfaces.map(|i| match i.frames.is_empty() {
+        true => Arc::clone(&i.frames),
+        false => std::mem::replace(&mut i.frames, Arc::clone(&here)),
+    });
+    each.collect()
+}
+
 /// Gives interfaces their frames back.
 pub(super) fn leave(model: &Model, contact: &mut Contact, before: Vec<Arc<BodyFrames>>) {
     let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
@@ -212,25 +300,35 @@ pub(super) fn leave(model: &Model, contact: &mut Contact, before: Vec<Arc<BodyFr
 
 /// Whether a body that turns freely takes part in it.
 fn turns(model: &Model, interface: &Interface) -> bool {
-    let mut nodes = interface.nodes.iter();
-    nodes.any(|&n| model.corotations.of_point(n).is_some())
+    let freely = |n| model.corotations.of_point(n).is_some() || model.frames.of_point(n).is_some();
+    interface.nodes.iter().any(|&n| freely(n))
 }
 
+/// What an increment is seen from, without its start.
+pub(super) type Outlook = (BodyFrames, Spinning);
+
 /// An increment that was found as bodies are seen, along the axes of space.
-pub(super) fn in_space(model: &Model, frames: &BodyFrames, mut accepted: Accepted) -> Accepted {
+pub(super) fn in_space(
+    model: &Model,
+    (frames, spinning): &Outlook,
+    mut accepted: Accepted,
+) -> Accepted {
     let state = &mut accepted.state;
-    state.u = frames.in_space(&model.mesh.points, &state.u);
+    let seen = std::mem::take(&mut state.u);
+    state.u = frames.in_space(&model.mesh.points, &seen);
+    spinning.leave(&mut state.u);
+    let motion = [&mut state.v, &mut state.a].into_iter();
+    let moving = motion.filter(|x| !x.is_empty());
+    moving.for_each(|x| frames.turn_out(&[], x));
     let vectors = [
-        &mut state.v,
-        &mut state.a,
         &mut accepted.forces,
         &mut accepted.contact,
         &mut accepted.external,
     ];
-    for vector in vectors.into_iter().chain(accepted.internal.as_mut()) {
-        if !vector.is_empty() {
-            frames.turn_out(&[], vector);
-        }
+    let acting = vectors.into_iter().chain(accepted.internal.as_mut());
+    for vector in acting.filter(|x| !x.is_empty()) {
+        frames.turn_out(&[], vector);
+        spinning.outward(&seen, vector);
     }
     accepted
 }

@@ -4,8 +4,6 @@
 //! end, as the pass before has left it. The matrix, factored once for the whole analysis, is a good derivative there, but none of what bodies resist with: forces are found
 //! again where the increment has ended, and it is solved again from there until they balance.
 
-use std::sync::Arc;
-
 use super::implicit::{Implicit, difference};
 use super::quasi_static::{QuasiStatic, pairs};
 use super::sight::{Acting, Sight, in_space, leave};
@@ -36,7 +34,7 @@ impl Implicit {
         sight.load(model, &inside.state.u, trial.to, &mut external);
         let constraints = sight.constraints(model, trial.to);
         let before = sight.enter(model, contact);
-        let frames = Arc::clone(&sight.frames);
+        let outlook = sight.outlook();
         let acting = Acting {
             constraints,
             external,
@@ -44,7 +42,7 @@ impl Implicit {
         };
         let found = self.increment((model, &inside), acting, contact, solver, trial);
         leave(model, contact, before);
-        found.map(|accepted| in_space(model, &frames, accepted))
+        found.map(|accepted| in_space(model, &outlook, accepted))
     }
 }
 
@@ -66,11 +64,11 @@ impl QuasiStatic {
             };
             let sight = Sight::from(model, frame, &turns);
             let before = sight.enter(model, contact);
-            let seen = sight.frames.in_frames(&model.mesh.points, &u);
+            let seen = sight.place(&model.mesh.points, &u);
             let found = pass(&sight, model, contact, solver, (trial, passes), seen);
             leave(model, contact, before);
             let (met, accepted) = found?;
-            let accepted = in_space(model, &sight.frames, accepted);
+            let accepted = in_space(model, &sight.outlook(), accepted);
             if met {
                 check_change(model, pairs(&accepted.state.u, &frame.state.u))?;
                 return Ok(accepted);

@@ -90,9 +90,9 @@ impl Frame {
         constraints
     }
 
-    /// Displacements at a time as far as they are known before it: what is prescribed, and the last state.
-    fn expected(&self, model: &Model, t: f64) -> Vec<f64> {
-        let mut u = self.state.u.clone();
+    /// Displacements at a time as far as they are known: what is prescribed, and `u`.
+    fn expected(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
+        let mut u = u.to_vec();
         self.constraints(model, t).impose(&mut u);
         u
     }
@@ -102,7 +102,7 @@ impl Frame {
         self.external_at(model, t, &self.state.u)
     }
 
-    /// The same where loads that follow bodies with frames of their own act as displacements turn these.
+    /// The same where bodies that turn are where displacements have led them.
     pub(crate) fn external_at(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
         let mut external = self.loads_at(model, t, u);
         model.add_thermal_forces(t, 1.0, &mut external);
@@ -121,7 +121,7 @@ impl Frame {
             load.external(t, &mut external);
         }
         if !model.frames.is_empty() {
-            let (points, u) = (&model.mesh.points, self.expected(model, t));
+            let (points, u) = (&model.mesh.points, self.expected(model, t, u));
             model.frames.transfer(points, &u, &mut external);
         }
         let mut following = model.loads.iter().filter(|l| l.follows).peekable();

@@ -231,6 +231,11 @@ impl Model {
         }
     }
 
+    /// Whether increments at rest are sought in passes: bodies turn freely by any angle, and not in the plane as rigid ones.
+    pub(crate) fn turns_freely(&self) -> bool {
+        !self.corotations.is_empty() || !self.frames.spun().is_empty()
+    }
+
     /// Masses of rigid bodies and reference points.
     pub fn rigid(&self) -> impl Iterator<Item = Rigid> + '_ {
         let bodies = self.bodies.iter().filter_map(|b| b.rigid);

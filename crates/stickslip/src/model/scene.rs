@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::contact::Contact;
 use super::definition::{Model, Step};
 use super::frame::Frame;
+use crate::math::{add, cross, mat_vec, scale, sub};
 use crate::system::{Constraints, Fields, State};
 
 /// What is simulated and where it stands: enough to say what acts.
@@ -31,6 +32,55 @@ impl<'a> Scene<'a> {
             true => Cow::Borrowed(u),
             false => Cow::Owned(model.frames.in_space(&model.mesh.points, u)),
         }
+    }
+
+    /// Velocities and accelerations of points in space, by dof; empty where nothing has moved yet.
+    pub fn velocities(&self) -> [Cow<'a, [f64]>; 2] {
+        let (model, state) = (self.model, &self.frame.state);
+        if !model.frames.any_rigid() || state.v.is_empty() {
+            return [&state.v, &state.a].map(|x| Cow::Borrowed(x.as_slice()));
+        }
+        let (mut v, mut a) = (state.v.clone(), state.a.clone());
+        a.resize(v.len(), 0.0);
+        (model.frames).move_points(&model.mesh.points, &state.u, [&mut v, &mut a]);
+        [Cow::Owned(v), Cow::Owned(a)]
+    }
+
+    /// What reference points hold against the inertia of rigid bodies that swing about them, by dof `[N]`: their own dofs stand still, and do not know of it.
+    pub(crate) fn swinging(&self) -> Vec<(usize, f64)> {
+        let (model, state) = (self.model, &self.frame.state);
+        let mut out = Vec::new();
+        if state.a.is_empty() {
+            return out;
+        }
+        let links = &model.links;
+        let poses = model.frames.poses(&state.u);
+        for (frame, pose) in model.frames.all().iter().zip(poses) {
+            let body = model.bodies.iter().find(|b| b.points == frame.points);
+            let (Some(rigid), Some(hidden)) = (body.and_then(|b| b.rigid), frame.hidden()) else {
+                continue;
+            };
+            let own = &links.all()[rigid.link];
+            if own.hidden == hidden {
+                continue;
+            }
+            let length = links
+                .of_hidden(hidden)
+                .map_or(1.0, |i| links.all()[i].length);
+            let turning = |x: &[f64]| {
+                let x = scale(1.0 / length, model.dofs.vector(x, hidden + 1));
+                match model.dofs.dim {
+                    2 => [0.0, 0.0, x[0]],
+                    _ => x,
+                }
+            };
+            let (spin, turn) = (turning(&state.v), turning(&state.a));
+            let arm = sub(own.centre, pose.centre);
+            let bent = add(cross(turn, arm), cross(spin, cross(spin, arm)));
+            let force = scale(rigid.mass, mat_vec(&pose.turn, bent));
+            out.extend((0..model.dofs.dim).map(|c| (model.dofs.of(hidden, c), force[c])));
+        }
+        out
     }
 
     /// The state as bodies see it that know of no turn: what is left of displacements in their frames.

@@ -112,7 +112,7 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
             let centre = link.arms.first().map_or(first, |&arm| sub(first, arm));
             // The axis of symmetry is where the radius is zero.
             let centre = match link.freedom {
-                Freedom::Axial => [0.0; 3],
+                Freedom::Axial | Freedom::Carried => [0.0; 3],
                 _ => centre,
             };
             for (dof, motion) in link.motions(model.dofs) {

@@ -20,7 +20,7 @@ pub struct Body {
     /// Whether the body is rigid: it moves and turns as a whole, with the mass and the moments of inertia of its mesh and `density`,
     /// which it must have. It may touch, be loaded, hang on springs and be supported like any other.
     ///
-    /// Its rotation is linearised about the start, as that of elastic bodies is; above about 0.1 rad (`largest-rotation` in the
+    /// Its rotation is linearised about the start, as that of elastic bodies is, unless `rotation` says otherwise; above about 0.1 rad (`largest-rotation` in the
     /// summary) it shows. The stiffness of its material is still wanted: interfaces take their scale from it. A support of some
     /// of its points must hold each of its motions fully or not at all, so that a point off the centre of mass is no support. Around
     /// an axis it moves along y alone.
@@ -57,11 +57,12 @@ pub enum BodyRotation {
     Small,
     /// By any angle, freely, in motion and at rest: the body has a frame of its own, which fits its points best, and strains are small in it. Supports hold its points
     /// altogether or not at all. At rest systems are solved sparse. An implicit scheme keeps the angular momentum where it is `generalised-alpha` with `rho = 1`, and central
-    /// differences do; numerical dissipation takes spin as it does vibration.
+    /// differences do; numerical dissipation takes spin as it does vibration. A rigid body turns with its moments of inertia; its supports hold its motions as wholes.
     Large,
     /// By any angle, with the `[reference.NAME]` that is named: `rotation.with = "axle"`. The body is described in a frame that the reference point carries, and
     /// strains are small in it. Supports of its sets act along the axes of the frame: they hold the body *on the axle*; the axle itself is supported and turned
-    /// at the reference point. What the body presses on, and loads unless they `follow`, are in space. In quasi-static steps.
+    /// at the reference point. What the body presses on, and loads unless they `follow`, are in space. In quasi-static steps. A rigid body needs no supports of its own,
+    /// and moves in dynamic steps as well: a reference point that is held in all directions is a hinge. Off its centre of mass it has to be.
     With(String),
 }
 

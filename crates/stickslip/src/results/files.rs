@@ -335,7 +335,7 @@ pub fn fields(view: &View) -> Fields {
         components: 3,
         values: vectors(&view.displacements()),
     });
-    for (name, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
+    for (name, values) in ["V", "A"].into_iter().zip(view.velocities()) {
         if model.moves() {
             fields.all.push(Field {
                 name: name.into(),
@@ -343,7 +343,7 @@ pub fn fields(view: &View) -> Fields {
                 components: 3,
                 values: match values.is_empty() {
                     true => vec![0.0; 3 * model.mesh.points.len()],
-                    false => vectors(values),
+                    false => vectors(&values),
                 },
             });
         }

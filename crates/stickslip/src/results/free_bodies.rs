@@ -1,15 +1,16 @@
 //! What the history says of bodies that turn freely: where they are as wholes, and how they move.
 
 use crate::assess::view::View;
-use crate::math::{Mat3, Vec3, add, cross, norm, scale, sub};
-use crate::system::{Dofs, Motion};
+use crate::math::{Vec3, add, cross, mat_vec, scale, sub};
+use crate::system::{Dofs, Freedom, Motion, rotation_vector};
 
-/// Displacement of the centre (`U`), rotation vector of the frame (`UR`, at most half a revolution long), velocity and spin (`V`, `VR`), momentum (`P`) and angular
+/// Displacement of the centre (`U`), rotation vector of the frame (`UR`, of elastic bodies at most half a revolution long), velocity and spin (`V`, `VR`), momentum (`P`) and angular
 /// momentum about the centre (`L`) of each such body.
 pub(super) fn columns(view: &View) -> Vec<(String, f64)> {
     let mut out = Vec::new();
     let (model, state) = (view.model, &view.frame.state);
     let bodies = &model.corotations;
+    rigid_columns(view, &mut out);
     if bodies.is_empty() {
         return out;
     }
@@ -39,17 +40,67 @@ pub(super) fn columns(view: &View) -> Vec<(String, f64)> {
             (["V", "VR"], [velocity, spin]),
             (["P", "L"], [momentum, angular]),
         ];
-        for (letters, values) in columns {
-            for motion in motions(model.dofs) {
-                let (letter, axis, value) = match motion {
-                    Motion::Translation(i) => (letters[0], i, values[0][i]),
-                    Motion::Rotation(i) => (letters[1], i, values[1][i]),
-                };
-                out.push((format!("{name}.{letter}{}", axis + 1), value));
-            }
-        }
+        push(name, model.dofs, columns, &mut out);
     }
     out
+}
+
+fn push(
+    name: &str,
+    dofs: Dofs,
+    columns: [([&str; 2], [Vec3; 2]); 3],
+    out: &mut Vec<(String, f64)>,
+) {
+    for (letters, values) in columns {
+        for motion in motions(dofs) {
+            let (letter, axis, value) = match motion {
+                Motion::Translation(i) => (letters[0], i, values[0][i]),
+                Motion::Rotation(i) => (letters[1], i, values[1][i]),
+            };
+            out.push((format!("{name}.{letter}{}", axis + 1), value));
+        }
+    }
+}
+
+/// The same of rigid bodies that turn freely, whose motion is among the unknowns.
+fn rigid_columns(view: &View, out: &mut Vec<(String, f64)>) {
+    let (model, state) = (view.model, &view.frame.state);
+    let dofs = model.dofs;
+    let poses = model.frames.poses(&state.u);
+    for body in &model.bodies {
+        let Some((rigid, frame)) = body.rigid.zip(model.frames.of_point(body.points.start)) else {
+            continue;
+        };
+        let link = &model.links.all()[rigid.link];
+        if link.freedom == Freedom::Carried {
+            continue;
+        }
+        let turn = poses[frame].turn;
+        let at = |x: &[f64], point| match x.is_empty() {
+            true => [0.0; 3],
+            false => dofs.vector(x, point),
+        };
+        let upright = |x: Vec3| match dofs.dim {
+            2 => [0.0, 0.0, x[0]],
+            _ => mat_vec(&turn, x),
+        };
+        let (way, rate) = (at(&state.v, link.hidden), at(&state.v, link.hidden + 1));
+        let spun = mat_vec(&rigid.spin, rate);
+        let turned = scale(1.0 / link.length, at(&state.u, link.hidden + 1));
+        let angles = match dofs.dim {
+            2 => [0.0, 0.0, turned[0]],
+            _ => turned,
+        };
+        let columns = [
+            (["U", "UR"], [at(&state.u, link.hidden), angles]),
+            (["V", "VR"], [way, scale(1.0 / link.length, upright(rate))]),
+            (
+                ["P", "L"],
+                [scale(rigid.mass, way), scale(link.length, upright(spun))],
+            ),
+        ];
+        push(&body.name, dofs, columns, out);
+    }
 }
 
 /// The motions of a body as a whole that the space has.
@@ -58,49 +109,4 @@ fn motions(dofs: Dofs) -> impl Iterator<Item = Motion> {
     (0..dofs.dim)
         .map(Motion::Translation)
         .chain(turns.map(Motion::Rotation))
-}
-
-/// The rotation vector of a rotation, at most half a revolution long.
-fn rotation_vector(turn: &Mat3) -> Vec3 {
-    let axial = [
-        turn[2][1] - turn[1][2],
-        turn[0][2] - turn[2][0],
-        turn[1][0] - turn[0][1],
-    ];
-    let axial = scale(0.5, axial);
-    let (sine, cosine) = (
-        norm(axial),
-        0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0),
-    );
-    let angle = sine.atan2(cosine);
-    if sine > 1e-6 {
-        return scale(angle / sine, axial);
-    }
-    if cosine > 0.0 {
-        return axial;
-    }
-    // Half a revolution: R = 2 n nᵀ - 1.
-    let longest = (0..3)
-        .max_by(|&a, &b| turn[a][a].total_cmp(&turn[b][b]))
-        .unwrap_or(0);
-    let column: Vec3 =
-        std::array::from_fn(|i| 0.5 * (turn[i][longest] + if i == longest { 1.0 } else { 0.0 }));
-    scale(angle / norm(column).max(f64::MIN_POSITIVE), column)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::{distance, rotation};
-
-    #[test]
-    fn a_rotation_vector_gives_its_rotation() {
-        let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
-        for angle in [0.0, 1e-9, 0.3, 2.0, 3.1, std::f64::consts::PI] {
-            let found = rotation_vector(&rotation(axis, angle));
-            let sign = if found[0] < 0.0 { -1.0 } else { 1.0 };
-            let expected = scale(sign * angle, axis);
-            assert!(distance(found, expected) < 1e-8, "{angle}: {found:?}");
-        }
-    }
 }

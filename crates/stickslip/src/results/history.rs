@@ -143,11 +143,13 @@ fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
     let dofs = view.model.dofs;
     let mut sum = [0.0; 3];
     if support.schedule.active(view.frame.state.t) {
+        let swinging = view.swinging();
         for e in &support.entries {
             let (point, component) = dofs.locate(e.dof);
             // the moments that hold a rigid body are no forces
             if !view.model.links.turns(point) {
-                sum[component] += view.frame.forces[e.dof];
+                let own = swinging.iter().filter(|(dof, _)| *dof == e.dof);
+                sum[component] += view.frame.forces[e.dof] + own.map(|(_, f)| f).sum::<f64>();
             }
         }
     }
@@ -161,11 +163,15 @@ fn push_reference(row: &mut Row, view: &View, reference: &Reference) {
     let dofs = view.model.dofs;
     let link = &view.model.links.all()[reference.link];
     let held = view.supported(view.frame.state.t);
+    let swinging = view.swinging();
     for (letters, forces) in [(["U", "UR"], false), (["RF", "RM"], true)] {
         for (dof, motion) in link.motions(dofs) {
             let value = match forces {
                 false => view.frame.state.u[dof],
-                true if held[dof] => view.frame.forces[dof],
+                true if held[dof] => {
+                    let own = swinging.iter().filter(|(d, _)| *d == dof);
+                    view.frame.forces[dof] + own.map(|(_, f)| f).sum::<f64>()
+                }
                 true => 0.0,
             };
             // Unknowns are lengths and what acts on them forces.
@@ -204,10 +210,10 @@ fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
             row.push(format!("{}.U{}", probe.name, c + 1), *u);
         }
         if model.moves() {
-            for (letter, values) in [("V", &view.frame.state.v), ("A", &view.frame.state.a)] {
+            for (letter, values) in ["V", "A"].into_iter().zip(view.velocities()) {
                 let x = match values.is_empty() {
                     true => [0.0; 3],
-                    false => model.dofs.vector(values, point),
+                    false => model.dofs.vector(&values, point),
                 };
                 for (c, x) in x.iter().enumerate().take(dim) {
                     row.push(format!("{}.{letter}{}", probe.name, c + 1), *x);

@@ -158,6 +158,6 @@ pub(super) fn stiff(model: &Model) -> impl Iterator<Item = &crate::model::defini
 pub(super) fn suffices(model: &Model) -> bool {
     let at_rest = |step: &Step| step.dynamic.is_none() && step.modal.is_none();
     // What turns freely is not condensed at rest.
-    let condenses = model.engine.as_dyn().condenses() && model.corotations.is_empty();
+    let condenses = model.engine.as_dyn().condenses() && !model.turns_freely();
     condenses && model.steps.iter().all(at_rest)
 }

@@ -18,7 +18,10 @@ impl Spin {
         let rigid = model.rigid();
         let links = model.links.all();
         rigid
-            .filter(|r| links[r.link].freedom != Freedom::Axial && r.spin[0][0] > 0.0)
+            .filter(|r| {
+                let still = [Freedom::Axial, Freedom::Carried];
+                !still.contains(&links[r.link].freedom) && r.spin[0][0] > 0.0
+            })
             .map(|r| Spin {
                 dofs: model.dofs,
                 point: links[r.link].hidden + 1,
@@ -53,6 +56,11 @@ impl Spin {
         inverse(&rows).map_or([0.0; 3], |(inverse, _)| mat_vec(&inverse, b))
     }
 
+    /// `J⁻¹ m`, where nothing is held.
+    pub fn turned_by(&self, moment: Vec3) -> Vec3 {
+        inverse(&self.inertia).map_or([0.0; 3], |(inverse, _)| mat_vec(&inverse, moment))
+    }
+
     /// `J a`.
     pub fn force(&self, acceleration: Vec3) -> Vec3 {
         mat_vec(&self.inertia, acceleration)
@@ -70,10 +78,11 @@ pub(crate) fn mobility(model: &Model) -> Vec<f64> {
     let mut out = vec![0.0; model.dofs.points];
     for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
         let link = &model.links.all()[rigid.link];
-        let turn = match link.freedom {
-            Freedom::Axial => 0.0,
-            Freedom::Plane => 1.0 / rigid.spin[0][0],
-            Freedom::Space => {
+        // What is carried gives way less than it would on its own.
+        let turn = match (link.freedom, model.dofs.dim) {
+            (Freedom::Axial, _) => 0.0,
+            (_, 2) => 1.0 / rigid.spin[0][0],
+            _ => {
                 let rows: Vec<Vec<f64>> = rigid.spin.iter().map(|r| r.to_vec()).collect();
                 1.0 / crate::math::symmetric_eigen(&rows).0[0]
             }

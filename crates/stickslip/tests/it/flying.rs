@@ -221,7 +221,12 @@ fn a_pendulum_swings_as_slowly_as_its_angle_asks_for() {
 }
 
 /// A tyre of radius 0.1 on a floor.
-fn rolling(method: &str, [mu, velocity, spin]: [f64; 3], gravity: [f64; 2], end: f64) -> String {
+pub(crate) fn rolling(
+    method: &str,
+    [mu, velocity, spin]: [f64; 3],
+    gravity: [f64; 2],
+    end: f64,
+) -> String {
     format!(
         r#"
         format = 1
@@ -261,7 +266,7 @@ fn rolling(method: &str, [mu, velocity, spin]: [f64; 3], gravity: [f64; 2], end:
 }
 
 /// `k²/R²` of the tyre.
-const GYRATION: f64 = 0.5 * (1.0 + 0.09);
+pub(crate) const GYRATION: f64 = 0.5 * (1.0 + 0.09);
 
 #[test]
 fn a_tyre_thrown_with_backspin_ends_rolling_with_what_momentum_is_left_about_the_road() {
@@ -457,7 +462,7 @@ fn a_heavy_top_precesses_with_its_axis_level() {
 }
 
 /// A roller between a floor and a lid that is pressed down and then drawn along.
-fn roller(large: bool, increments: usize) -> String {
+pub(crate) fn roller(large: bool, increments: usize) -> String {
     let rotation = if large { "rotation = \"large\"" } else { "" };
     format!(
         r#"

@@ -39,6 +39,7 @@ mod restep;
 mod rigid;
 mod roughness;
 mod schema;
+mod spinning;
 mod starts;
 mod stops;
 mod suggestions;

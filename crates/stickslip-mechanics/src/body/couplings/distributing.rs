@@ -183,7 +183,7 @@ impl<'a> Mean<'a> {
             moments = [[0.0; 3], [0.0; 3], [0.0, 0.0, polar]];
         }
         let (inverse, turns) = match link.freedom {
-            Freedom::Axial => ([[0.0; 3]; 3], Vec::new()),
+            Freedom::Axial | Freedom::Carried => ([[0.0; 3]; 3], Vec::new()),
             _ => pseudo_inverse(&moments, least),
         };
         Mean {

@@ -107,7 +107,13 @@ impl Interface {
             if self.frames.of_point(self.nodes[node]).is_some() {
                 let way = sub(self.cache.x[node], self.cache.before[node]);
                 own = add_scaled(own, w.max(0.0), way);
-                moved = add_scaled(moved, w, way);
+                for (c, way) in way.into_iter().enumerate().take(dim) {
+                    let dof = self.dofs.of(self.nodes[node], c);
+                    moved[c] += w * match stage.rate {
+                        Some(rate) => rate.gain[dof] * way + rate.shift[dof],
+                        None => way,
+                    };
+                }
                 continue;
             }
             for c in 0..dim {

@@ -43,10 +43,12 @@ impl Interface {
         let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.multiplier[0] > 0.0);
         let found = pressed.filter_map(|(i, e)| {
             let batch = evaluations.batch(i);
-            let dofs = batch.dofs(e);
+            let mut dofs = batch.dofs(e).to_vec();
+            let mut gap = batch.tangent(e)?.rows[..dofs.len()].to_vec();
+            self.cache.in_space.gradients(&mut dofs, &mut gap);
             Some(Pressed {
-                gap: batch.tangent(e)?.rows[..dofs.len()].to_vec(),
-                dofs: dofs.to_vec(),
+                gap,
+                dofs,
                 force: e.area * e.multiplier[0],
             })
         });

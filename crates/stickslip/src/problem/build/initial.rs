@@ -11,7 +11,7 @@ use crate::io::vtu;
 use crate::math::{Vec3, add, cross, distance, scale, sub};
 use crate::mesh::Mesh;
 use crate::model::{Initial, Support};
-use crate::system::Dofs;
+use crate::system::{Dofs, Motion};
 
 fn vec3(v: &[f64]) -> Vec3 {
     std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0))
@@ -52,7 +52,16 @@ pub(super) fn build(
         let centre = scale(1.0 / points.len().max(1) as f64, sum);
         let v0 = vec3(initial.velocity.as_deref().unwrap_or_default());
         let velocities = if initial.velocity.is_some() || initial.spin.is_some() {
-            by_dof(&|p| add(v0, cross(spin, sub(place(p), centre))))
+            let mut all = by_dof(&|p| add(v0, cross(spin, sub(place(p), centre))));
+            let references = points.iter().filter_map(|&p| rigid.links.of_hidden(p));
+            for link in references.map(|i| &rigid.links.all()[i]) {
+                let turn = |(dof, motion)| match motion {
+                    Motion::Rotation(axis) => Some((dof, spin[axis] * link.length)),
+                    Motion::Translation(_) => None,
+                };
+                all.extend(link.motions(dofs).into_iter().filter_map(turn));
+            }
+            all
         } else {
             Vec::new()
         };

@@ -47,7 +47,7 @@ impl<'a> Held<'a> {
     /// Whether a point, of a rigid body too, does not move along an axis.
     fn still(&self, point: usize, c: usize) -> bool {
         let dof = self.dofs.of(point, c);
-        match self.links.row(dof) {
+        match self.links.row_at_start(dof) {
             Some(row) => row.iter().all(|&(q, w)| w == 0.0 || self.held[q]),
             None => self.held[dof],
         }

@@ -112,10 +112,15 @@ impl Problem {
                 .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
             materials.push(part.materials);
             let part_name = part.name.clone();
+            let rotation = &self.body[&part_name].rotation;
             let rigid = self.body[&part_name].rigid.then(|| {
                 let hidden = mesh.points.len() + 2 * links.len();
-                let (link, rigid) =
-                    rigid::link(&elastic, part.points.clone(), (hidden, links.len()));
+                let (link, rigid) = rigid::link(
+                    &elastic,
+                    part.points.clone(),
+                    (hidden, links.len()),
+                    rotation,
+                );
                 links.push(link);
                 rigid
             });
@@ -181,6 +186,7 @@ impl Problem {
             loads: &loads,
             steps: &steps,
             frames: &frames,
+            references: self.reference.keys().cloned().collect(),
         };
         let corotations = turning::corotations(self, &mesh, &bodies, dofs);
         turning::refuse(self, &said, &corotations)?;

@@ -11,13 +11,16 @@ use crate::body::Space;
 use crate::body::couplings::{Coupling, CouplingKind};
 use crate::body::loads::{Load, Spring};
 use crate::error::{Diagnostic, Error};
-use crate::math::{Mat3, Vec3, distance, symmetric_eigen};
+use crate::math::{Mat3, Vec3, add_scaled, distance, dot, norm, sub, symmetric_eigen};
 use crate::mesh::Mesh;
 use crate::model::{Body, Reference, Rigid, Step, Support};
-use crate::system::{BodyFrames, Dofs, Follower, Freedom, Link, Links};
+use crate::system::{BodyFrames, Dofs, Follower, Freedom, Link, Links, Motion};
 
 /// Part of what resists a reference point the most below which nothing does.
 const NOTHING: f64 = 1e-12;
+
+/// By how much of its size what a reference point carries may miss that with its centre of mass.
+const CENTRED: f64 = 1e-6;
 
 /// Part of a load along a motion that is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -49,6 +52,7 @@ pub(super) fn links(
             hidden: sets.reference(name).unwrap_or(end),
             length,
             freedom: freedom(space),
+            framed: false,
         });
     }
     Ok(out)
@@ -97,11 +101,20 @@ pub(super) struct Said<'a> {
     pub loads: &'a [Load],
     pub steps: &'a [Step],
     pub frames: &'a BodyFrames,
+    /// The names of the reference points, whose links are the last.
+    pub references: Vec<String>,
 }
 
 impl Said<'_> {
     fn dofs(&self) -> Dofs {
         self.links.dofs()
+    }
+
+    /// The reference point that has a dof.
+    pub fn named(&self, dof: usize) -> Option<&str> {
+        let link = self.links.of_hidden(self.dofs().locate(dof).0)?;
+        let first = self.links.all().len() - self.references.len();
+        (self.references.get(link.checked_sub(first)?)).map(String::as_str)
     }
 
     /// The one body that couplings tie to a reference point.
@@ -150,7 +163,8 @@ pub(super) fn build(problem: &Problem, said: &Said) -> Result<Vec<Reference>, Er
     for (i, (name, table)) in problem.reference.iter().enumerate() {
         let index = bodies + i;
         let link = &said.links.all()[index];
-        let rigid = inertia(table, index, link);
+        let own = inertia(table, index, link);
+        let rigid = carried(problem, (name, index), own, said)?;
         let still = said.steps.iter();
         let still: Result<Vec<_>, Error> = still
             .map(|step| unresisted(name, link, rigid.as_ref(), step, said))
@@ -166,22 +180,94 @@ pub(super) fn build(problem: &Problem, said: &Said) -> Result<Vec<Reference>, Er
     Ok(out)
 }
 
+/// The mass of a reference point with that of the rigid bodies it carries.
+fn carried(
+    problem: &Problem,
+    (name, index): (&str, usize),
+    own: Option<Rigid>,
+    said: &Said,
+) -> Result<Option<Rigid>, Error> {
+    let link = &said.links.all()[index];
+    let bodies = said.bodies.iter().filter(|b| b.rigid.is_some());
+    let bodies = bodies.filter(|b| problem.body[&b.name].rotation.reference() == Some(name));
+    let mut out = own;
+    let (mut first, mut size) = ([0.0; 3], 0.0);
+    for body in bodies {
+        let moments = body.elastic.mass_moments();
+        let arm = sub(moments.centre, link.centre);
+        first = add_scaled(first, moments.mass, arm);
+        size += moments.mass * (norm(arm) + moments.radius());
+        let square = dot(arm, arm);
+        let mut about = moments.inertia();
+        for (i, row) in about.iter_mut().enumerate() {
+            for (j, inertia) in row.iter_mut().enumerate() {
+                let unit = if i == j { square } else { 0.0 };
+                *inertia += moments.mass * (unit - arm[i] * arm[j]);
+            }
+        }
+        let sum = out.get_or_insert(Rigid {
+            link: index,
+            mass: 0.0,
+            spin: [[0.0; 3]; 3],
+        });
+        sum.mass += moments.mass;
+        let more = in_order(about, link);
+        let both = sum.spin.as_flattened_mut().iter_mut();
+        let both = both.zip(more.as_flattened());
+        both.for_each(|(sum, more)| *sum += more);
+    }
+    if norm(first) > CENTRED * size {
+        refuse_swinging(name, link, said)?;
+    }
+    Ok(out)
+}
+
+/// In motion what is carried off its centre of mass needs an axle that stays where it is: it would push that along otherwise.
+fn refuse_swinging(name: &str, link: &Link, said: &Said) -> Result<(), Error> {
+    let dofs = said.dofs();
+    for step in said.steps.iter().filter(|s| s.dynamic.is_some()) {
+        let middle = 0.5 * (step.start + step.end);
+        let acting = || said.supports.iter().filter(|s| s.schedule.active(middle));
+        let still = |dof: usize| {
+            let mut entries = acting().flat_map(|s| &s.entries);
+            entries.any(|e| e.dof == dof && (e.hold || e.value == 0.0))
+        };
+        let motions = link.motions(dofs).into_iter();
+        let mut ways = motions.filter(|(_, m)| matches!(m, Motion::Translation(_)));
+        if ways.any(|(dof, _)| !still(dof)) {
+            let message = format!(
+                "it carries rigid bodies off their centre of mass, and does not stand still in step {}",
+                step.name
+            );
+            return Err(problem_error(vec![
+                Diagnostic::new(format!("reference.{name}"), message)
+                    .help("hold it in all directions, put it into the centre of mass, or let a body turn freely: rotation = \"large\""),
+            ]));
+        }
+    }
+    Ok(())
+}
+
+/// Moments of inertia over the square of the length of a link, in the order of its dofs.
+fn in_order(moments: Mat3, link: &Link) -> Mat3 {
+    let over = |x: f64| x / (link.length * link.length);
+    match link.freedom {
+        Freedom::Axial | Freedom::Carried => [[0.0; 3]; 3],
+        Freedom::Plane => [[over(moments[2][2]), 0.0, 0.0], [0.0; 3], [0.0; 3]],
+        Freedom::Space => moments.map(|row| row.map(over)),
+    }
+}
+
 /// The mass of a reference point.
 fn inertia(table: &super::super::Reference, index: usize, link: &Link) -> Option<Rigid> {
     if table.mass.is_none() && table.inertia.is_none() {
         return None;
     }
     let moments = spin_matrix(table.inertia.as_deref().unwrap_or_default());
-    let over = |x: f64| x / (link.length * link.length);
-    let spin: Mat3 = match link.freedom {
-        Freedom::Axial => [[0.0; 3]; 3],
-        Freedom::Plane => [[over(moments[2][2]), 0.0, 0.0], [0.0; 3], [0.0; 3]],
-        Freedom::Space => moments.map(|row| row.map(over)),
-    };
     Some(Rigid {
         link: index,
         mass: table.mass.unwrap_or(0.0),
-        spin,
+        spin: in_order(moments, link),
     })
 }
 

@@ -1,5 +1,6 @@
 //! Rigid bodies: their mass from the mesh, and what is said of their points turned into something said of the bodies.
 
+use super::super::BodyRotation;
 use super::fault::problem_error;
 use crate::body::{Elastic, Space};
 use crate::error::{Diagnostic, Error};
@@ -19,6 +20,7 @@ pub(super) fn link(
     elastic: &Elastic,
     points: std::ops::Range<usize>,
     (hidden, index): (usize, usize),
+    rotation: &BodyRotation,
 ) -> (Link, Rigid) {
     let moments = elastic.mass_moments();
     let freedom = freedom(elastic.space());
@@ -41,7 +43,11 @@ pub(super) fn link(
         points,
         hidden,
         length,
-        freedom,
+        freedom: match rotation.reference() {
+            Some(_) => Freedom::Carried,
+            None => freedom,
+        },
+        framed: !rotation.is_small(),
     };
     let rigid = Rigid {
         link: index,
@@ -144,10 +150,15 @@ impl RigidBodies<'_> {
             let link = &self.links.all()[index];
             let rows: Vec<(Row, f64)> = entries
                 .iter()
-                .filter_map(|e| Some((self.links.row(e.dof)?, e.value)))
+                .filter_map(|e| Some((self.links.row_at_start(e.dof)?, e.value)))
                 .collect();
-            let fit = fit(link, self.dofs, &rows);
             let body = self.name(index);
+            if link.freedom == Freedom::Carried {
+                let message = format!("rigid body `{body}` is carried by a reference point");
+                return Err(Diagnostic::new(format!("support.{name}.set"), message)
+                    .help("support the reference point"));
+            }
+            let fit = fit(link, self.dofs, &rows);
             let unclear = |part: f64| part > SLIGHT && part < 1.0 - SLIGHT;
             if let Some((_, motion, ..)) = fit.motions.iter().find(|m| unclear(m.3)) {
                 return Err(Diagnostic::new(
@@ -195,10 +206,15 @@ impl RigidBodies<'_> {
         for (index, values) in bound.iter().enumerate().filter(|(_, v)| !v.is_empty()) {
             let rows: Vec<(Row, f64)> = values
                 .iter()
-                .filter_map(|&(dof, value)| Some((self.links.row(dof)?, value)))
+                .filter_map(|&(dof, value)| Some((self.links.row_at_start(dof)?, value)))
                 .collect();
-            let fit = fit(&self.links.all()[index], self.dofs, &rows);
             let body = self.name(index);
+            let link = &self.links.all()[index];
+            if link.freedom == Freedom::Carried {
+                let message = format!("rigid body `{body}` is carried by a reference point");
+                return Err(Diagnostic::new(key, message).help("give it to the reference point"));
+            }
+            let fit = fit(link, self.dofs, &rows);
             if fit.motions.iter().any(|m| m.3 < 0.5) {
                 return Err(Diagnostic::new(
                     key,

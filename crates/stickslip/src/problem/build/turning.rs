@@ -1,4 +1,4 @@
-//! Bodies that turn with reference points.
+//! Bodies that turn by any angle: with reference points, freely, and rigid ones.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -9,36 +9,44 @@ use super::references::Said;
 use super::sets::Sets;
 use crate::contact::interface::Interface;
 use crate::error::{Diagnostic, Error};
+use crate::math::identity;
 use crate::mesh::Mesh;
 use crate::model::Body;
 use crate::system::{BodyFrame, BodyFrames, Carrier, Corotations, Dofs, Links};
 
-/// The bodies that turn, with the reference points that carry their frames.
+/// The bodies that turn, with the reference points that carry their frames; rigid bodies that turn freely carry their own.
 pub(super) fn frames(problem: &Problem, sets: &Sets, bodies: &[Body], links: &Links) -> BodyFrames {
     let turning = bodies.iter().filter_map(|body| {
-        let reference = problem.body[&body.name].rotation.reference()?;
-        let hidden = sets.reference(reference)?;
-        let link = &links.all()[links.of_hidden(hidden)?];
+        let rotation = &problem.body[&body.name].rotation;
+        let link = match (rotation.reference(), body.rigid) {
+            (Some(reference), _) => links.of_hidden(sets.reference(reference)?)?,
+            (None, Some(rigid)) if !rotation.is_small() => rigid.link,
+            (None, _) => return None,
+        };
+        let link = &links.all()[link];
         Some(BodyFrame {
             points: body.points.clone(),
             carrier: Carrier::Reference {
-                hidden,
+                hidden: link.hidden,
                 centre: link.centre,
                 length: link.length,
+                base: identity(),
             },
+            rigid: body.rigid.is_some(),
         })
     });
     BodyFrames::new(links.dofs(), turning.collect())
 }
 
-/// The bodies that turn freely, with frames that fit the masses of their points.
+/// The elastic bodies that turn freely, with frames that fit the masses of their points.
 pub(super) fn corotations(
     problem: &Problem,
     mesh: &Mesh,
     bodies: &[Body],
     dofs: Dofs,
 ) -> Corotations {
-    let free = |b: &&Body| problem.body[&b.name].rotation == BodyRotation::Large;
+    let free =
+        |b: &&Body| b.rigid.is_none() && problem.body[&b.name].rotation == BodyRotation::Large;
     let each = bodies.iter().filter(free).map(|body| {
         let mut masses = vec![0.0; dofs.points];
         body.elastic.add_lumped_mass(&mut masses);
@@ -91,15 +99,34 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
         Err(problem_error(vec![finding]))
     };
     let freely = |dof: usize| free.of_point(dofs.locate(dof).0).is_some();
+    let rigid = |dof: usize| {
+        let body = of(dof).map(|i| &frames.all()[i]);
+        body.is_some_and(|frame| frame.rigid)
+    };
+    let spun = frames.spun();
+    let turned = |dof: usize| {
+        let point = dofs.locate(dof).0;
+        spun.iter().any(|(hidden, _)| hidden + 1 == point)
+    };
     for coupling in said.couplings {
         let mut rows = coupling.rows.iter().flat_map(|r| &r.dofs);
-        if rows.any(|&dof| freely(dof)) {
+        if rows.any(|&dof| freely(dof) || rigid(dof) || turned(dof)) {
             return fault(
                 format!("coupling.{}", coupling.name),
                 "it acts on a body that turns freely by any angle",
-                "tie surfaces by an interface (`tied = true`), or hold points of the body by a support",
+                "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support, or let a reference point carry a rigid one",
             );
         }
+    }
+    let springs = said.springs.iter().flat_map(|s| s.entries());
+    if let Some(name) =
+        (springs.map(|(dof, _)| *dof).find(|&dof| turned(dof))).and_then(|dof| said.named(dof))
+    {
+        return fault(
+            format!("reference.{name}"),
+            "a spring against rotation in space is on a point that carries a rigid body",
+            "load it by a moment instead",
+        );
     }
     for support in said.supports {
         let held: BTreeSet<usize> = support.entries.iter().map(|e| e.dof).collect();

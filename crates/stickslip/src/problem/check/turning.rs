@@ -22,20 +22,26 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             findings.add(&key, message, "model the body in 3D, or remove the key");
         }
     }
+    // A rigid body may move.
+    let mut elastic = turning
+        .iter()
+        .filter(|(name, _)| !problem.body[*name].rigid);
+    let deforms = elastic.next().map(|(name, _)| *name);
     for (i, step) in problem.step.iter().enumerate() {
         let i = i.to_string();
         let kinds = [
-            ("dynamic", step.dynamic.is_some()),
+            ("dynamic", step.dynamic.is_some() && deforms.is_some()),
             ("steady", step.steady.is_some()),
             ("modes", step.modes.is_some()),
             ("complex-modes", step.complex_modes.is_some()),
             ("harmonic", step.harmonic.is_some()),
         ];
         for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
+            let body = deforms.unwrap_or(first);
             findings.add(
                 &["step", &i, kind],
                 format!(
-                    "body `{first}` turns by any angle, which is known to quasi-static steps alone"
+                    "body `{body}` turns by any angle, which is known to quasi-static steps alone"
                 ),
                 "leave this step out, or `rotation` of the body",
             );
@@ -73,16 +79,13 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
             let message = "around an axis of symmetry nothing turns";
             findings.add(&key, message, "model the body in 3D, or remove the key");
         }
-        if problem.body[*name].rigid {
-            let message = "the rotation of a rigid body is linearised";
-            findings.add(&key, message, "make it elastic: it may be stiff");
-        }
     }
     for (i, step) in problem.step.iter().enumerate() {
         let kinds = [
             ("steady", step.steady.is_some()),
             ("modes", step.modes.is_some()),
             ("complex-modes", step.complex_modes.is_some()),
+            ("harmonic", step.harmonic.is_some()),
         ];
         for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
             findings.add(
@@ -107,7 +110,11 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
             "leave temperatures out, or `rotation` of the body",
         );
     }
-    if let Some(with) = (problem.body.values()).find_map(|b| b.rotation.reference()) {
+    let mut elastic = problem.body.values().filter(|b| !b.rigid);
+    let with = elastic.find_map(|b| b.rotation.reference());
+    if let Some(with) = with
+        && let Some(first) = free.iter().find(|name| !problem.body[**name].rigid)
+    {
         findings.add(
             &["body", first.as_str(), "rotation"],
             format!("it turns freely, and another body with `{with}`"),

@@ -25,7 +25,7 @@ impl Solver {
     /// Makes the bodies ready for a quasi-static step.
     pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
         // What turns freely would change the load patterns of all interiors in every pass.
-        if !self.method.condenses() || !model.corotations.is_empty() {
+        if !self.method.condenses() || model.turns_freely() {
             return;
         }
         let step = &model.steps[frame.step];

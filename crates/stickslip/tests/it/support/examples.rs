@@ -28,6 +28,7 @@ macro_rules! every_example {
             forced_slider = "forced-slider",
             free_slider = "free-slider",
             gear_pair = "gear-pair",
+            geneva_drive = "geneva-drive",
             greco = "greco",
             greco_compliance = "greco-compliance",
             impact_bar = "impact-bar",
