@@ -79,11 +79,13 @@ impl Elastic {
                         *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
                     }
                     out[3] = volume;
-                    out[4..10].copy_from_slice(&strain);
                     // Where the points are others, the thermal strain is the same in all of the cell.
                     let thermal = recovered.thermal[q];
                     let elastic = std::array::from_fn(|v| strain[v] - thermal[v]);
-                    out[10..16].copy_from_slice(&stress_of(&medium.acting, &elastic));
+                    let stress = stress_of(&medium.acting, &elastic);
+                    let [strain, thermal, stress] = recovered.in_space([strain, thermal, stress]);
+                    out[4..10].copy_from_slice(&strain);
+                    out[10..16].copy_from_slice(&stress);
                     out[16..].copy_from_slice(&thermal);
                 }
             },

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::cell_frame::CellFrame;
 use super::geometry::{Table, by_nodes, coordinates, point};
 use super::kernel::{self, Scratch};
 use super::medium::Medium;
+use super::recover::gather;
 use super::scheme::stiffness_rule;
 use super::waves::in_order;
 use super::{Formulation, Space, Temperatures};
@@ -43,6 +45,7 @@ pub struct Elastic {
     pub(super) acting: Vec<Stiffness>,
     points: Vec<usize>,
     pub(super) temperatures: Option<Arc<Temperatures>>,
+    pub(super) corotational: bool,
 }
 
 impl Elastic {
@@ -126,7 +129,22 @@ impl Elastic {
             acting,
             points,
             temperatures: None,
+            corotational: false,
         })
+    }
+
+    /// The body with a frame for each of its cells, in which the cell is linear: it may turn and bend by any angle
+    /// ([`nour_omid_rankin_1991`](stickslip_base::references::nour_omid_rankin_1991)). Not for axial symmetry, where the frame of a cell is not free to turn.
+    pub fn corotational(self) -> Self {
+        Elastic {
+            corotational: self.space != Space::Axisymmetric,
+            ..self
+        }
+    }
+
+    /// Whether each of its cells has a frame of its own.
+    pub fn is_corotational(&self) -> bool {
+        self.corotational
     }
 
     /// The body with temperatures at its points.
@@ -185,14 +203,51 @@ impl Elastic {
         for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
                 self.mesh.blocks[p.block].kind,
-                Elastic::part_matrices(self, part, visit)
+                Elastic::part_matrices(self, part, 1, &|_, _| {}, visit)
             );
         }
     }
 
+    /// Adds the derivative of the internal force by displacements, at displacements `u` `[m]` by dof of the whole mesh, to `exact`, and what of it is stiffness alone to
+    /// `stiff` `[N/m]`. Both are symmetric; the second is positive wherever the body is held.
+    pub fn tangents(&self, u: &[f64], exact: &mut BlockCsr, stiff: &mut BlockCsr) {
+        for (part, p) in self.parts.iter().enumerate() {
+            by_nodes!(
+                self.mesh.blocks[p.block].kind,
+                Elastic::part_tangents(self, part, u, [exact, stiff])
+            );
+        }
+    }
+
+    fn part_tangents<const N: usize>(&self, part: usize, u: &[f64], out: [&mut BlockCsr; 2]) {
+        let block = &self.mesh.blocks[self.parts[part].block];
+        let dofs = self.dofs();
+        let width = (N * dofs.dim).pow(2);
+        let turn = |cell: usize, values: &mut [f64]| {
+            let (k, both) = values.split_at_mut(width);
+            let (exact, stiff) = both.split_at_mut(width);
+            if !self.corotational {
+                exact.copy_from_slice(k);
+                stiff.copy_from_slice(k);
+                return;
+            }
+            let x = coordinates::<N>(&self.mesh.points, block, cell);
+            let u = gather(u, dofs, block, cell);
+            CellFrame::new(dofs.dim, &x, &u).tangents(k, exact, stiff);
+        };
+        let [exact, stiff] = out;
+        self.part_matrices::<N>(part, 3, &turn, &mut |points, values| {
+            exact.add_group(points, &values[width..2 * width]);
+            stiff.add_group(points, &values[2 * width..]);
+        });
+    }
+
+    /// Hands out so many matrices a cell: the first its stiffness, the others what `more` makes of it.
     fn part_matrices<const N: usize>(
         &self,
         part: usize,
+        count: usize,
+        more: &(dyn Fn(usize, &mut [f64]) + Sync),
         visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
     ) {
         let block = &self.mesh.blocks[self.parts[part].block];
@@ -201,16 +256,18 @@ impl Elastic {
         let width = (N * space.dim()).pow(2);
         in_order(
             block.connectivity.len() / N,
-            width,
+            count * width,
             |first, values| {
                 let mut scratch = Scratch::<N>::new();
                 let mut graded = self.parts[part].cells.as_ref().map(|_| medium.clone());
-                for (c, out) in values.chunks_exact_mut(width).enumerate() {
+                for (c, out) in values.chunks_exact_mut(count * width).enumerate() {
                     let x = coordinates(&self.mesh.points, block, first + c);
                     if let Some(medium) = &mut graded {
                         medium.set_stiffness(&self.acting_in(part, first + c));
                     }
-                    kernel::stiffness(graded.as_ref().unwrap_or(&medium), &x, &mut scratch, out);
+                    let medium = graded.as_ref().unwrap_or(&medium);
+                    kernel::stiffness(medium, &x, &mut scratch, &mut out[..width]);
+                    more(first + c, out);
                 }
             },
             |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),

@@ -17,12 +17,30 @@ pub(super) struct FacetPoint<'a> {
     pub normal: Vec3,
 }
 
-/// Visits the quadrature points of a facet. Facets that have shrunk to nothing have none.
-pub(super) fn visit_facet(
+/// A quadrature point of a facet, wherever its points are.
+pub(super) struct Faced<'a> {
+    /// Points of the facet.
+    pub points: &'a [usize],
+    /// Shape functions there.
+    pub values: &'a [f64],
+    /// Their derivatives along the facet.
+    pub gradients: &'a [Vec3],
+    /// Weight.
+    pub weight: f64,
+    /// Place.
+    pub x: Vec3,
+    /// Tangents.
+    pub tangents: [Vec3; 2],
+    /// Normal out of the body, as long as the area is large.
+    pub across: Vec3,
+}
+
+/// Visits the quadrature points of a facet whose points are at some places.
+pub(super) fn each_face_point(
     mesh: &Mesh,
-    space: Space,
     facet: FacetRef,
-    visit: &mut dyn FnMut(FacetPoint),
+    place: &dyn Fn(usize) -> Vec3,
+    visit: &mut dyn FnMut(&Faced),
 ) {
     let block = &mesh.blocks[facet.cell.block];
     let nodes = block.kind.node_count();
@@ -42,25 +60,44 @@ pub(super) fn visit_facet(
         element.gradients(q.xi, &mut d[..count]);
         let (mut x, mut t1, mut t2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (a, &p) in points.iter().enumerate() {
-            x = add_scaled(x, n[a], mesh.points[p]);
-            t1 = add_scaled(t1, d[a][0], mesh.points[p]);
-            t2 = add_scaled(t2, d[a][1], mesh.points[p]);
+            let at = place(p);
+            x = add_scaled(x, n[a], at);
+            t1 = add_scaled(t1, d[a][0], at);
+            t2 = add_scaled(t2, d[a][1], at);
         }
-        let across = if mesh.dim == 2 {
-            [t1[1], -t1[0], 0.0]
-        } else {
-            cross(t1, t2)
-        };
-        let measure = norm(across);
+        visit(&Faced {
+            points,
+            values: &n[..count],
+            gradients: &d[..count],
+            weight: q.weight,
+            x,
+            tangents: [t1, t2],
+            across: match mesh.dim {
+                2 => [t1[1], -t1[0], 0.0],
+                _ => cross(t1, t2),
+            },
+        });
+    }
+}
+
+/// Visits the quadrature points of a facet. Facets that have shrunk to nothing have none.
+pub(super) fn visit_facet(
+    mesh: &Mesh,
+    space: Space,
+    facet: FacetRef,
+    visit: &mut dyn FnMut(FacetPoint),
+) {
+    each_face_point(mesh, facet, &|p| mesh.points[p], &mut |q| {
+        let measure = norm(q.across);
         if measure > 0.0 {
             visit(FacetPoint {
-                points,
-                values: &n[..count],
-                area: q.weight * measure * space.extent(x),
-                normal: scale(1.0 / measure, across),
+                points: q.points,
+                values: q.values,
+                area: q.weight * measure * space.extent(q.x),
+                normal: scale(1.0 / measure, q.across),
             });
         }
-    }
+    });
 }
 
 /// Sums the entries of equal index; ascending, and each sum in the order of the entries.

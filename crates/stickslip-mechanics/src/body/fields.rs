@@ -60,9 +60,8 @@ impl<const K: usize> Sums<K> {
                 for (out, row) in at_nodes.chunks_exact_mut(K).zip(&fit) {
                     out.fill(0.0);
                     for (q, weight) in row.iter().enumerate() {
-                        let r = recovered;
-                        let state = [&r.strain[q], &r.thermal[q], &r.stress[q]];
-                        for (o, s) in out.iter_mut().zip(of(state)) {
+                        let [strain, thermal, stress] = recovered.at(q);
+                        for (o, s) in out.iter_mut().zip(of([&strain, &thermal, &stress])) {
                             *o += weight * s;
                         }
                     }

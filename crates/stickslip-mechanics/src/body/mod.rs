@@ -5,6 +5,7 @@
 
 mod anchors;
 mod around;
+mod cell_frame;
 mod cells;
 pub mod couplings;
 mod elastic;

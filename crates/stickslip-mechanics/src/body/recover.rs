@@ -1,5 +1,6 @@
 //! From displacements back to strains, stresses, forces and energy.
 
+use super::cell_frame::CellFrame;
 use super::geometry::{Nodal, Point, by_nodes, coordinates, point};
 use super::hourglass::MODES;
 use super::medium::Medium;
@@ -89,7 +90,12 @@ pub(super) struct Recovered<const N: usize> {
     vectors: [[f64; N]; MODES],
     /// How much of them there is, a direction each.
     amplitudes: [[f64; 3]; MODES],
+    /// The frame of the cell, in which all of this is, where it has one.
+    frame: Option<CellFrame<N>>,
 }
+
+/// Strain, thermal strain and stress at a point.
+pub(super) type Strained = [[f64; 6]; 3];
 
 /// Strain at a point of a cell displaced by `u`, as the displacements give it.
 pub(super) fn strain_of<const N: usize>(p: &Point<N>, u: &Nodal<N>, space: Space) -> [f64; 6] {
@@ -120,7 +126,26 @@ impl<const N: usize> Recovered<N> {
             dilatation: 0.0,
             vectors: [[0.0; N]; MODES],
             amplitudes: [[0.0; 3]; MODES],
+            frame: None,
         }
+    }
+
+    /// Strain, thermal strain and stress of the cell, along the axes of space.
+    pub fn in_space(&self, all: Strained) -> Strained {
+        let [strain, thermal, stress] = all;
+        match &self.frame {
+            None => all,
+            Some(frame) => [
+                frame.turn_strain(strain),
+                frame.turn_strain(thermal),
+                frame.turn_stress(stress),
+            ],
+        }
+    }
+
+    /// Those at one of its points.
+    pub fn at(&self, q: usize) -> Strained {
+        self.in_space([self.strain[q], self.thermal[q], self.stress[q]])
     }
 
     /// Fills it for the cell with nodes `x` displaced by `u`, as warm as at the start where nothing is said of it.
@@ -273,6 +298,9 @@ impl<const N: usize> Recovered<N> {
                 }
             }
         }
+        if let Some(frame) = &self.frame {
+            frame.outward(out);
+        }
     }
 }
 
@@ -289,7 +317,12 @@ fn shift(v: &mut [f64; 6], to: f64) {
 }
 
 /// The values of the cell's points in a dof vector, component by component.
-fn gather<const N: usize>(u: &[f64], dofs: Dofs, block: &Block, cell: usize) -> Nodal<N> {
+pub(super) fn gather<const N: usize>(
+    u: &[f64],
+    dofs: Dofs,
+    block: &Block,
+    cell: usize,
+) -> Nodal<N> {
     let mut out = [[0.0; N]; 3];
     for (a, &p) in block.connectivity[cell * N..(cell + 1) * N]
         .iter()
@@ -303,7 +336,7 @@ fn gather<const N: usize>(u: &[f64], dofs: Dofs, block: &Block, cell: usize) -> 
 }
 
 impl Elastic {
-    fn dofs(&self) -> Dofs {
+    pub(super) fn dofs(&self) -> Dofs {
         Dofs {
             dim: self.space.dim(),
             points: self.mesh.points.len(),
@@ -315,7 +348,7 @@ impl Elastic {
         Medium::new(kind, self.space, self.formulation, &self.acting[part])
     }
 
-    /// Runs `extract` (with the nodes of the cell and their displacements) on every cell of a part in parallel and `consume` on its `width` results in order.
+    /// Runs `extract` (with the nodes of the cell and their displacements, in its frame if it has one) on every cell of a part in parallel and `consume` on its `width` results in order.
     pub(super) fn each_cell<const N: usize>(
         &self,
         part: usize,
@@ -346,7 +379,12 @@ impl Elastic {
                 for (c, out) in values.chunks_exact_mut(width).enumerate() {
                     let cell = first + c;
                     let x = coordinates(&self.mesh.points, block, cell);
-                    let v = gather(at.u, dofs, block, cell);
+                    let mut v = gather(at.u, dofs, block, cell);
+                    if self.corotational {
+                        let frame = CellFrame::new(dofs.dim, &x, &v);
+                        v = frame.local();
+                        recovered.frame = Some(frame);
+                    }
                     let nodes = &block.connectivity[cell * N..(cell + 1) * N];
                     let warmth = heat.as_ref().map(|(temperatures, dilation, rises)| Warmth {
                         dilation,
@@ -478,9 +516,10 @@ impl Elastic {
                         *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
                     }
                     out[3] = recovered.points[q].volume;
-                    out[4..10].copy_from_slice(&recovered.strain[q]);
-                    out[10..16].copy_from_slice(&recovered.stress[q]);
-                    out[16..].copy_from_slice(&recovered.thermal[q]);
+                    let [strain, thermal, stress] = recovered.at(q);
+                    out[4..10].copy_from_slice(&strain);
+                    out[10..16].copy_from_slice(&stress);
+                    out[16..].copy_from_slice(&thermal);
                 }
             },
             |cell, values| {

@@ -2,8 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::geometry::{Table, by_nodes, coordinates, point};
-use super::{Elastic, Part};
+use super::cell_frame::CellFrame;
+use super::geometry::{Nodal, Point, Table, by_nodes, cell_rule, coordinates, point};
+use super::recover::gather;
+use super::{At, Elastic, Part};
 use crate::math::{Mat3, Vec3, identity, norm, polar_rotation};
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
@@ -29,8 +31,30 @@ struct Sum {
     largest: (f64, usize),
 }
 
+impl Sum {
+    /// Adds a point of a cell with these displacements of its nodes.
+    fn add<const N: usize>(&mut self, at: &Point<N>, u: &Nodal<N>, (dim, cell): (usize, usize)) {
+        let mut gradient = [[0.0; 3]; 3];
+        for (row, u) in gradient.iter_mut().zip(u).take(dim) {
+            for (g, d) in row.iter_mut().zip(&at.d).take(dim) {
+                *g = u.iter().zip(d).map(|(u, d)| u * d).sum();
+            }
+        }
+        self.volume += at.volume;
+        let both = self.gradient.iter_mut().flatten();
+        for (s, g) in both.zip(gradient.as_flattened()) {
+            *s += at.volume * g;
+        }
+        let turned = rotation_of(&gradient);
+        if turned > self.largest.0 {
+            self.largest = (turned, cell);
+        }
+    }
+}
+
 impl Elastic {
-    /// How far the body has turned at the displacements `u` `[m]` (by dof of the whole mesh).
+    /// How far the body has turned at the displacements `u` `[m]` (by dof of the whole mesh): where cells have frames of their own, in these, and `largest` is the
+    /// angle by which a part of a cell has.
     pub fn turning(&self, u: &[f64]) -> Turning {
         let mut turning = Turning::default();
         let (mut mean, mut volume) = ([[0.0; 3]; 3], 0.0);
@@ -56,14 +80,52 @@ impl Elastic {
         turning
     }
 
+    /// How much the body is strained at the displacements `u` `[m]`, where its energy is: the root of the mean square of the strain, `√(ε:ε)`, weighted with the energy of the
+    /// cells. Cells at corners where a strain has no limit count for no more than they store.
+    pub fn strain_level(&self, u: &[f64]) -> f64 {
+        let mut sums = [0.0; 2];
+        for (part, p) in self.parts.iter().enumerate() {
+            let kind = self.mesh.blocks[p.block].kind;
+            by_nodes!(kind, Elastic::strain_of(self, part, u, &mut sums));
+        }
+        (sums[1] / sums[0].max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    fn strain_of<const N: usize>(&self, part: usize, u: &[f64], sums: &mut [f64; 2]) {
+        self.each_cell::<N>(
+            part,
+            At::from(u),
+            2,
+            |_, _, recovered, values| {
+                let mut squares = [0.0; 2];
+                for (q, p) in recovered.points.iter().enumerate() {
+                    let [xx, yy, zz, xy, yz, xz] = recovered.elastic(q);
+                    let shear = 0.5 * (xy * xy + yz * yz + xz * xz);
+                    squares[0] += p.volume;
+                    squares[1] += p.volume * (xx * xx + yy * yy + zz * zz + shear);
+                }
+                values[0] = recovered.energy();
+                values[1] = values[0] * squares[1] / squares[0];
+            },
+            |_, values| {
+                sums[0] += values[0];
+                sums[1] += values[1];
+            },
+        );
+    }
+
     fn turning_of<const N: usize>(&self, part: &Part, u: &[f64]) -> Vec<Sum> {
         let block = &self.mesh.blocks[part.block];
-        // One point for a cell: its gradient is exact for every linear displacement.
-        let rule = [QuadraturePoint {
+        // One point for a cell: its gradient is exact for every linear displacement. Where cells have frames of their own they are bent in these.
+        let centre = [QuadraturePoint {
             xi: block.kind.centre(),
             weight: 1.0,
         }];
-        let table = Table::<N>::with_rule(block.kind, &rule);
+        let rule = match self.corotational {
+            true => cell_rule(block.kind, self.space),
+            false => &centre,
+        };
+        let table = Table::<N>::with_rule(block.kind, rule);
         let dim = self.space.dim();
         let count = block.connectivity.len() / N;
         let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
@@ -75,14 +137,9 @@ impl Elastic {
             };
             for cell in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
                 let x = coordinates::<N>(&self.mesh.points, block, cell);
-                let centre = point(&table, 0, &x, self.space);
-                let nodes = &block.connectivity[cell * N..(cell + 1) * N];
-                let mut gradient = [[0.0; 3]; 3];
-                for (i, row) in gradient.iter_mut().enumerate().take(dim) {
-                    for (g, d) in row.iter_mut().zip(&centre.d).take(dim) {
-                        let terms = nodes.iter().zip(d);
-                        *g = terms.map(|(&p, d)| u[p * dim + i] * d).sum();
-                    }
+                let mut u = gather(u, self.dofs(), block, cell);
+                if self.corotational {
+                    u = CellFrame::new(dim, &x, &u).local();
                 }
                 sum.volume += centre.volume;
                 for (s, g) in sum
@@ -98,6 +155,8 @@ impl Elastic {
                     if turned > sum.largest.0 {
                         sum.largest = (turned, cell);
                     }
+                for q in 0..table.len() {
+                    sum.add(&point(&table, q, &x, self.space), &u, (dim, cell));
                 }
             }
             sum

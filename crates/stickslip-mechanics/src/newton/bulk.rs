@@ -3,7 +3,7 @@ use super::statistics::Statistics;
 use crate::system::{Assembler, StepFailure};
 
 /// Everything that acts on the unknowns but the interfaces: bodies, springs, inertia, loads. Its forces are linear in the
-/// displacements, and how they are found and how the system of a Newton iteration is solved is its own affair.
+/// displacements unless bodies turn cell by cell, and how they are found and how the system of a Newton iteration is solved is its own affair.
 ///
 /// Vectors are over all dofs of the model; a bulk reads and writes only the entries at its [`dofs`](Bulk::dofs).
 pub trait Bulk {

@@ -237,6 +237,7 @@ impl Grids {
             let (blocks, pairs) = seen.contact();
             let operator = Operator {
                 matrix,
+                stand_in: matrix,
                 fixed: &made.fixed,
                 blocks: &blocks,
                 couplings: &[],

@@ -106,6 +106,13 @@ impl Linearised {
         }
     }
 
+    /// Forgets its numbers.
+    pub(super) fn forget(&mut self) {
+        self.factor = None;
+        self.factored = Arc::default();
+        self.stale = false;
+    }
+
     /// Solves by multigrid on this mesh.
     pub(super) fn multigrid(points: Arc<BodyPoints>) -> Self {
         Linearised {
@@ -146,7 +153,7 @@ impl Linearised {
         statistics: &mut Statistics,
     ) -> Result<(), LinearError> {
         let Operator {
-            matrix,
+            stand_in: matrix,
             fixed,
             blocks,
             couplings,

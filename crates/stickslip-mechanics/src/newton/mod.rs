@@ -32,6 +32,7 @@ mod attempt;
 mod balance;
 mod bulk;
 pub mod condensed;
+mod curved_bulk;
 mod equilibrium;
 mod factors;
 mod failure;
@@ -51,6 +52,7 @@ mod strategy;
 mod system;
 
 pub use bulk::Bulk;
+pub use curved_bulk::{Curved, CurvedBulk};
 pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};
 pub use failure::describe;
 pub use grids::BodyPoints;

@@ -6,6 +6,8 @@ use crate::system::{ContactBlock, ContactPair};
 pub struct Operator<'a> {
     /// The bulk, over all dofs.
     pub matrix: &'a BlockCsr,
+    /// What factors are made of in its place: positive definite on the free dofs, of the same pattern.
+    pub stand_in: &'a BlockCsr,
     /// Prescribed dofs, whose rows and columns are left out.
     pub fixed: &'a [bool],
     /// Contact points.

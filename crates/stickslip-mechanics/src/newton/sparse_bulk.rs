@@ -118,6 +118,7 @@ impl Bulk for SparseBulk<'_> {
     ) -> Result<usize, StepFailure> {
         let operator = Operator {
             matrix: self.matrix,
+            stand_in: self.matrix,
             fixed: &self.fixed,
             blocks: &contact.blocks,
             couplings: &contact.couplings,

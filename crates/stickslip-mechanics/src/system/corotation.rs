@@ -131,28 +131,12 @@ impl Corotations {
             let dyad = outer(scale(w, y), arm);
             f.iter_mut().zip(dyad).for_each(|(f, d)| *f = add(*f, d));
         }
-        let turn = match self.dofs.dim {
-            2 => planar(&f),
-            _ => rotation_of(&f),
-        };
-        // U = Rᵀ F, symmetric but for rounding.
-        let stretch: Mat3 = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..3).map(|k| turn[k][i] * f[k][j]).sum())
-        });
-        let trace = match self.dofs.dim {
-            2 => stretch[0][0] + stretch[1][1],
-            _ => stretch[0][0] + stretch[1][1] + stretch[2][2],
-        };
-        let unit = identity();
-        let j: Mat3 = match self.dofs.dim {
-            2 => scaled(unit, trace),
-            _ => std::array::from_fn(|i| sub(scale(trace, unit[i]), stretch[i])),
-        };
+        let (turn, resistance) = frame_of(self.dofs.dim, &f);
         BodyTurn {
             turn,
             centre: body.centre,
             now: add(body.centre, shift),
-            resistance: inverse(&j).map_or([[0.0; 3]; 3], |(inverse, _)| inverse),
+            resistance,
         }
     }
 
@@ -275,6 +259,26 @@ impl Corotated {
             mat_vec(&turn.resistance, moment),
         ]
     }
+}
+
+/// `R` and `J⁻¹` of a sum of dyads `Σ m (x - c) Xᵀ`, in two or three dimensions.
+pub fn frame_of(dim: usize, f: &Mat3) -> (Mat3, Mat3) {
+    let turn = match dim {
+        2 => planar(f),
+        _ => rotation_of(f),
+    };
+    // U = Rᵀ F, symmetric but for rounding.
+    let stretch: Mat3 = std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..3).map(|k| turn[k][i] * f[k][j]).sum())
+    });
+    let trace: f64 = (0..dim).map(|i| stretch[i][i]).sum();
+    let unit = identity();
+    let j: Mat3 = match dim {
+        2 => scaled(unit, trace),
+        _ => std::array::from_fn(|i| sub(scale(trace, unit[i]), stretch[i])),
+    };
+    let resistance = inverse(&j).map_or([[0.0; 3]; 3], |(inverse, _)| inverse);
+    (turn, resistance)
 }
 
 fn scaled(m: Mat3, s: f64) -> Mat3 {

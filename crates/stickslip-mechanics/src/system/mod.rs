@@ -18,7 +18,7 @@ pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
 pub use body_frames::{BodyFrame, BodyFrames, Carrier, InSpace};
 pub use constraints::Constraints;
-pub use corotation::{BodyTurn, Corotations};
+pub use corotation::{BodyTurn, Corotations, frame_of};
 pub use dofs::{Component, Dofs, Motion};
 pub use failure::{Cause, Culprit, Evidence, Otherwise, StepFailure};
 pub use fields::{Field, Fields, Location};

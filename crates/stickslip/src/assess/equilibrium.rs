@@ -111,8 +111,9 @@ impl View<'_> {
             Some(link) => link.hidden..link.hidden + 2,
             None => body.points.clone(),
         };
-        // Of what turns freely the moment is that about where points are.
-        let turns = (model.corotations).of_point(body.points.start).is_some();
+        // Of what turns by any angle the moment is that about where points are.
+        let turns = (model.corotations).of_point(body.points.start).is_some()
+            || body.elastic.is_corotational();
         let place = |p: usize| {
             let place = model.mesh.points.get(p).copied().unwrap_or_default();
             match turns {

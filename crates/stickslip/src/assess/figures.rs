@@ -37,7 +37,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 16] = [
+pub(crate) static ALL: [&Kind; 17] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -52,6 +52,7 @@ pub(crate) static ALL: [&Kind; 16] = [
     &EQUILIBRIUM,
     &ROTATION,
     &LOCAL_ROTATION,
+    &STRAIN,
     &DISPLACEMENT,
     &ENERGY,
 ];
@@ -175,7 +176,15 @@ pub(crate) static LOCAL_ROTATION: Kind = Kind {
     own: 0.0,
     model: 0.0,
     what: "a cell has turned by this angle in radians, and strains and rotations are taken as small",
-    help: "look for cells that hang together at a node or an edge only, or for a load or a stiffness in the wrong unit",
+    help: "look for cells that hang together at a node or an edge only, or for a load or a stiffness in the wrong unit; in a body with `rotation = \"corotational\"`, where a part of a cell has turned in the frame of the cell, take smaller cells along what bends",
+};
+
+pub(crate) static STRAIN: Kind = Kind {
+    name: "strain",
+    own: 0.0,
+    model: 0.0,
+    what: "where its energy is, the body is strained by this much, and forces are wrong by about that part: the theory is linear in the frames that turn",
+    help: "look for a load or a stiffness in the wrong unit, or take another program for what strains as much as rubber does",
 };
 
 pub(crate) static DISPLACEMENT: Kind = Kind {

@@ -1,7 +1,7 @@
 //! How far bodies have turned and moved: figures that see what the linear theory does not.
 
 use super::doctor::{self, DoctorCause, Finding, Guilty, Severity, What};
-use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION};
+use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
 use super::quality::Gate;
 use super::view::View;
 use crate::body::Turning;
@@ -36,6 +36,10 @@ impl View<'_> {
                 let pair = [turning.largest, 1.0];
                 gate.note(&LOCAL_ROTATION, &place, pair, limits.local_rotation, t);
             }
+            if self.has_frames(body) {
+                let pair = [body.elastic.strain_level(&strained.u), 1.0];
+                gate.note(&STRAIN, &place, pair, limits.strain, t);
+            }
             let way = self.way(body);
             let moved = way / size.max(f64::MIN_POSITIVE);
             if self.inertia().is_none() && self.explicit.is_none() {
@@ -47,6 +51,14 @@ impl View<'_> {
         for (body, way, moved) in far {
             self.note_far(&body, (way, moved), findings);
         }
+    }
+
+    /// Whether it turns by any angle in frames of its own or one that a reference point carries.
+    fn has_frames(&self, body: &Body) -> bool {
+        let first = body.points.start;
+        body.elastic.is_corotational()
+            || self.model.corotations.of_point(first).is_some()
+            || self.model.frames.of_point(first).is_some()
     }
 
     /// How far a body has turned at the last accepted state.

@@ -46,6 +46,11 @@ impl Integrator for QuasiStatic {
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;
         check_change(model, pairs(&at.u, &frame.state.u))?;
+        let external = match model.is_corotational() {
+            // Pressures have followed.
+            true => frame.external_at(model, trial.to, &at.u),
+            false => external,
+        };
         Ok(Accepted {
             flow: Flow {
                 work: frame.work(&fixed, (&at.u, &converged.forces), &external),

@@ -268,6 +268,11 @@ impl Model {
         self.bodies.iter().filter(|b| b.rigid.is_none())
     }
 
+    /// Whether cells of some body have frames of their own, so that what the bodies resist with is not linear.
+    pub fn is_corotational(&self) -> bool {
+        self.elastic().any(|b| b.elastic.is_corotational())
+    }
+
     /// Sets the velocities that are given for the start of a step.
     pub(crate) fn apply_initial_velocities(&self, step: usize, v: &mut [f64]) {
         for initial in self.initials.iter().filter(|i| i.step == step) {

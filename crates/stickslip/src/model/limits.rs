@@ -80,6 +80,10 @@ pub struct Limits {
     /// half the square. The limit is wider, as cells at corners turn far and carry little.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub local_rotation: f64,
+    /// Strain of each body that turns in frames of its own: the root of the mean square, weighted with the energy. The theory is linear in the frames, and wrong by
+    /// about that part.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub strain: f64,
     /// Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
     /// motion bodies may fly as far as they like: there it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -109,6 +113,7 @@ impl Default for Limits {
             equilibrium: 1e-4,
             rotation: 0.05,
             local_rotation: 0.2,
+            strain: 0.05,
             displacement: 1.0,
             energy: None,
         }

@@ -59,6 +59,10 @@ pub enum BodyRotation {
     /// altogether or not at all. At rest systems are solved sparse. An implicit scheme keeps the angular momentum where it is `generalised-alpha` with `rho = 1`, and central
     /// differences do; numerical dissipation takes spin as it does vibration. A rigid body turns with its moments of inertia; its supports hold its motions as wholes.
     Large,
+    /// By any angle, cell by cell: each cell has a frame of its own, which fits its points best, and strains are small in it, so that the body may bend as far as it
+    /// likes. Supports, springs, couplings and contact act on it as on any other body. Quasi-static steps; systems are solved sparse, with a matrix that is made and
+    /// factored anew in most iterations.
+    Corotational,
     /// By any angle, with the `[reference.NAME]` that is named: `rotation.with = "axle"`. The body is described in a frame that the reference point carries, and
     /// strains are small in it. Supports of its sets act along the axes of the frame: they hold the body *on the axle*; the axle itself is supported and turned
     /// at the reference point. What the body presses on, and loads unless they `follow`, are in space. In quasi-static steps. A rigid body needs no supports of its own,
@@ -75,7 +79,7 @@ impl BodyRotation {
     /// The reference point that it turns with.
     pub fn reference(&self) -> Option<&str> {
         match self {
-            BodyRotation::Small | BodyRotation::Large => None,
+            BodyRotation::Small | BodyRotation::Large | BodyRotation::Corotational => None,
             BodyRotation::With(name) => Some(name),
         }
     }

@@ -148,6 +148,17 @@ impl Matrix for ByCells {
     }
 }
 
+/// The stiffness of all that is linear, with the pattern of the whole: without bodies that turn cell by cell.
+pub(super) fn linear_part(model: &Model, whole: &BlockCsr) -> BlockCsr {
+    let mut rest = whole.zeros_like();
+    let bodies = model.elastic().filter(|b| !b.elastic.is_corotational());
+    bodies.for_each(|body| body.elastic.stiffness(&mut rest));
+    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+        model.links.add_spring(&mut rest, dof, k);
+    }
+    rest
+}
+
 /// The bodies whose matrix is needed: an explicit analysis needs none.
 pub(super) fn stiff(model: &Model) -> impl Iterator<Item = &crate::model::definition::Body> {
     let needed = !model.steps.iter().all(Step::is_explicit);
@@ -160,4 +171,7 @@ pub(super) fn suffices(model: &Model) -> bool {
     // What turns freely is not condensed at rest.
     let condenses = model.engine.as_dyn().condenses() && !model.turns_freely();
     condenses && model.steps.iter().all(at_rest)
+    // What turns in frames of its own is not condensed at rest.
+    let condenses = model.engine.as_dyn().condenses() && model.corotations.is_empty();
+    condenses && !model.is_corotational() && model.steps.iter().all(at_rest)
 }

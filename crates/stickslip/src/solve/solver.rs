@@ -4,8 +4,9 @@ use super::inertia::in_motion;
 use super::iteration::{Iteration, Load, Task};
 use std::sync::Arc;
 
-use super::by_cells::{ByCells, stiff, suffices};
+use super::by_cells::{ByCells, linear_part, stiff, suffices};
 use super::condenser::Condenser;
+use super::elastic::{Cells, Pressed};
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;
@@ -13,7 +14,7 @@ use crate::linear::{BlockCsr, Digest, Engine, Matrix};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
 use crate::newton::condensed::{Identity, Library};
-use crate::newton::{Converged, Factors, Newton, SparseBulk};
+use crate::newton::{Converged, Curved, CurvedBulk, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
@@ -22,6 +23,8 @@ pub(crate) struct Solver {
     pub stiffness: Arc<dyn Matrix>,
     /// Its diagonal.
     pub diagonal: Vec<f64>,
+    /// What of it is linear, where bodies turn cell by cell.
+    pub linear: Option<BlockCsr>,
     /// Newton's method, with its counts.
     pub newton: Newton,
     /// How systems are solved; `Automatic` until it is known.
@@ -41,6 +44,9 @@ pub(crate) struct Solver {
     /// What a user should know.
     pub log: Log,
 }
+
+/// The key of factors of bodies that turn cell by cell: of numbers that no increment leaves to the next.
+const CELLS: u64 = u64::MAX;
 
 /// What the solver has to say.
 #[derive(Debug, Default)]
@@ -66,6 +72,7 @@ impl Solver {
         };
         Solver {
             diagonal: stiffness.diagonal(),
+            linear: (model.is_corotational()).then(|| linear_part(model, entries(&stiffness))),
             stiffness,
             newton: Newton::new(model.settings),
             method: match (model.method, model.engine.as_dyn().condenses()) {
@@ -125,6 +132,19 @@ impl Solver {
             None => self.floating.with(contact.forces()),
             Some(_) => contact.forces(),
         };
+        if let (Some(linear), None) = (&self.linear, &origin) {
+            let pressed = Pressed::new(Cells { model, linear }, at.t, &task.from.u);
+            let curved = (&pressed as &dyn Curved, self.diagonal.as_slice());
+            let linearised = self.factors.of(CELLS);
+            return Iteration {
+                newton: &mut self.newton,
+                seen: &mut self.seen,
+                model,
+                forces,
+                bulk: &mut CurvedBulk::new(curved, external, fixed, linearised),
+            }
+            .solve(task.constraints, task.rate, (task.from, at));
+        }
         let linearised = self.factors.of(key);
         Iteration {
             newton: &mut self.newton,

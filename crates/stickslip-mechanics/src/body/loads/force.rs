@@ -1,3 +1,6 @@
+use super::super::Space;
+use super::Pressing;
+use crate::mesh::Mesh;
 use crate::system::Schedule;
 
 /// A load: forces by dof, scaled in time.
@@ -11,9 +14,19 @@ pub struct Load {
     pub schedule: Schedule,
     /// Whether it turns with bodies that do; others keep their direction in space.
     pub follows: bool,
+    /// Of a pressure on bodies that turn cell by cell: the faces that it follows, in place of the entries.
+    pub pressing: Option<Pressing>,
 }
 
 impl Load {
+    /// Adds the forces at a time to `out` `[N]`, by dof, where those that press on moving faces do so at displacements `u` `[m]`.
+    pub fn external_at(&self, t: f64, of: (&Mesh, Space), u: &[f64], out: &mut [f64]) {
+        match &self.pressing {
+            Some(pressing) => pressing.external(of, self.schedule.at(t), u, out),
+            None => self.external(t, out),
+        }
+    }
+
     /// Adds the forces at a time to `out` `[N]`, by dof.
     pub fn external(&self, t: f64, out: &mut [f64]) {
         let factor = self.schedule.at(t);

@@ -247,6 +247,7 @@ fn loads_follow_their_schedule_and_springs_store_energy() {
             }],
         },
         follows: false,
+        pressing: None,
     };
     let mut out = vec![1.0; 2];
     load.external(0.5, &mut out);

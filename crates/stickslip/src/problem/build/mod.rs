@@ -24,10 +24,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Problem;
+use super::{BodyRotation, Problem};
 use crate::body::Elastic;
 use crate::body::couplings::{Couplings, Ground};
-use crate::body::loads::{Action, Domain, Load, LoadKind, Region, Spring, Target};
+use crate::body::loads::{Action, Domain, Load, LoadKind, Pressing, Region, Spring, Target};
 use crate::error::{Diagnostic, Error};
 use crate::mesh::FacetRef;
 use crate::model::{Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Setup, Support};
@@ -110,6 +110,10 @@ impl Problem {
             }
             let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
                 .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+            let elastic = match self.body[&part.name].rotation {
+                BodyRotation::Corotational => elastic.corotational(),
+                _ => elastic,
+            };
             materials.push(part.materials);
             let part_name = part.name.clone();
             let rotation = &self.body[&part_name].rotation;
@@ -167,7 +171,7 @@ impl Problem {
             densities: &densities,
             links: &links,
         };
-        let (mut loads, springs) = loads(self, &sets, &domain, &timeline)?;
+        let (mut loads, springs) = loads(self, &sets, &domain, (&timeline, &bodies))?;
         let ground = Ground {
             mesh: &mesh,
             space,
@@ -279,15 +283,17 @@ fn loads(
     problem: &Problem,
     sets: &Sets,
     domain: &Domain,
-    timeline: &Timeline,
+    (timeline, bodies): (&Timeline, &[Body]),
 ) -> Result<(Vec<Load>, Vec<Spring>), Error> {
+    let turning = bodies.iter().filter(|b| b.elastic.is_corotational());
+    let turning: BTreeSet<usize> = turning.flat_map(|b| b.blocks.clone()).collect();
     let (mut loads, mut springs) = (Vec::new(), Vec::new());
     for (name, load) in &problem.load {
         let key = format!("load.{name}");
         let model = LoadKind::as_dyn(&load.kind);
         let set = format!("{key}.set");
-        let (points, facets, cells);
-        let target = match model.region() {
+        let (points, facets, still_facets, cells);
+        let mut target = match model.region() {
             Region::Points => {
                 points = sets.any_points(&load.set, &set)?;
                 Target::Points(&points)
@@ -301,6 +307,24 @@ fn loads(
                 Target::Cells(&cells)
             }
         };
+        if let (LoadKind::Pressure(pressure), Target::Facets(all)) = (&load.kind, target) {
+            let turns = |f: &&FacetRef| turning.contains(&f.cell.block);
+            let (moving, still): (Vec<&FacetRef>, Vec<&FacetRef>) = all.iter().partition(turns);
+            if !moving.is_empty() {
+                loads.push(Load {
+                    name: name.clone(),
+                    entries: Vec::new(),
+                    schedule: timeline.load(problem, name, load.amplitude.as_deref()),
+                    follows: true,
+                    pressing: Some(Pressing {
+                        facets: moving.into_iter().copied().collect(),
+                        value: pressure.value,
+                    }),
+                });
+                still_facets = still.into_iter().copied().collect::<Vec<_>>();
+                target = Target::Facets(&still_facets);
+            }
+        }
         let action = model.action(&target, domain);
         match action.map_err(|e| problem_error(vec![e.under(&key)]))? {
             Action::Forces(entries) => loads.push(Load {
@@ -308,6 +332,7 @@ fn loads(
                 entries,
                 schedule: timeline.load(problem, name, load.amplitude.as_deref()),
                 follows: load.follows(),
+                pressing: None,
             }),
             Action::Springs(entries) => springs.push(Spring::new(entries)),
         }

@@ -3,10 +3,12 @@
 use super::super::{BodyRotation, Problem, SpaceKind};
 use super::findings::Findings;
 use super::names;
+use crate::body::loads::LoadKind;
 use crate::model::Solution;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     check_free(problem, findings);
+    check_cells(problem, findings);
     let turning: Vec<(&String, &str)> = (problem.body.iter())
         .filter_map(|(name, body)| Some((name, body.rotation.reference()?)))
         .collect();
@@ -27,6 +29,27 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         .iter()
         .filter(|(name, _)| !problem.body[*name].rigid);
     let deforms = elastic.next().map(|(name, _)| *name);
+    at_rest_only(problem, first, findings);
+    if problem.solver.method == Solution::Multigrid {
+        findings.add(
+            &["solver", "method"],
+            format!("body `{first}` turns by any angle, and multigrid does not know of that"),
+            "take \"condensed\" or \"sparse\"",
+        );
+    }
+    for (name, initial) in &problem.initial {
+        if initial.displacement.is_some() || initial.result.is_some() {
+            findings.add(
+                &["initial", name],
+                format!("body `{first}` turns by any angle: displacements to start from are not known in its frame"),
+                "begin with a step that leads there",
+            );
+        }
+    }
+}
+
+/// Steps that a body which turns by any angle is not known to.
+fn at_rest_only(problem: &Problem, first: &str, findings: &mut Findings) {
     for (i, step) in problem.step.iter().enumerate() {
         let i = i.to_string();
         let kinds = [
@@ -47,21 +70,75 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             );
         }
     }
-    if problem.solver.method == Solution::Multigrid {
+}
+
+/// Bodies whose cells have frames of their own.
+fn check_cells(problem: &Problem, findings: &mut Findings) {
+    let all = problem.body.iter();
+    let turning = all.filter(|(_, body)| body.rotation == BodyRotation::Corotational);
+    let names: Vec<&String> = turning.map(|(name, _)| name).collect();
+    let Some(first) = names.first() else {
+        return;
+    };
+    for name in &names {
+        sound(problem, name, findings);
+    }
+    at_rest_only(problem, first, findings);
+    let method = problem.solver.method;
+    if matches!(method, Solution::Multigrid | Solution::Condensed) {
         findings.add(
             &["solver", "method"],
-            format!("body `{first}` turns by any angle, and multigrid does not know of that"),
-            "take \"condensed\" or \"sparse\"",
+            format!(
+                "body `{first}` turns cell by cell, so that what it resists with is not linear"
+            ),
+            "take \"sparse\", or leave the key out",
         );
     }
-    for (name, initial) in &problem.initial {
-        if initial.displacement.is_some() || initial.result.is_some() {
+    let heated = problem.temperature.keys().next();
+    let warm = (problem.initial.iter()).find(|(_, i)| i.temperature.is_some());
+    let keys = heated.map(|name| ["temperature", name.as_str()]);
+    if let Some(key) = keys.or(warm.map(|(name, _)| ["initial", name.as_str()])) {
+        findings.add(
+            &key,
+            format!("body `{first}` turns cell by cell, and temperatures do not turn with cells"),
+            "leave temperatures out, or `rotation` of the body",
+        );
+    }
+    for (name, load) in &problem.load {
+        let centrifugal = matches!(load.kind, LoadKind::Centrifugal(_));
+        if centrifugal || (load.follow && !matches!(load.kind, LoadKind::Pressure(_))) {
             findings.add(
-                &["initial", name],
-                format!("body `{first}` turns by any angle: displacements to start from are not known in its frame"),
-                "begin with a step that leads there",
+                &[
+                    "load",
+                    name,
+                    if centrifugal { "centrifugal" } else { "follow" },
+                ],
+                format!("body `{first}` turns cell by cell, and no load follows it but a pressure"),
+                "give the load its direction in space, or take `rotation = \"large\"`",
             );
         }
+    }
+    let other = |b: &&super::super::Body| b.rotation == BodyRotation::Large;
+    let with = (problem.body.values()).find_map(|b| b.rotation.reference());
+    if with.is_some() || problem.body.values().any(|b| other(&b)) {
+        findings.add(
+            &["body", first.as_str(), "rotation"],
+            "it turns cell by cell, and another body as a whole",
+            "let all bodies turn in one way",
+        );
+    }
+}
+
+/// What no body can do that turns in frames of its own.
+fn sound(problem: &Problem, name: &str, findings: &mut Findings) {
+    let key = ["body", name, "rotation"];
+    if problem.model.space == SpaceKind::Axisymmetric {
+        let message = "around an axis of symmetry nothing turns";
+        findings.add(&key, message, "model the body in 3D, or remove the key");
+    }
+    if problem.body[name].rigid {
+        let message = "the rotation of a rigid body is linearised";
+        findings.add(&key, message, "make it elastic: it may be stiff");
     }
 }
 
@@ -80,6 +157,7 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
             findings.add(&key, message, "model the body in 3D, or remove the key");
         }
     }
+    free.iter().for_each(|name| sound(problem, name, findings));
     for (i, step) in problem.step.iter().enumerate() {
         let kinds = [
             ("steady", step.steady.is_some()),
