@@ -17,8 +17,8 @@
 //!
 //! - `HARD` contact is exact: CalculiX puts springs of fifty times Young's modulus there. Sticking without a stick slope is exact as well,
 //!   and so is sticking with one under hard contact.
-//! - `NLGEOM` concerns contact, and with `*DYNAMIC` bodies that nothing holds or couples: these turn by any angle. Strains of the bodies are taken as small, and
-//!   rotations of all others.
+//! - With `NLGEOM` strains of the bodies are taken as small. With `*STATIC` elements turn by any angle, each in a frame of its own; with `*DYNAMIC` bodies that nothing
+//!   holds or couples do, and rotations of all others are taken as small, as are those around an axis of symmetry and with temperatures.
 //! - Interactions without `*SURFACE BEHAVIOR` are hard, as in Abaqus; CalculiX refuses them.
 //! - Contact pairs without `TYPE` are `SURFACE TO SURFACE`.
 //! - Linear springs on quadratic faces act at fixed points of a face, some forty; CalculiX cuts faces along each other first.

@@ -21,7 +21,7 @@ impl Reader<'_> {
         if nonlinear && !self.deck.steps.iter().any(|s| s.nonlinear) {
             self.note(
                 card.place,
-                "NLGEOM: contact follows the surfaces as they move; strains of the bodies are taken as small, and rotations of those that are held, and the run says how large they become",
+                "NLGEOM: contact follows the surfaces as they move; strains of the bodies are taken as small, and the run says how large strains and rotations become",
             );
         }
         let abrupt = match card.get("AMPLITUDE") {

@@ -10,7 +10,7 @@ use super::job::Job;
 use super::sets::Sets;
 use super::toml;
 use crate::card::Place;
-use crate::deck::{Action, Section, Step};
+use crate::deck::{Action, Distributed, Procedure, Section, Step};
 
 fn space_name(space: Space) -> &'static str {
     match space {
@@ -88,6 +88,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
         }
     }
     let held = held(job);
+    let bends = bends(job, bodies.space);
     for body in &bodies.all {
         let formulation = formulation(job, body);
         job.table("body", &body.name, body.place);
@@ -134,6 +135,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
                 body.name
             );
             job.note(body.place, message);
+        } else if bends {
+            job.out.line("rotation = \"corotational\"");
         }
         damping(job, bodies, body);
     }
@@ -172,6 +175,47 @@ fn turns_freely(job: &Job, (held, space): (&BTreeSet<u64>, Space), body: &Body) 
         && space != Space::Axisymmetric
         && deck.pairs.iter().all(|p| !p.small_sliding)
         && nodes.all(|n| !held.contains(n))
+}
+
+/// Whether bodies turn and bend by any angle, held or not: where `NLGEOM` is asked for at rest. Says so, or why not.
+fn bends(job: &mut Job, space: Space) -> bool {
+    let deck = job.deck;
+    let Some(first) = deck.steps.iter().find(|s| s.nonlinear && !s.is_dynamic()) else {
+        return false;
+    };
+    let turns = |a: &Action| {
+        matches!(
+            a,
+            Action::Distributed {
+                load: Distributed::Centrifugal(..),
+                ..
+            }
+        )
+    };
+    let at_rest = |s: &Step| matches!(s.procedure, Procedure::Static { .. }) && !s.perturbation;
+    let reasons = [
+        (!deck.steps.iter().all(at_rest), "a step is not *STATIC"),
+        (space == Space::Axisymmetric, "elements are axisymmetric"),
+        (!deck.temperatures.is_empty(), "there are temperatures"),
+        (
+            deck.pairs.iter().any(|p| p.small_sliding),
+            "a pair slides by little (SMALL SLIDING)",
+        ),
+        (
+            deck.steps.iter().flat_map(|s| &s.actions).any(turns),
+            "there are centrifugal forces",
+        ),
+    ];
+    let message = match reasons.iter().find(|(applies, _)| *applies) {
+        None => "NLGEOM: elements turn by any angle, each in a frame of its own in which its strains are taken as small; \
+                 rotations of reference nodes are small. Where nothing turns, NLGEOM=NO is faster, and contact follows the surfaces all the same"
+            .to_string(),
+        Some((_, reason)) => {
+            format!("NLGEOM: rotations of the bodies are taken as small, as {reason}; contact follows the surfaces")
+        }
+    };
+    job.note(first.place, message);
+    reasons.iter().all(|(applies, _)| !applies)
 }
 
 fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {

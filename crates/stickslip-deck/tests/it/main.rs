@@ -1,5 +1,6 @@
 //! Decks in the format of Abaqus and CalculiX, from text to results.
 
+mod bending;
 mod beyond;
 mod cards;
 mod changes;

@@ -7,6 +7,7 @@ mod support;
 
 mod advance;
 mod bad_input;
+mod bending;
 mod condensed;
 mod convergence;
 mod couplings;

@@ -115,6 +115,7 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
                 format!("coupling.{}", coupling.name),
                 "it acts on a body that turns freely by any angle",
                 "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support, or let a reference point carry a rigid one",
+                "tie surfaces by an interface (`tied = true`), hold points of the body by a support, or, in quasi-static steps, take `rotation = \"corotational\"`",
             );
         }
     }
@@ -138,7 +139,7 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
             return fault(
                 format!("support.{}", support.name),
                 "it holds points of a body that turns freely by any angle, and not in all directions",
-                "hold the points in all directions, or let a frictionless interface guide the body",
+                "hold the points in all directions, let a frictionless interface guide the body, or, in quasi-static steps, take `rotation = \"corotational\"`",
             );
         }
     }
@@ -160,8 +161,9 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
             && matches!(load.kind, crate::body::loads::LoadKind::Spring(_));
         let own = springs
             && said.bodies.iter().any(|b| {
-                let turns = !problem.body[&b.name].rotation.is_small();
-                turns && (load.set == b.name || load.set.split('.').next() == Some(&b.name))
+                let rotation = &problem.body[&b.name].rotation;
+                let whole = !rotation.is_small() && *rotation != BodyRotation::Corotational;
+                whole && (load.set == b.name || load.set.split('.').next() == Some(&b.name))
             });
         if own {
             return fault(

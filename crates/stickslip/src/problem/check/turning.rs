@@ -104,6 +104,15 @@ fn check_cells(problem: &Problem, findings: &mut Findings) {
             "leave temperatures out, or `rotation` of the body",
         );
     }
+    for (name, interface) in &problem.interface {
+        if interface.kinematics.as_dyn().frozen() {
+            findings.add(
+                &["interface", name, "kinematics"],
+                format!("pairs are those of the start, and body `{first}` turns by any angle"),
+                "leave the key out",
+            );
+        }
+    }
     for (name, load) in &problem.load {
         let centrifugal = matches!(load.kind, LoadKind::Centrifugal(_));
         if centrifugal || (load.follow && !matches!(load.kind, LoadKind::Pressure(_))) {
