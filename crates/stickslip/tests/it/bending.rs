@@ -159,7 +159,7 @@ fn a_pressure_follows_the_faces_it_presses_on() {
 fn the_error_of_cells_that_bend_falls_with_the_square_of_their_size() {
     let (acting, text) = across(4.0);
     let off = |cells: usize| {
-        let record = compare(cells, &text, acting, 0.1);
+        let record = compare(cells, &text, acting, 0.2);
         (tip(&record)[1] - elastica(acting)[1]).abs()
     };
     let (coarse, fine) = (off(6), off(12));

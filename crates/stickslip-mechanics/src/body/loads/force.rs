@@ -14,7 +14,7 @@ pub struct Load {
     pub schedule: Schedule,
     /// Whether it turns with bodies that do; others keep their direction in space.
     pub follows: bool,
-    /// Of a pressure on bodies that turn cell by cell: the faces that it follows, in place of the entries.
+    /// Of a pressure on bodies that turn cell by cell: the faces that it follows; entries are those at the start.
     pub pressing: Option<Pressing>,
 }
 

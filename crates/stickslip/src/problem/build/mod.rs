@@ -311,13 +311,19 @@ fn loads(
             let turns = |f: &&FacetRef| turning.contains(&f.cell.block);
             let (moving, still): (Vec<&FacetRef>, Vec<&FacetRef>) = all.iter().partition(turns);
             if !moving.is_empty() {
+                let moving: Vec<FacetRef> = moving.into_iter().copied().collect();
+                let action = model.action(&Target::Facets(&moving), domain);
+                let at_first = action.map_err(|e| problem_error(vec![e.under(&key)]))?;
                 loads.push(Load {
                     name: name.clone(),
-                    entries: Vec::new(),
+                    entries: match at_first {
+                        Action::Forces(entries) => entries,
+                        Action::Springs(_) => Vec::new(),
+                    },
                     schedule: timeline.load(problem, name, load.amplitude.as_deref()),
                     follows: true,
                     pressing: Some(Pressing {
-                        facets: moving.into_iter().copied().collect(),
+                        facets: moving,
                         value: pressure.value,
                     }),
                 });
