@@ -45,9 +45,11 @@ impl Sum {
         for (s, g) in both.zip(gradient.as_flattened()) {
             *s += at.volume * g;
         }
-        let turned = rotation_of(&gradient);
-        if turned > self.largest.0 {
-            self.largest = (turned, cell);
+        if may_turn_more(&gradient, self.largest.0) {
+            let turned = rotation_of(&gradient);
+            if turned > self.largest.0 {
+                self.largest = (turned, cell);
+            }
         }
     }
 }
@@ -141,20 +143,6 @@ impl Elastic {
                 if self.corotational {
                     u = CellFrame::new(dim, &x, &u).local();
                 }
-                sum.volume += centre.volume;
-                for (s, g) in sum
-                    .gradient
-                    .iter_mut()
-                    .flatten()
-                    .zip(gradient.as_flattened())
-                {
-                    *s += centre.volume * g;
-                }
-                if may_turn_more(&gradient, sum.largest.0) {
-                    let turned = rotation_of(&gradient);
-                    if turned > sum.largest.0 {
-                        sum.largest = (turned, cell);
-                    }
                 for q in 0..table.len() {
                     sum.add(&point(&table, q, &x, self.space), &u, (dim, cell));
                 }

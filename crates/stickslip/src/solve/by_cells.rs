@@ -168,10 +168,7 @@ pub(super) fn stiff(model: &Model) -> impl Iterator<Item = &crate::model::defini
 /// Whether an analysis does without the entries: factors are elsewhere, and nothing moves.
 pub(super) fn suffices(model: &Model) -> bool {
     let at_rest = |step: &Step| step.dynamic.is_none() && step.modal.is_none();
-    // What turns freely is not condensed at rest.
-    let condenses = model.engine.as_dyn().condenses() && !model.turns_freely();
-    condenses && model.steps.iter().all(at_rest)
-    // What turns in frames of its own is not condensed at rest.
-    let condenses = model.engine.as_dyn().condenses() && model.corotations.is_empty();
-    condenses && !model.is_corotational() && model.steps.iter().all(at_rest)
+    // What turns freely or cell by cell is not condensed at rest.
+    let turns = model.turns_freely() || model.is_corotational();
+    model.engine.as_dyn().condenses() && !turns && model.steps.iter().all(at_rest)
 }

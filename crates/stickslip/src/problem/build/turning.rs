@@ -114,8 +114,7 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
             return fault(
                 format!("coupling.{}", coupling.name),
                 "it acts on a body that turns freely by any angle",
-                "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support, or let a reference point carry a rigid one",
-                "tie surfaces by an interface (`tied = true`), hold points of the body by a support, or, in quasi-static steps, take `rotation = \"corotational\"`",
+                "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support or let it turn by `rotation = \"corotational\"` in quasi-static steps, or let a reference point carry a rigid one",
             );
         }
     }

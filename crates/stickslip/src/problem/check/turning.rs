@@ -28,8 +28,8 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     let mut elastic = turning
         .iter()
         .filter(|(name, _)| !problem.body[*name].rigid);
-    let deforms = elastic.next().map(|(name, _)| *name);
-    at_rest_only(problem, first, findings);
+    let deforms = elastic.next().map(|(name, _)| name.as_str());
+    at_rest_only(problem, (first, deforms), findings);
     if problem.solver.method == Solution::Multigrid {
         findings.add(
             &["solver", "method"],
@@ -48,8 +48,12 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
 }
 
-/// Steps that a body which turns by any angle is not known to.
-fn at_rest_only(problem: &Problem, first: &str, findings: &mut Findings) {
+/// Steps that bodies which turn by any angle are not known to: the `first` of them, and the first that `deforms`, as a rigid one may move.
+fn at_rest_only(
+    problem: &Problem,
+    (first, deforms): (&str, Option<&str>),
+    findings: &mut Findings,
+) {
     for (i, step) in problem.step.iter().enumerate() {
         let i = i.to_string();
         let kinds = [
@@ -83,7 +87,7 @@ fn check_cells(problem: &Problem, findings: &mut Findings) {
     for name in &names {
         sound(problem, name, findings);
     }
-    at_rest_only(problem, first, findings);
+    at_rest_only(problem, (first, Some(first.as_str())), findings);
     let method = problem.solver.method;
     if matches!(method, Solution::Multigrid | Solution::Condensed) {
         findings.add(
@@ -138,7 +142,7 @@ fn check_cells(problem: &Problem, findings: &mut Findings) {
     }
 }
 
-/// What no body can do that turns in frames of its own.
+/// What a body cannot be whose cells have frames.
 fn sound(problem: &Problem, name: &str, findings: &mut Findings) {
     let key = ["body", name, "rotation"];
     if problem.model.space == SpaceKind::Axisymmetric {
@@ -146,8 +150,12 @@ fn sound(problem: &Problem, name: &str, findings: &mut Findings) {
         findings.add(&key, message, "model the body in 3D, or remove the key");
     }
     if problem.body[name].rigid {
-        let message = "the rotation of a rigid body is linearised";
-        findings.add(&key, message, "make it elastic: it may be stiff");
+        let message = "a rigid body has no cells that turn against each other";
+        findings.add(
+            &key,
+            message,
+            "take `rotation = \"large\"`, or make it elastic: it may be stiff",
+        );
     }
 }
 
@@ -166,7 +174,6 @@ fn check_free(problem: &Problem, findings: &mut Findings) {
             findings.add(&key, message, "model the body in 3D, or remove the key");
         }
     }
-    free.iter().for_each(|name| sound(problem, name, findings));
     for (i, step) in problem.step.iter().enumerate() {
         let kinds = [
             ("steady", step.steady.is_some()),

@@ -24,10 +24,8 @@ use crate::solve::work::Work;
 impl Solver {
     /// Makes the bodies ready for a quasi-static step.
     pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
-        // What turns freely would change the load patterns of all interiors in every pass.
-        if !self.method.condenses() || model.turns_freely() {
         // What turns freely would change the load patterns of all interiors in every pass; what turns cell by cell is not linear.
-        let turns = !model.corotations.is_empty() || model.is_corotational();
+        let turns = model.turns_freely() || model.is_corotational();
         if !self.method.condenses() || turns {
             return;
         }
