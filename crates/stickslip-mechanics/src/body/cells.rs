@@ -110,3 +110,60 @@ impl Elastic {
         );
     }
 }
+
+impl Elastic {
+    /// Stress and strain at every quadrature point at displacements; parts, cells and points in order. A cell with the
+    /// mean of all strains has one point, its centre.
+    pub fn stress_at_quadrature<'a>(&self, at: impl Into<At<'a>>) -> Vec<StressPoint> {
+        let at = at.into();
+        let mut all = Vec::new();
+        for (part, p) in self.parts.iter().enumerate() {
+            let kind = self.mesh.blocks[p.block].kind;
+            by_nodes!(
+                kind,
+                Elastic::part_stress(self, part, at, &mut |point| all.push(point))
+            );
+        }
+        all
+    }
+
+    fn part_stress<const N: usize>(
+        &self,
+        part: usize,
+        at: At,
+        visit: &mut (dyn FnMut(StressPoint) + Send),
+    ) {
+        let block = self.parts[part].block;
+        let points = self.medium::<N>(part).stations();
+        self.each_cell::<N>(
+            part,
+            at,
+            points * WIDTH,
+            |medium, [x, _], recovered, values| {
+                for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
+                    let n = medium.values(q);
+                    for (o, row) in out.iter_mut().zip(x) {
+                        *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
+                    }
+                    out[3] = recovered.points[q].volume;
+                    let [strain, thermal, stress] = recovered.at(q);
+                    out[4..10].copy_from_slice(&strain);
+                    out[10..16].copy_from_slice(&stress);
+                    out[16..].copy_from_slice(&thermal);
+                }
+            },
+            |cell, values| {
+                for v in values.chunks_exact(WIDTH) {
+                    visit(StressPoint {
+                        cell: CellRef { block, cell },
+                        x: [v[0], v[1], v[2]],
+                        volume: v[3],
+                        strain: std::array::from_fn(|i| v[4 + i]),
+                        stress: std::array::from_fn(|i| v[10 + i]),
+                        thermal: std::array::from_fn(|i| v[16 + i]),
+                    });
+                }
+            },
+        );
+    }
+}
