@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::harmonic::Part;
 use super::job::Job;
+use super::part::Part;
 use super::{courses, toml};
 use crate::card::Place;
 use crate::deck::{Deck, Target};

@@ -9,49 +9,12 @@ use stickslip::results::Quantity;
 
 use super::bodies::Bodies;
 use super::job::Job;
+use super::part::Part;
 use super::toml;
 use crate::deck::{Action, Deck, FieldsOf, Print, Procedure, Step};
 
 /// Displacements of more nodes than this are written as fields, not as columns of a table.
 const COLUMNS: usize = 200;
-
-/// Which loads are meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
-    /// Those that stay from step to step.
-    Lasting,
-    /// The real parts of those that shake.
-    Real,
-    /// Their imaginary parts.
-    Imaginary,
-}
-
-impl Part {
-    /// The parts that a deck has.
-    pub fn of(deck: &Deck) -> Vec<Part> {
-        match deck.steps.iter().any(Step::is_harmonic) {
-            true => vec![Part::Lasting, Part::Real, Part::Imaginary],
-            false => vec![Part::Lasting],
-        }
-    }
-
-    /// Whether nothing of the step before counts.
-    pub fn begins_anew(self) -> bool {
-        self != Part::Lasting
-    }
-
-    /// The actions of a step that count.
-    pub fn actions(self, step: &Step) -> impl Iterator<Item = &Action> {
-        let harmonic = step.is_harmonic() == (self != Part::Lasting);
-        let counts = move |a: &&Action| match a {
-            Action::Force { imaginary, .. } | Action::Distributed { imaginary, .. } => {
-                harmonic && (self == Part::Lasting || *imaginary == (self == Part::Imaginary))
-            }
-            _ => harmonic,
-        };
-        step.actions.iter().filter(counts)
-    }
-}
 
 /// Says what steps cannot do, and writes the probes at which the answer is told.
 pub(super) fn write(job: &mut Job, bodies: &Bodies) {

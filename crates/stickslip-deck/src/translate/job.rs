@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::harmonic::Part;
+use super::part::Part;
 use super::spans::duration;
 use super::toml::{self, Writer};
 use crate::card::Place;

@@ -6,8 +6,8 @@ use stickslip::mesh::FacetRef;
 
 use super::acting::{Acting, Given, When, collect, label, open, two_courses};
 use super::bodies::Bodies;
-use super::harmonic::Part;
 use super::job::Job;
+use super::part::Part;
 use super::sets::Sets;
 use super::supports::turned;
 use super::toml;

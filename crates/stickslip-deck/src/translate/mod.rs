@@ -13,6 +13,7 @@ mod loads;
 mod materials;
 mod measure;
 mod multi_point;
+mod part;
 mod pretensions;
 mod references;
 mod sets;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::cell_frame::CellFrame;
+use super::geometry::gather;
 use super::geometry::{Table, by_nodes, coordinates, point};
 use super::kernel::{self, Scratch};
 use super::medium::Medium;
-use super::recover::gather;
 use super::scheme::stiffness_rule;
 use super::waves::in_order;
 use super::{Formulation, Space, Temperatures};

@@ -5,6 +5,7 @@ use super::{Formulation, Space};
 use crate::math::{Mat3, Vec3, inverse};
 use crate::mesh::Block;
 use crate::shape::{ElementKind, QuadraturePoint};
+use crate::system::Dofs;
 
 /// The rule for integrals over a cell whatever its formulation, and for the stiffness in the standard one.
 pub(super) fn cell_rule(kind: ElementKind, space: Space) -> &'static [QuadraturePoint] {
@@ -72,6 +73,25 @@ pub(super) fn coordinates<const N: usize>(points: &[Vec3], block: &Block, cell: 
         }
     }
     x
+}
+
+/// The values of the cell's points in a dof vector, component by component.
+pub(super) fn gather<const N: usize>(
+    u: &[f64],
+    dofs: Dofs,
+    block: &Block,
+    cell: usize,
+) -> Nodal<N> {
+    let mut out = [[0.0; N]; 3];
+    for (a, &p) in block.connectivity[cell * N..(cell + 1) * N]
+        .iter()
+        .enumerate()
+    {
+        for (i, row) in out.iter_mut().enumerate().take(dofs.dim) {
+            row[a] = u[dofs.of(p, i)];
+        }
+    }
+    out
 }
 
 /// Derivatives in space at a quadrature point.

@@ -1,7 +1,7 @@
 //! From displacements back to strains, stresses, forces and energy.
 
 use super::cell_frame::CellFrame;
-use super::geometry::{Nodal, Point, by_nodes, coordinates, point};
+use super::geometry::{Nodal, Point, by_nodes, coordinates, gather, point};
 use super::hourglass::MODES;
 use super::medium::Medium;
 use super::scheme::Scheme;
@@ -9,7 +9,7 @@ use super::warmth::Warmth;
 use super::waves::in_order;
 use super::{Elastic, Space, hourglass};
 use crate::material::Stiffness;
-use crate::mesh::{Block, CellRef};
+use crate::mesh::CellRef;
 use crate::system::{Dofs, State};
 
 /// The state of one quadrature point.
@@ -314,25 +314,6 @@ fn shift(v: &mut [f64; 6], to: f64) {
     for v in &mut v[..3] {
         *v += by;
     }
-}
-
-/// The values of the cell's points in a dof vector, component by component.
-pub(super) fn gather<const N: usize>(
-    u: &[f64],
-    dofs: Dofs,
-    block: &Block,
-    cell: usize,
-) -> Nodal<N> {
-    let mut out = [[0.0; N]; 3];
-    for (a, &p) in block.connectivity[cell * N..(cell + 1) * N]
-        .iter()
-        .enumerate()
-    {
-        for (i, row) in out.iter_mut().enumerate().take(dofs.dim) {
-            row[a] = u[dofs.of(p, i)];
-        }
-    }
-    out
 }
 
 impl Elastic {

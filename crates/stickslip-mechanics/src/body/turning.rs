@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::cell_frame::CellFrame;
+use super::geometry::gather;
 use super::geometry::{Nodal, Point, Table, by_nodes, cell_rule, coordinates, point};
-use super::recover::gather;
 use super::{At, Elastic, Part};
 use crate::math::{Mat3, Vec3, identity, norm, polar_rotation};
 use crate::mesh::CellRef;

@@ -85,7 +85,7 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
             linear.curvature = Curvature::Wanted;
         }
         let krylov = solve(attempt, &mut out, &balance, &mut linear, iteration == 0)?;
-        let demand = control.demand(&residuals, before);
+        let demand = control.demand(&residuals, before, balance.scale);
         let taken = step_length::take(attempt, &mut out, &linear.du, &demand)?;
         balance = taken.balance;
         (attempt.log)(&Progress {

@@ -42,6 +42,8 @@ pub(super) struct Demand {
     before: f64,
     /// By which factor it may grow at most.
     growth: f64,
+    /// The forces in play before the step.
+    in_play: f64,
 }
 
 /// A step that was taken.
@@ -53,8 +55,9 @@ pub(super) struct Taken {
 }
 
 impl StepControl {
-    /// What a step has to achieve after iterates with these residuals relative to the forces in play; `before` is the last of them, as a force.
-    pub fn demand(&mut self, residuals: &[f64], before: f64) -> Demand {
+    /// What a step has to achieve after iterates with these residuals relative to the forces in play; `before` is the last of them, as a force, and `in_play` what it is
+    /// relative to.
+    pub fn demand(&mut self, residuals: &[f64], before: f64, in_play: f64) -> Demand {
         let iteration = residuals.len() - 1;
         let relative = residuals[iteration];
         if iteration >= EARLY && relative > STUCK * residuals[iteration - BACK] {
@@ -67,7 +70,11 @@ impl StepControl {
             (false, true) => EARLY_GROWTH,
             (false, false) => GROWTH,
         };
-        Demand { before, growth }
+        Demand {
+            before,
+            growth,
+            in_play,
+        }
     }
 }
 
@@ -108,9 +115,9 @@ pub(super) fn take(
         if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
             best = Some((measure, length));
         }
-        // Where points leave the surface or come back to it forces jump, by no more than is in play. Shorter steps would come nearer and nearer to the edge and
+        // Where points leave the surface or come back to it forces jump, by no more than was in play. Shorter steps would come nearer and nearer to the edge and
         // gain less and less.
-        let jumps = halvings == 0 && measure <= balance.scale && attempt.system.passes_edges();
+        let jumps = halvings == 0 && measure <= demand.in_play && attempt.system.passes_edges();
         let met = demand.is_met(measure) || jumps;
         if met || halvings >= demand.halvings(measure, line_search) {
             break balance;

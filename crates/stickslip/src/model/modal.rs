@@ -129,7 +129,7 @@ impl Frequencies {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct ModalDamping {
-    /// Damping ratios by the number of the mode, 1 being critical; the last is that of all that follow: `ratios = [0.02]`.
+    /// Damping ratios by the number of the mode, 1 being critical; the last is that of all that follow.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ratios: Vec<f64>,
     /// Adds `mass / (2 ω)` to each ratio `[1/time]`.

@@ -34,7 +34,7 @@ pub struct Harmonic {
     #[cfg_attr(feature = "schema", schemars(extend("minimum" = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bias: Option<f64>,
-    /// Damping of the real modes, beside that of bodies, dashpots and contact: `damping.ratios = [0.02]`.
+    /// Damping of the real modes, beside that of bodies, dashpots and contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<ModalDamping>,
     /// At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.

@@ -22,6 +22,7 @@
 
 pub(crate) mod accepted;
 mod by_cells;
+mod cell_by_cell;
 pub(crate) mod checks;
 pub(crate) mod choice;
 mod closure;

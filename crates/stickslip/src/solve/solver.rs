@@ -5,8 +5,8 @@ use super::iteration::{Iteration, Load, Task};
 use std::sync::Arc;
 
 use super::by_cells::{ByCells, linear_part, stiff, suffices};
+use super::cell_by_cell::{Cells, Pressed};
 use super::condenser::Condenser;
-use super::elastic::{Cells, Pressed};
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;

@@ -115,6 +115,15 @@ fn demanded(name: &str) -> (f64, bool) {
 /// in all, and with the sparse matrix alone the last digit of its density, height, length or friction changes that by 1e-15 to 3e-15 m.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
+/// How an example is solved in the end. The wheel of the Geneva drive is held against turning by nothing but contact that comes and goes: its condensed system is
+/// singular now and then, and the sparse matrix goes on.
+fn method(name: &str) -> &'static str {
+    match name {
+        "geneva-drive" => "sparse",
+        _ => "condensed",
+    }
+}
+
 /// What makes an example short enough to be run twice, where its whole length tells nothing more.
 fn shortened(name: &str) -> &'static [&'static str] {
     match name {
@@ -172,7 +181,8 @@ fn check(name: &str) {
         }
         let (condensed, after) = run(condensed);
         assert_eq!(
-            after.summary.method, "condensed",
+            after.summary.method,
+            method(name),
             "{name}: {:?}",
             after.summary.notes
         );

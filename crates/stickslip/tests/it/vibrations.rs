@@ -221,7 +221,10 @@ fn what_cannot_shake_is_refused() {
         ("loads = [\"shake\"], to = 3, from = 4", "is not below"),
         ("loads = [\"shake\"], to = 3, frequencies = [1]", "exclude"),
         ("loads = [\"shake\"], frequencies = [-1]", "not negative"),
-        ("loads = [\"shake\"], to = 3, bias = 0.5", "is below 1"),
+        (
+            "loads = [\"shake\"], to = 3, bias = 0.5",
+            "must be at least 1",
+        ),
         (
             "loads = [\"shake\"], frequencies = [1], bias = 3",
             "exclude",

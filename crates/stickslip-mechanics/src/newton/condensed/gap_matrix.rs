@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 
 use super::lu::Entry;
-use super::rows::Rows;
+use super::rows::{Rows, Tied};
 use super::tangent::{Precision, Tangent};
 use crate::linear::Compliance;
 
@@ -159,22 +159,6 @@ pub(super) struct Placed<'a> {
     matrix: &'a Compliance,
     /// First row of each, and `S`.
     points: Vec<(usize, Tied)>,
-}
-
-/// `S` of a point, row by row: `C = S B`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tied {
-    pub count: usize,
-    pub values: [[f64; 3]; 3],
-}
-
-impl Tied {
-    /// `S u`.
-    fn times(&self, u: &[f64], out: &mut [f64]) {
-        for (out, row) in out.iter_mut().zip(&self.values) {
-            *out = row.iter().zip(u).map(|(s, u)| s * u).sum();
-        }
-    }
 }
 
 impl Placed<'_> {

@@ -1,5 +1,4 @@
 use super::active::{NONE, Placed};
-use super::gap_matrix::Tied;
 use crate::linear::Digest;
 use crate::math::vector::dot;
 use crate::math::{identity, inverse, transpose_vec};
@@ -15,6 +14,22 @@ pub(super) struct Rows {
     gradients: Vec<f64>,
     /// Changes `C`, row by row.
     changes: Vec<f64>,
+}
+
+/// `S` of a point, row by row: `C = S B`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tied {
+    pub count: usize,
+    pub values: [[f64; 3]; 3],
+}
+
+impl Tied {
+    /// `S u`.
+    pub fn times(&self, u: &[f64], out: &mut [f64]) {
+        for (out, row) in out.iter_mut().zip(&self.values) {
+            *out = row.iter().zip(u).map(|(s, u)| s * u).sum();
+        }
+    }
 }
 
 /// Part of a change of forces that may be left over: rounding.
