@@ -202,6 +202,14 @@ fn bends(job: &mut Job, space: Space) -> bool {
             "a pair slides by little (SMALL SLIDING)",
         ),
         (
+            !deck.ties.is_empty(),
+            "surfaces are tied where they lie at the start (*TIE)",
+        ),
+        (
+            super::contact::ties_by_springs(deck),
+            "surfaces are tied by springs where they lie at the start (TIED)",
+        ),
+        (
             deck.steps.iter().flat_map(|s| &s.actions).any(turns),
             "there are centrifugal forces",
         ),

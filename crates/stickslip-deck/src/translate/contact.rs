@@ -564,6 +564,15 @@ fn courses(deck: &Deck, name: &str) -> Vec<(Interaction, Option<Place>)> {
     steps.collect()
 }
 
+/// Whether surfaces are tied by springs of the deck's own.
+pub(super) fn ties_by_springs(deck: &Deck) -> bool {
+    let mut used = deck
+        .pairs
+        .iter()
+        .filter_map(|p| deck.interactions.get(&p.interaction));
+    used.any(|i| matches!(i.behavior, Some(Behavior::Tied(Some(_)))))
+}
+
 fn is_tied(interaction: &Interaction) -> bool {
     matches!(interaction.behavior, Some(Behavior::Tied(_)))
 }

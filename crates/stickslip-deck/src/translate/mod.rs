@@ -120,7 +120,7 @@ impl Deck {
 
 /// Limits of the gate that do not hold where the deck gives springs of its own.
 fn quality(job: &mut Job) {
-    let (stick, soft) = (deck_has_stick(job.deck), deck_ties_by_springs(job.deck));
+    let (stick, soft) = (deck_has_stick(job.deck), contact::ties_by_springs(job.deck));
     if stick || soft {
         // The slip and the stretch of springs that the deck gives are no errors of the solution.
         job.out.line("");
@@ -242,13 +242,4 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
 fn deck_has_stick(deck: &Deck) -> bool {
     let mut all = deck.interactions.values();
     all.any(|i| contact::compliant(i) && i.friction.as_ref().is_some_and(|f| f.stick.is_some()))
-}
-
-/// Whether surfaces are tied by springs of the deck's own.
-fn deck_ties_by_springs(deck: &Deck) -> bool {
-    let mut used = deck
-        .pairs
-        .iter()
-        .filter_map(|p| deck.interactions.get(&p.interaction));
-    used.any(|i| matches!(i.behavior, Some(Behavior::Tied(Some(_)))))
 }

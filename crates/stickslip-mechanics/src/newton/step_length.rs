@@ -83,6 +83,12 @@ impl Demand {
         measure <= self.growth * self.before
     }
 
+    /// Whether it may be a jump that a full step leads to. Where points leave the surface or come back to it forces jump, by no more than was in play; shorter steps would
+    /// come nearer and nearer to the edge and gain less and less. Not where points chatter: there a step has to gain.
+    fn lets_jump(&self, measure: f64) -> bool {
+        self.growth > GAIN && measure <= self.in_play
+    }
+
     /// Halvings after which the best step is taken, where the last length led to this measure.
     fn halvings(&self, measure: f64, line_search: usize) -> usize {
         let lost = measure.is_nan() || measure > LOST * self.before;
@@ -115,9 +121,7 @@ pub(super) fn take(
         if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
             best = Some((measure, length));
         }
-        // Where points leave the surface or come back to it forces jump, by no more than was in play. Shorter steps would come nearer and nearer to the edge and
-        // gain less and less.
-        let jumps = halvings == 0 && measure <= demand.in_play && attempt.system.passes_edges();
+        let jumps = halvings == 0 && demand.lets_jump(measure) && attempt.system.passes_edges();
         let met = demand.is_met(measure) || jumps;
         if met || halvings >= demand.halvings(measure, line_search) {
             break balance;

@@ -115,13 +115,10 @@ fn demanded(name: &str) -> (f64, bool) {
 /// in all, and with the sparse matrix alone the last digit of its density, height, length or friction changes that by 1e-15 to 3e-15 m.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// How an example is solved in the end. The wheel of the Geneva drive is held against turning by nothing but contact that comes and goes: its condensed system is
-/// singular now and then, and the sparse matrix goes on.
-fn method(name: &str) -> &'static str {
-    match name {
-        "geneva-drive" => "sparse",
-        _ => "condensed",
-    }
+/// Whether an example can be condensed. The wheel of the Geneva drive is held against turning by nothing but contact that comes and goes: its condensed system is
+/// singular now and then, and the run goes on with the sparse matrix, whose results the example compares with theory.
+fn condenses(name: &str) -> bool {
+    name != "geneva-drive"
 }
 
 /// What makes an example short enough to be run twice, where its whole length tells nothing more.
@@ -150,6 +147,9 @@ fn shortened(name: &str) -> &'static [&'static str] {
 }
 
 fn check(name: &str) {
+    if !condenses(name) {
+        return;
+    }
     let folder = examples().join(name);
     let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
         .expect("the folder of an example")
@@ -181,8 +181,7 @@ fn check(name: &str) {
         }
         let (condensed, after) = run(condensed);
         assert_eq!(
-            after.summary.method,
-            method(name),
+            after.summary.method, "condensed",
             "{name}: {:?}",
             after.summary.notes
         );
