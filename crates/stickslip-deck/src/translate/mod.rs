@@ -35,7 +35,7 @@ use std::sync::Arc;
 use stickslip::mesh::Mesh;
 
 use crate::axes;
-use crate::deck::{Behavior, Deck, Print, SurfaceParts};
+use crate::deck::{Deck, Print, SurfaceParts};
 use crate::finding::DeckError;
 use bodies::Bodies;
 use job::Job;
