@@ -343,7 +343,7 @@ fn a_rigid_tyre_thrown_with_backspin_ends_rolling() {
         "{velocity} {rolled}"
     );
     assert!((-0.1 * spin / rolled - 1.0).abs() < 0.05, "{spin} {rolled}");
-    // A polygon that lands on its corners: as with the elastic one some per mille cannot be placed.
+    // A polygon that lands on its corners: some per mille of the energy cannot be placed.
     assert!(open(&record) < 1e-2, "{:e}", open(&record));
 }
 
