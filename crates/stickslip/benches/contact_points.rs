@@ -6,8 +6,9 @@
 //! - search: the tree of boxes and the candidates of all points, as after a large motion;
 //! - residual, tangent: one evaluation as Newton's method asks for it, without and with tangent;
 //! - lean: with tangent but without the symmetric stand-in for a preconditioner;
+//! - curved: with tangent and how gaps and slips curve, which bodies that are condensed ask for only where Newton's method misses it;
 //!
-//! and after the bar the last but one, per candidate. The last column tells whether two versions of the program compute the same: the
+//! and after the bar the tangent per candidate. The last column tells whether two versions of the program compute the same: the
 //! norm of the contact forces. Times are the least of several runs.
 
 use std::hint::black_box;
@@ -208,8 +209,8 @@ fn candidates(interface: &Interface) -> usize {
     count
 }
 
-fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsModel, laws: Laws) {
-    let mut interface = interface(kind, curved, kinematics, laws);
+fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsModel, laws: Laws) {
+    let mut interface = interface(kind, bent, kinematics, laws);
     let count = interface.points.len();
     let pairs = candidates(&interface) as f64 / count as f64;
     let from = state(&interface, 0.0, 0.0, 0.0);
@@ -235,23 +236,27 @@ fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsMo
     out.reset(true);
     interface.assemble(&stage(&at), &mut out).expect("forces");
     interface.update_internal(&vec![0.0; at.u.len()], 1.0);
-    let mut evaluate = |tangent: bool, surrogate: bool| {
+    let mut evaluate = |tangent: bool, surrogate: bool, curved: bool| {
         out.wants_surrogate = surrogate;
         out.reset(tangent);
         interface.prepare(&stage(&at));
         interface.assemble(&stage(&at), &mut out).expect("forces");
+        if curved {
+            interface.curve(&mut out);
+        }
         black_box(&out);
     };
-    let residual = least(|| evaluate(false, true));
-    let tangent = least(|| evaluate(true, true));
-    let lean = least(|| evaluate(true, false));
+    let residual = least(|| evaluate(false, true, false));
+    let tangent = least(|| evaluate(true, true, false));
+    let lean = least(|| evaluate(true, false, false));
+    let curved = least(|| evaluate(true, true, true));
     let norm = out.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
     let tally = interface.tally().unwrap_or_default();
     let us = |seconds: f64| 1e6 * seconds / count as f64;
     println!(
-        "{:6} {:6} {:14} {:12} {:5.1} | {:6.2} {:8.2} {:7.2} {:6.2} | {:6.3} | {:3} {:20.13e}",
+        "{:6} {:6} {:14} {:12} {:5.1} | {:6.2} {:8.2} {:7.2} {:6.2} {:6.2} | {:6.3} | {:3} {:20.13e}",
         kind.name(),
-        if curved { "curved" } else { "flat" },
+        if bent { "curved" } else { "flat" },
         interface.kinematics.kind(),
         name,
         pairs,
@@ -259,6 +264,7 @@ fn measure(name: &str, kind: ElementKind, curved: bool, kinematics: KinematicsMo
         us(residual),
         us(tangent),
         us(lean),
+        us(curved),
         us(tangent) / pairs,
         tally.stick + tally.slip,
         norm
@@ -281,7 +287,7 @@ fn main() {
         KinematicsModel::Pop1995(Pop1995 {}),
     ];
     println!(
-        "facet  shape  kinematics     enforcement  pairs | search residual tangent   lean |   pair | in contact, force"
+        "facet  shape  kinematics     enforcement  pairs | search residual tangent   lean curved |   pair | in contact, force"
     );
     pool.install(|| {
         use ElementKind::{Line2, Quad4, Quad8, Tri3};

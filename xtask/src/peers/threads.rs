@@ -26,11 +26,13 @@ pub fn measure(bench: &Bench, sizes: &[usize]) -> Result<(), String> {
             "CPU s",
         ],
     );
-    let mut factors = Vec::new();
+    let (mut factors, mut walls, mut phases) = (Vec::new(), Vec::new(), Vec::new());
     for threads in [1, 2] {
         let run = bench.analyse_on(threads, &case, &settings)?;
         let factor = run.phase("factor") + run.phase("condense");
         factors.push(factor);
+        walls.push(run.run.wall);
+        phases.push(format!("- {threads}: {} s", run.phases()));
         table.row([
             n.to_string(),
             run.dofs().to_string(),
@@ -42,10 +44,13 @@ pub fn measure(bench: &Bench, sizes: &[usize]) -> Result<(), String> {
             format!("{:.2}", run.run.cpu),
         ]);
     }
-    if let [one, two] = factors[..] {
+    println!();
+    phases.iter().for_each(|line| println!("{line}"));
+    if let ([one, two], [first, second]) = (&factors[..], &walls[..]) {
         println!(
-            "\nfactor and condense on two threads: {:.2} of the time on one",
-            two / one
+            "\nfactor and condense on two threads: {:.2} of the time on one; the whole analysis {:.2} times as fast",
+            two / one,
+            first / second
         );
     }
     Ok(())

@@ -43,7 +43,7 @@ enum Curvature {
     /// Where it costs next to nothing, until Newton's method misses it.
     Unasked,
     Wanted,
-    /// That of whole surfaces not any more: linear systems could not be solved with it.
+    /// Not any more: linear systems could not be solved with it.
     Refused,
 }
 
@@ -178,13 +178,12 @@ fn solve(
         let target = balance.target(settings.tolerance);
         FORCING * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
     };
-    // Bodies that are being followed roll on their anchors, whose steps are tuned to what they feel of their own points alone.
-    if system.patience() == 0 {
-        match curvature {
-            Curvature::Unasked if system.bulk.prefers_straight(out) => out.straighten(),
-            Curvature::Unasked | Curvature::Wanted => system.curve(out),
-            Curvature::Refused => {}
-        }
+    // Bodies that are being followed roll on their anchors, whose steps are tuned to how their own points curve.
+    let straight = system.patience() == 0 && system.bulk.prefers_straight(out);
+    match curvature {
+        Curvature::Unasked if straight => out.straighten(),
+        Curvature::Unasked | Curvature::Wanted => system.curve(out),
+        Curvature::Refused => {}
     }
     let wanted = wanted.clamp(FINEST, coarse.max(FINEST));
     let counts = &mut *attempt.statistics;

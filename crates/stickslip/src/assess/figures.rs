@@ -167,8 +167,8 @@ pub(crate) static ROTATION: Kind = Kind {
     name: "rotation",
     own: 0.0,
     model: 0.0,
-    what: "the body has turned by this angle in radians, and strains and rotations are taken as small",
-    help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far turns with a reference point (`body.NAME.rotation.with`)",
+    what: "it has turned by this angle in radians, and strains and rotations are taken as small",
+    help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far turns with a reference point (`body.NAME.rotation.with`); a face that is meant to turn far without one is moved by supports of its points",
 };
 
 pub(crate) static LOCAL_ROTATION: Kind = Kind {

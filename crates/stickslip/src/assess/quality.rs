@@ -37,7 +37,7 @@ pub struct Gate {
 pub struct Figure {
     /// Its name: the key of its limit in `[quality]`.
     pub figure: &'static str,
-    /// Where: `interface NAME`, `body NAME` or `model`.
+    /// Where: `interface NAME`, `body NAME`, `reference point NAME` or `model`.
     pub place: String,
     /// Its largest value `[-]`.
     pub value: f64,

@@ -48,8 +48,25 @@ impl View<'_> {
                 far.push((body.name.clone(), way, moved));
             }
         }
+        if judged {
+            self.judge_references(limits, gate);
+        }
         for (body, way, moved) in far {
             self.note_far(&body, (way, moved), findings);
+        }
+    }
+
+    /// Reference points that carry no frame: what is tied to one follows its rotation linearly, whatever frames its body has.
+    fn judge_references(&self, limits: &Limits, gate: &mut Gate) {
+        let (dofs, u) = (self.model.dofs, &self.frame.state.u);
+        for reference in &self.model.references {
+            let link = &self.model.links.all()[reference.link];
+            if !link.framed && !self.model.frames.carries(link) {
+                let place = format!("reference point {}", reference.name);
+                let turned = norm(link.rotation(dofs, u));
+                let t = self.frame.state.t;
+                gate.note(&ROTATION, &place, [turned, 1.0], limits.rotation, t);
+            }
         }
     }
 

@@ -71,7 +71,7 @@ pub struct Limits {
     /// explicit step, where accelerations are made to balance.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub equilibrium: f64,
-    /// Rotation of each body in radians, an elastic one by its mean displacement gradient. Strains and rotations are taken as small: a body that
+    /// Rotation of each body and reference point in radians, of an elastic body by its mean displacement gradient. Strains and rotations are taken as small: a body that
     /// turns by `θ` grows by `θ²/2`, and forces are balanced as if it had not turned, an error of a part in a thousand to one in a hundred
     /// at 0.05.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]

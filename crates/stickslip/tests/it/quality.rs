@@ -585,6 +585,31 @@ fn a_beam_that_bends_far_is_beyond_small_rotations() {
     assert!(gently.summary.quality.met && turned > 0.005, "{turned}");
 }
 
+/// Frames of cells turn by any angle; what is tied to a reference point follows its rotation linearly all the same, and is stretched by half the square of it.
+#[test]
+fn a_reference_point_that_turns_farther_than_small_is_named() {
+    let turned = |angle: f64| {
+        run(&format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.beam = {{ generate.rectangle = {{ to = [8, 1], cells = [16, 2] }}, material = "soft", rotation = "corotational" }}
+material.soft.isotropic = {{ young = 1e3, poisson = 0.3 }}
+support.base = {{ set = "beam.left", x = 0.0, y = 0.0 }}
+reference.end.point = [8, 0.5]
+coupling.end.kinematic = {{ reference = "end", set = "beam.right" }}
+support.turn = {{ set = "end", rotation-z = {angle} }}
+step = [{{ name = "turn", increments = {{ fixed = 4 }} }}]
+"#
+        ))
+    };
+    let far = turned(0.3);
+    trips(&far, "rotation");
+    let found = figure(&far, "rotation");
+    assert!((found.value - 0.3).abs() < 1e-12, "{}", found.value);
+    assert_eq!(found.place, "reference point end");
+    assert!(turned(0.03).summary.quality.met);
+}
+
 #[test]
 fn a_body_that_spins_by_more_than_the_theory_knows_is_not_a_good_result() {
     for rigid in [false, true] {

@@ -1,21 +1,21 @@
-//! How the directions and places of a mortar's forces change: what its tangent has beside the gradients of gaps and slips.
+//! How gaps and slips over facets curve, face by face for a mortar and point by point for others: what the tangent has beside their gradients.
 
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
 use super::evaluation::Evaluations;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
-use crate::contact::kinematics::{Convective, Kinematics, Pair, Stencil};
-use crate::contact::mortar::{Face, FaceIntegral, Piece};
+use crate::contact::kinematics::{Convective, Kinematics, Pair};
+use crate::contact::mortar::{Face, FaceIntegral, Mortar, Piece};
 use crate::contact::projection::invert2;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, add_scaled, dot};
 use crate::system::{Assembler, Dofs, Tangent};
 
-/// Faces handled by one task.
+/// Faces or points handled by one task.
 const CHUNK: usize = 8;
 
-/// The second derivatives over one face.
+/// The second derivatives over one face, or of one point.
 #[derive(Debug, Default)]
 struct Block {
     dofs: Vec<usize>,
@@ -144,9 +144,7 @@ impl Curvature<'_> {
         };
         room.clear();
         room.resize(pair.dofs() * pair.dofs(), 0.0);
-        // The second derivatives of the gap do not ask for the stencil.
-        let unused = Stencil::default();
-        Convective {}.add_hessian(&pair, &unused, [-pressure, 0.0, 0.0], room);
+        Convective {}.add_hessian(&pair, [-pressure, 0.0, 0.0], room);
         add_shear(&pair, shear, room);
     }
 
@@ -199,35 +197,19 @@ impl Interface {
         })
     }
 
-    /// Adds the curvature of the gaps and slips that carry something, face by face: of the contact element of each piece at its middle, weighted by what
-    /// the piece carries.
+    /// Adds the curvature of the gaps and slips over facets that carry something. A mortar adds none where surfaces keep the way they have turned.
     pub(super) fn add_curvature(&self, evaluations: &Evaluations, out: &mut Assembler) {
-        let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
+        let Primary::Facets(facets) = &self.primary else {
             return;
         };
         if !out.wants_tangent || self.kinematics.as_dyn().frozen() {
             return;
         }
-        let curvature = Curvature {
-            dim: self.dofs.dim,
-            dofs: self.dofs,
-            nodes: &self.nodes,
-            x: &self.cache.x,
-            facets,
+        let blocks = match &self.mortar {
+            Some(_) if out.holds_turns => return,
+            Some(mortar) => self.curvature_of_faces(mortar, facets, evaluations),
+            None => self.curvature_of_points(facets, evaluations),
         };
-        let faces = mortar.faces.par_chunks(CHUNK);
-        let blocks: Vec<Vec<Block>> = faces
-            .zip(self.cache.integrals.par_chunks(CHUNK))
-            .map(|(faces, integrals)| {
-                let mut room = Vec::new();
-                let block = |(face, integral): (&Face, &FaceIntegral)| {
-                    let points = face.points.iter();
-                    let own: Vec<_> = points.map(|&p| self.carried(evaluations, p)).collect();
-                    curvature.block(face, integral, &own, &mut room)
-                };
-                faces.iter().zip(integrals).filter_map(block).collect()
-            })
-            .collect();
         let mut zeros = Vec::new();
         for block in blocks.iter().flatten() {
             let n = block.dofs.len();
@@ -242,5 +224,48 @@ impl Interface {
             };
             out.add_tangent(&block.dofs, tangent);
         }
+    }
+
+    /// By chunks of points.
+    fn curvature_of_points(&self, facets: &[Facet], evaluations: &Evaluations) -> Vec<Vec<Block>> {
+        let points: Vec<usize> = (0..evaluations.points.len()).collect();
+        let block = |&i: &usize| {
+            let hessian = self.curvature_of_point(i, facets, evaluations)?;
+            let dofs = evaluations.batch(i).dofs(&evaluations.points[i]).to_vec();
+            Some(Block { dofs, hessian })
+        };
+        let chunks = points.par_chunks(CHUNK);
+        chunks
+            .map(|points| points.iter().filter_map(block).collect())
+            .collect()
+    }
+
+    /// By chunks of faces: of the contact element of each piece at its middle, weighted by what the piece carries.
+    fn curvature_of_faces(
+        &self,
+        mortar: &Mortar,
+        facets: &[Facet],
+        evaluations: &Evaluations,
+    ) -> Vec<Vec<Block>> {
+        let curvature = Curvature {
+            dim: self.dofs.dim,
+            dofs: self.dofs,
+            nodes: &self.nodes,
+            x: &self.cache.x,
+            facets,
+        };
+        let faces = mortar.faces.par_chunks(CHUNK);
+        faces
+            .zip(self.cache.integrals.par_chunks(CHUNK))
+            .map(|(faces, integrals)| {
+                let mut room = Vec::new();
+                let block = |(face, integral): (&Face, &FaceIntegral)| {
+                    let points = face.points.iter();
+                    let own: Vec<_> = points.map(|&p| self.carried(evaluations, p)).collect();
+                    curvature.block(face, integral, &own, &mut room)
+                };
+                faces.iter().zip(integrals).filter_map(block).collect()
+            })
+            .collect()
     }
 }

@@ -108,7 +108,9 @@ pub(super) struct Evaluation {
     pub frames: Frames,
     /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,
+    /// The facet of the primary that it meets, and the place of its projection there.
     pub facet: Option<usize>,
+    pub xi: [f64; 2],
     /// It stays off the outer edge of the primary, but lies beneath its surface.
     pub stranded: bool,
     /// Whether something lies opposite.

@@ -5,26 +5,25 @@ use super::evaluation::{Batch, Evaluation};
 use super::scene::Scene;
 use super::surrogate::{gain, surrogate};
 use crate::contact::enforcement::{condensed_slope, inverse_of_rows, residual};
-use crate::contact::kinematics::Stencil;
 use crate::math::{Mat3, dot};
 
 /// Roundings of the largest coordinate that a gap may be off.
 const ROUNDING: f64 = 4.0;
 
 impl Interface {
-    /// Residual and tangent from stencil and response. `hessian` adds second derivatives with these weights, or says that there are none.
+    /// Residual and tangent from stencil and response, but for how gap and slips curve: the weights of their second derivatives, if a tangent is wanted and
+    /// something is carried.
     pub(super) fn finish(
         &self,
         scene: &Scene,
         e: &mut Evaluation,
         batch: &mut Batch,
-        hessian: impl FnOnce(&Stencil, [f64; 3], &mut [f64]) -> bool,
-    ) {
+    ) -> Option<[f64; 3]> {
         let unknown = self.unknown() && !scene.wants.initial;
         let r = &e.response;
         let traction = if unknown { e.multiplier } else { r.traction };
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
-            return;
+            return None;
         }
         add_force(e, traction, batch);
         let inverse =
@@ -37,7 +36,7 @@ impl Interface {
             ));
         }
         if !scene.wants.tangent {
-            return;
+            return None;
         }
         // With multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
         let r = &e.response;
@@ -47,16 +46,6 @@ impl Interface {
         };
         add_rows(e, &d, d_skew, batch);
         let n = batch.stencil.n;
-        if traction != [0.0; 3] {
-            let start = batch.hessian.len();
-            batch.hessian.resize(start + n * n, 0.0);
-            let weights = traction.map(|t| -e.area * t);
-            if hessian(&batch.stencil, weights, &mut batch.hessian[start..]) {
-                e.slots.hessian = Some(start);
-            } else {
-                batch.hessian.truncate(start);
-            }
-        }
         if scene.wants.surrogate {
             let start = batch.surrogate.len();
             e.slots.surrogate = Some(start);
@@ -65,6 +54,7 @@ impl Interface {
             let gain = gain(&batch.stencil, &batch.rated);
             surrogate(&d, gain, e.area, rows, &mut batch.surrogate[start..]);
         }
+        (traction != [0.0; 3]).then(|| traction.map(|t| -e.area * t))
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::definition::Interface;
 use super::evaluate::Met;
-use super::evaluation::{Batch, Evaluation};
+use super::evaluation::{Batch, Evaluation, Evaluations};
 use super::scene::Scene;
-use crate::contact::facet_point::{FACET_NODES, FacetPoint};
+use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
 use crate::contact::kinematics::Pair;
 use crate::contact::pairing::{Anchor, Previous};
 use crate::contact::surface::Facet;
@@ -90,14 +90,52 @@ impl Interface {
         batch.sides.extend(theirs);
         let mut e = self.respond(met, scene, batch);
         e.facet = Some(f);
-        self.finish(scene, &mut e, batch, |stencil, weights, out| {
-            let curved = kinematics.curved();
-            if curved {
-                kinematics.add_hessian(&pair, stencil, weights, out);
-            }
-            curved
-        });
+        e.xi = foot.xi;
+        self.finish(scene, &mut e, batch);
         e
+    }
+
+    /// The second derivatives of gap and slips of a point over a facet, weighted by what it carries; shape `(n, n)`. `None` if it carries nothing.
+    pub(super) fn curvature_of_point(
+        &self,
+        i: usize,
+        facets: &[Facet],
+        evaluations: &Evaluations,
+    ) -> Option<Vec<f64>> {
+        let (point, cache) = (&self.points[i], &self.cache);
+        let e = evaluations.points.get(i)?;
+        let traction = if self.unknown() {
+            e.multiplier
+        } else {
+            e.response.traction
+        };
+        if e.slots.rows.is_none() || traction == [0.0; 3] {
+            return None;
+        }
+        let f = e.facet?;
+        let facet = &facets[f];
+        let point_before = point.position(&cache.before);
+        let mut kept = cache.anchors.get(i).cloned().flatten();
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let now = facet.gather(&cache.x, &mut nodes);
+        let pair = Pair {
+            dim: self.dofs.dim,
+            weights: &point.weights,
+            point: point.position(&cache.x),
+            kind: facet.kind,
+            facet: now,
+            foot: &evaluate(facet.kind, now, e.xi),
+            anchor: Anchor::at(&mut kept, f, facet, &cache.before, point_before)?,
+            point_before,
+            // The way of the belt curves nothing.
+            belt: [0.0; 3],
+        };
+        let mut out = vec![0.0; pair.dofs() * pair.dofs()];
+        let weights = traction.map(|t| -e.area * t);
+        self.kinematics
+            .as_dyn()
+            .add_hessian(&pair, weights, &mut out);
+        Some(out)
     }
 
     /// The facet of a point and its projection there; where it is if it has none.

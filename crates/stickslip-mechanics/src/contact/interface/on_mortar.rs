@@ -54,7 +54,7 @@ impl Interface {
         );
         let area = self.share * sums.area;
         let mut e = self.respond(Met { i, area, sides }, scene, batch);
-        self.finish(scene, &mut e, batch, |_, _, _| false);
+        self.finish(scene, &mut e, batch);
         e
     }
 

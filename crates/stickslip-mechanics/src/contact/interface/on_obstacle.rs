@@ -46,15 +46,19 @@ impl Interface {
         };
         batch.sides.extend(self.own_weights(i));
         let mut e = self.respond(met, scene, batch);
-        self.finish(scene, &mut e, batch, |_, weights, out| {
+        if let Some(weights) = self.finish(scene, &mut e, batch) {
+            let start = batch.hessian.len();
+            batch.hessian.resize(start + e.slots.n * e.slots.n, 0.0);
+            let out = &mut batch.hessian[start..];
             let [normal, t1, t2] = weights;
-            if !mean {
-                return add_rigid_hessian(pose, point, &feet, dim, weights, out);
+            let along = if mean { [0.0, t1, t2] } else { weights };
+            let mut curved = add_rigid_hessian(pose, point, &feet, dim, along, out);
+            curved |= mean && add_average_hessian(shape, pose, point, nodes, dim, normal, out);
+            match curved {
+                true => e.slots.hessian = Some(start),
+                false => batch.hessian.truncate(start),
             }
-            let along = [0.0, t1, t2];
-            let slips = add_rigid_hessian(pose, point, &feet, dim, along, out);
-            add_average_hessian(shape, pose, point, nodes, dim, normal, out) || slips
-        });
+        }
         e
     }
 }

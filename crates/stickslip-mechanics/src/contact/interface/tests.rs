@@ -220,16 +220,19 @@ fn the_tangent_is_that_of_the_force() {
                 out.reset(tangent);
                 interface.prepare(&stage);
                 interface.assemble(&stage, &mut out).expect("forces");
-                (out.residual.clone(), out.blocks.clone())
+                let points = out.blocks.len();
+                interface.curve(&mut out);
+                let curvature = out.blocks.split_off(points);
+                (out.residual.clone(), out.blocks.clone(), curvature)
             };
             // The first tangent of an attempt is another one.
             force(&at, true, true);
-            let (_, blocks) = force(&at, true, false);
+            let (_, blocks, curvature) = force(&at, true, false);
             assert!(blocks.len() > 8);
-            for block in &blocks {
-                assert!(block.surrogate.is_empty());
-                assert_eq!(block.hessian.is_empty(), model.as_dyn().frozen());
-            }
+            assert!(blocks.iter().all(|block| block.hessian.is_empty()));
+            assert_eq!(curvature.is_empty(), model.as_dyn().frozen());
+            let blocks = [blocks, curvature].concat();
+            assert!(blocks.iter().all(|block| block.surrogate.is_empty()));
             let largest = blocks.iter().flat_map(|b| b.tangent());
             let largest = largest.fold(0.0_f64, |m, k| m.max(k.abs()));
             let direction: Vec<f64> = (0..count).map(|k| (k as f64 * 0.7).cos()).collect();
@@ -256,8 +259,8 @@ fn the_tangent_is_that_of_the_force() {
                 assert!((difference - p).abs() < 1e-5 * largest, "{what}");
             }
             // The stand-in changes nothing else.
-            let (_, full) = force(&State { u: start, ..at }, true, true);
-            for (a, b) in blocks.iter().zip(&full) {
+            let (_, full, curvature) = force(&State { u: start, ..at }, true, true);
+            for (a, b) in blocks.iter().zip(full.iter().chain(&curvature)) {
                 assert!(!b.surrogate.is_empty());
                 assert_eq!((&a.rows, &a.change), (&b.rows, &b.change));
                 assert_eq!(a.hessian, b.hessian);

@@ -55,7 +55,7 @@ impl Kinematics for Convective {
         }
     }
 
-    fn add_hessian(&self, pair: &Pair, _stencil: &Stencil, weights: [f64; 3], out: &mut [f64]) {
+    fn add_hessian(&self, pair: &Pair, weights: [f64; 3], out: &mut [f64]) {
         let projection = Projection::new(pair);
         projection.add_hessian(weights[0], out);
         if weights[1] != 0.0 || weights[2] != 0.0 {

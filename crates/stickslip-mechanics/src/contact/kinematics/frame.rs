@@ -44,6 +44,45 @@ pub(super) struct MovingFrame<'a> {
     bending: [Row; 2],
 }
 
+/// Most products of rows in the derivative of a row.
+const MOST_PRODUCTS: usize = 9;
+
+/// A sum of products of rows, which is added in one pass over the matrix.
+struct Products {
+    left: [Row; MOST_PRODUCTS],
+    right: [Row; MOST_PRODUCTS],
+    count: usize,
+}
+
+impl Default for Products {
+    fn default() -> Self {
+        let none = [[0.0; MOST_DOFS]; MOST_PRODUCTS];
+        Products {
+            left: none,
+            right: none,
+            count: 0,
+        }
+    }
+}
+
+impl Products {
+    fn push(&mut self, left: &Row, right: &Row) {
+        self.left[self.count] = *left;
+        self.right[self.count] = *right;
+        self.count += 1;
+    }
+
+    /// `out += Σ left rightᵀ`, of `n` rows.
+    fn add_to(&self, out: &mut [f64], n: usize) {
+        for (i, row) in out.chunks_exact_mut(n).enumerate() {
+            let left: [f64; MOST_PRODUCTS] = std::array::from_fn(|k| self.left[k][i]);
+            for (j, out) in row.iter_mut().enumerate() {
+                *out += (left.iter().zip(&self.right)).fold(0.0, |s, (l, right)| s + l * right[j]);
+            }
+        }
+    }
+}
+
 impl<'a> MovingFrame<'a> {
     pub fn new(frame: &'a TangentFrame, at: &'a Projection<'a>) -> Self {
         let mut spin = [0.0; MOST_DOFS];
@@ -152,13 +191,8 @@ impl<'a> MovingFrame<'a> {
         let (e, b) = self.combined(weights);
         let along = self.derivatives(b);
         let [e1, e2] = self.frame.directions;
-        let mut add = |left: &Row, right: &Row| {
-            for (l, row) in left.iter().zip(out.chunks_exact_mut(n)) {
-                if *l != 0.0 {
-                    add_scaled_row(*l, &right[..n], row);
-                }
-            }
-        };
+        let mut products = Products::default();
+        let mut add = |left: &Row, right: &Row| products.push(left, right);
         let row = |f: &dyn Fn(&mut Row)| -> Row {
             let mut row = [0.0; MOST_DOFS];
             f(&mut row);
@@ -191,5 +225,6 @@ impl<'a> MovingFrame<'a> {
             });
             add(&moved, &self.at.xi[alpha]);
         }
+        products.add_to(out, n);
     }
 }

@@ -188,7 +188,7 @@ impl Kinematics for Pop1995 {
         }
     }
 
-    fn add_hessian(&self, pair: &Pair, _: &Stencil, weights: [f64; 3], out: &mut [f64]) {
+    fn add_hessian(&self, pair: &Pair, weights: [f64; 3], out: &mut [f64]) {
         let e = sub(pair.point, pair.facet[0]);
         let (a, b) = edges(pair);
         for (i, edge) in std::iter::once(&a).chain(&b).enumerate() {

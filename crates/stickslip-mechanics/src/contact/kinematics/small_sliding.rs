@@ -19,10 +19,6 @@ impl Kinematics for SmallSliding {
         true
     }
 
-    fn curved(&self) -> bool {
-        false
-    }
-
     /// The pair comes with the reference projection as `foot` and `anchor`, while `point` and `point_before` are the position
     /// relative to that foot's material place: `x_s - Σ N_j x_j` now and at the last accepted state, added to the foot.
     fn stencil(&self, pair: &Pair, out: &mut Stencil) {
@@ -45,7 +41,7 @@ impl Kinematics for SmallSliding {
         }
     }
 
-    fn add_hessian(&self, _: &Pair, _: &Stencil, _: [f64; 3], _: &mut [f64]) {}
+    fn add_hessian(&self, _: &Pair, _: [f64; 3], _: &mut [f64]) {}
 }
 
 impl Samples for SmallSliding {

@@ -83,14 +83,10 @@ impl Pair<'_> {
 
 /// A way to measure gap and slip.
 pub trait Kinematics: Send + Sync {
-    /// `true` if pairs, normals and weights are those of the reference configuration.
+    /// `true` if pairs, normals and weights are those of the reference configuration: gap and slips are linear in the displacements then and have no second
+    /// derivatives.
     fn frozen(&self) -> bool {
         false
-    }
-
-    /// `false` if gap and slips are linear in the displacements: there are no second derivatives.
-    fn curved(&self) -> bool {
-        true
     }
 
     /// `true` if facets must be lines or triangles.
@@ -102,5 +98,5 @@ pub trait Kinematics: Send + Sync {
     fn stencil(&self, pair: &Pair, out: &mut Stencil);
 
     /// Adds `Σ wᵢ kᵢ` to `out`, shape `(n, n)`: the derivatives of the rows, weighted. Those of the normal are symmetric.
-    fn add_hessian(&self, pair: &Pair, stencil: &Stencil, weights: [f64; 3], out: &mut [f64]);
+    fn add_hessian(&self, pair: &Pair, weights: [f64; 3], out: &mut [f64]);
 }

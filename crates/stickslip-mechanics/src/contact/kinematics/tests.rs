@@ -168,7 +168,7 @@ fn gradients_and_hessians_agree_with_differences() {
             let (stencil, hessian, symmetric) = case.with(&case.now, &model, |pair, s| {
                 let [all, normal] = [weights, [1.0, 0.0, 0.0]].map(|weights| {
                     let mut h = vec![0.0; s.n * s.n];
-                    model.as_dyn().add_hessian(pair, s, weights, &mut h);
+                    model.as_dyn().add_hessian(pair, weights, &mut h);
                     h
                 });
                 (s.clone(), all, normal)
