@@ -132,6 +132,12 @@ fn shortened(name: &str) -> &'static [&'static str] {
             "amplitude.drive.table=[[0,0],[1,9.25e-4],[2,0.059829861307179586]]",
             "amplitude.driven.table=[[0,0],[1,0],[2,0.039269908169872414]]",
         ],
+        "roller-bearing" => &[
+            "step.2.increments.fixed=1",
+            "amplitude.sine.table=[[0,0],[2,0],[3,0.1045]]",
+            "amplitude.cosine.table=[[0,0],[1,1],[2,1],[3,0.9945]]",
+            "amplitude.turn.table=[[0,0],[2,0],[3,0.1667]]",
+        ],
         "rolling-wheel" => &[
             "step.2.increments.fixed=5",
             "amplitude.way.table=[[0,0],[2,0],[3,0.0833]]",

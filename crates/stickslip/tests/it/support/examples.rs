@@ -39,6 +39,7 @@ macro_rules! every_example {
             patch_matching = "patch-matching",
             patch_taylor = "patch-taylor",
             press_and_slide = "press-and-slide",
+            roller_bearing = "roller-bearing",
             rolling_wheel = "rolling-wheel",
             tumbling_block = "tumbling-block",
             shear_column = "shear-column",
