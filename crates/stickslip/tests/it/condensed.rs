@@ -132,6 +132,10 @@ fn shortened(name: &str) -> &'static [&'static str] {
             "amplitude.drive.table=[[0,0],[1,9.25e-4],[2,0.059829861307179586]]",
             "amplitude.driven.table=[[0,0],[1,0],[2,0.039269908169872414]]",
         ],
+        "bentall-johnson" => &[
+            "step.1.increments.fixed=5",
+            "amplitude.turn.table=[[0,0],[1,0],[2,0.04]]",
+        ],
         "roller-bearing" => &[
             "step.2.increments.fixed=1",
             "amplitude.sine.table=[[0,0],[2,0],[3,0.1045]]",

@@ -12,6 +12,7 @@ macro_rules! every_example {
             fretting_wear = "fretting-wear",
             rough_block = "rough-block",
             running_condition = "running-condition",
+            bentall_johnson = "bentall-johnson",
             belt_block = "belt-block",
             belt_mass = "belt-mass",
             block_limits = "block-limits",
