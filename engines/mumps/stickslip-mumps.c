@@ -21,6 +21,7 @@
  */
 #include "shared.h"
 #include <dirent.h>
+#include <dlfcn.h>
 #include <ftw.h>
 #include <glob.h>
 #include <pthread.h>
@@ -423,6 +424,23 @@ static void dense(const Command *c) {
     else answer("ok");
 }
 
+/* OpenBLAS takes room for its work with the first product, 128 MB of addresses, and keeps it; where there is none it asks for ever. So a product comes before
+ * MUMPS takes what there is. Nothing is linked for it: whatever BLAS MUMPS brings along is asked. */
+static void make_room_for_products(void) {
+    typedef void Product(const char *, const char *, const MUMPS_INT *, const MUMPS_INT *, const MUMPS_INT *, const double *, const double *,
+                         const MUMPS_INT *, const double *, const MUMPS_INT *, const double *, double *, const MUMPS_INT *, size_t, size_t);
+    /* Large enough to be no small product, of which some processors make short work without room. */
+    const MUMPS_INT n = 128;
+    const double one = 1;
+    Product *multiply = (Product *)dlsym(RTLD_DEFAULT, "dgemm_");
+    double *numbers = get(3 * (size_t)n * n, 8);
+    void *there = malloc((size_t)160 << 20);
+    if (!there) die("no memory for products of matrices");
+    free(there);
+    if (multiply) multiply("N", "N", &n, &n, &n, &one, numbers, &n, numbers + n * n, &n, &one, numbers + 2 * n * n, &n, 1, 1);
+    free(numbers);
+}
+
 int main(int count, char **arguments) {
     int level;
     pthread_t thread;
@@ -437,6 +455,7 @@ int main(int count, char **arguments) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     if (access(folder, R_OK | W_OK)) die("%s is not there; set STICKSLIP_MUMPS_DIR to a folder that all machines see", folder);
+    make_room_for_products();
     MPI_Barrier(MPI_COMM_WORLD);
     if (rank == 0 && pthread_create(&thread, NULL, read_lines, NULL)) die("no thread");
     answer("ready %d %s %d", PROTOCOL, MUMPS_VERSION, ranks);

@@ -108,7 +108,7 @@ fn compile(folder: &Path, program: &Path) -> Result<(), String> {
             .args(&sources)
             .args(words("CFLAGS"))
             .args(words("LDFLAGS"))
-            .args(["-ldmumps", scalapack, "-lpthread"])
+            .args(["-ldmumps", scalapack, "-lpthread", "-ldl"])
             .output()
             .map_err(|e| format!("mpicc: {e}"))?;
         said = String::from_utf8_lossy(&output.stderr).into_owned();
