@@ -20,6 +20,26 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+/// Fields of strain: their shear components are engineering ones, twice those of the tensor.
+const STRAINS: [&str; 2] = ["E", "THE"];
+
+impl Field {
+    /// Lets something be done to the values of a field of symmetric tensors as components of tensors, whatever its shear components are.
+    pub fn as_tensors(&mut self, act: impl FnOnce(&mut [f64])) {
+        let factor = match STRAINS.contains(&self.name.as_str()) {
+            true => 0.5,
+            false => 1.0,
+        };
+        let shears = |values: &mut [f64], factor: f64| {
+            let each = values.chunks_exact_mut(6).flat_map(|t| &mut t[3..]);
+            each.for_each(|shear| *shear *= factor);
+        };
+        shears(&mut self.values, factor);
+        act(&mut self.values);
+        shears(&mut self.values, 1.0 / factor);
+    }
+}
+
 /// The fields of one output time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Fields {

@@ -98,12 +98,17 @@ impl<'a> Scene<'a> {
 
     /// Turns stresses and strains of bodies that turn from the axes of their frames to those of space.
     pub(crate) fn turn_tensors(&self, fields: &mut Fields) {
-        let bodies = &self.model.corotations;
-        let turns = bodies.turns(&self.frame.state.u);
-        let tensors = fields.all.iter_mut().filter(|f| f.components == 6);
-        tensors.for_each(|f| bodies.turn_tensors(&turns, &mut f.values));
+        let (bodies, frames) = (&self.model.corotations, &self.model.frames);
+        if bodies.is_empty() && frames.is_empty() {
+            return;
+        }
+        let u = &self.frame.state.u;
+        let turns = bodies.turns(u);
         for field in fields.all.iter_mut().filter(|f| f.components == 6) {
-            (self.model.frames).turn_tensors(&self.frame.state.u, &mut field.values);
+            field.as_tensors(|tensors| {
+                bodies.turn_tensors(&turns, tensors);
+                frames.turn_tensors(u, tensors);
+            });
         }
     }
 

@@ -160,10 +160,12 @@ pub(crate) fn follow(
         record.stress.clear();
         record.rubbed.clear();
     }
+    let strained = view.strained();
     let mut stresses = Vec::with_capacity(6 * watched.index.len());
     for lot in &watched.lots {
         let body = &view.model.bodies[lot.body];
-        let all = body.elastic.nodal_stress(&view.frame.state);
+        // Along axes that turn with the material, where the body turns as a whole.
+        let all = body.elastic.nodal_stress(&*strained);
         stresses.extend(lot.places.iter().flat_map(|&i| all[i]));
     }
     record.stress.push(stresses);

@@ -416,6 +416,74 @@ fn shear_strains_are_those_of_the_tensor() {
     }
 }
 
+/// A square that is stretched, sheared and turned, by the places of its corners; in a frame with an axle by what they are displaced by in it.
+#[test]
+fn strains_of_bodies_that_turn_are_along_the_axes_of_space() {
+    let [xx, yy, xy] = [2e-3, -1e-3, 1.5e-3];
+    let corners = [("left", -1.0), ("right", 1.0)];
+    let corners =
+        corners.map(|(side, x)| [("bottom", -1.0), ("top", 1.0)].map(|(end, y)| (side, end, x, y)));
+    for (kind, angle) in [
+        ("rotation = \"corotational\"", 0.5),
+        ("rotation = \"large\"", 0.5),
+        ("rotation = \"large\"", std::f64::consts::FRAC_PI_2),
+        ("rotation.with = \"axle\"", 0.5),
+        ("rotation.with = \"axle\"", -2.0),
+    ] {
+        let own: f64 = if kind.contains("axle") { 0.0 } else { angle };
+        let support = |&(side, end, x, y): &(&str, &str, f64, f64)| {
+            let strained = [x + xx * x + xy * y, y + xy * x + yy * y];
+            let (s, c) = own.sin_cos();
+            let place = [
+                c * strained[0] - s * strained[1],
+                s * strained[0] + c * strained[1],
+            ];
+            let [u, v] = [place[0] - x, place[1] - y];
+            format!(
+                "support.{end}-{side} = {{ set = \"block.{end}-{side}\", x = {u:e}, y = {v:e} }}\n"
+            )
+        };
+        let supports: String = corners.as_flattened().iter().map(support).collect();
+        let axle = match kind.contains("axle") {
+            true => format!(
+                "reference.axle.point = [0, 0]\nsupport.axle = {{ set = \"axle\", x = 0.3, y = 0, rotation-z = {angle} }}\n"
+            ),
+            false => String::new(),
+        };
+        let text = format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.block = {{ generate.rectangle = {{ from = [-1, -1], to = [1, 1], cells = [1, 1] }}, material = "m", {kind} }}
+body.other = {{ generate.rectangle = {{ from = [5, 0], to = [6, 1], cells = [1, 1] }}, material = "m" }}
+material.m.isotropic = {{ young = 1e5, poisson = 0.3 }}
+support.other = {{ set = "other.bottom", x = 0, y = 0 }}
+output.frd = "text"
+step = [{{ increments = {{ fixed = 1 }} }}]
+{supports}{axle}"#
+        );
+        let folder = run(&text, "frd-turned");
+        let read = read(&folder.join("fields.frd"), false);
+        // R ε Rᵀ by the double angle.
+        let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let (s, c) = (2.0 * angle).sin_cos();
+        let along = half * c - xy * s;
+        let wanted = [mean + along, mean - along, 0.0, half * s + xy * c, 0.0, 0.0];
+        let strains = read.block("TOSTRAIN", 1).values.iter();
+        let mut own = strains
+            .filter(|(node, _)| read.nodes[*node][0] < 2.0)
+            .peekable();
+        assert!(own.peek().is_some());
+        for (node, found) in own {
+            for (a, b) in found.iter().zip(wanted) {
+                assert!(
+                    (a - b).abs() < 2e-8,
+                    "{kind} {angle} {node}: {found:?} {wanted:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn velocities_are_written_in_motion_and_no_file_where_none_is_asked_for() {
     let text = pulled("").replace(
