@@ -1,5 +1,8 @@
 //! Bodies that turn cell by cell (`rotation = "corotational"`): bars that bend as the elastica has it, which is integrated here as an ordinary differential equation.
 
+use std::path::Path;
+
+use crate::restart;
 use crate::support::{self, Record};
 
 fn run(text: &str) -> Record {
@@ -216,4 +219,40 @@ fn a_bar_that_is_turned_by_its_end_is_not_strained() {
         "{found:?}"
     );
     assert!(last(&record, "ALLSE") < 1e-9 * 1e6);
+}
+
+#[test]
+fn runs_with_bodies_that_bend_go_on_where_they_stopped() {
+    // Bent over a peg, on which the strip slides, and let go; a pressure follows its faces.
+    let (_, tip) = across(4.0);
+    let rest = format!(
+        r#"
+        {CLAMP}{tip}
+        amplitude = "bend"
+        [load.top]
+        set = "strip.top"
+        pressure.value = {}
+        amplitude = "bend"
+        [amplitude.bend]
+        table = [[0, 0], [1, 1], [2, 0.3]]
+        [obstacle.peg]
+        cylinder = {{ centre = [6, 1.2], radius = 1 }}
+        [interface.peg]
+        secondary = "strip.top"
+        primary = "peg"
+        normal.linear.c = 1e6
+        friction.coulomb.mu = 0.3
+        [[step]]
+        increments = {{ initial = 0.25 }}
+        [[step]]
+        increments.fixed = 4
+        "#,
+        0.5 * STIFFNESS / LENGTH.powi(3)
+    );
+    let text = strip(20, "corotational", &rest);
+    let record = run(&text);
+    let pressed = record.increments.iter();
+    let pressed = pressed.filter(|(_, row)| row.get("peg.CFN2").unwrap_or(0.0) != 0.0);
+    assert!(pressed.count() > 2, "it never touches");
+    restart::check("strip", &support::problem(&text), Path::new("."), 4);
 }

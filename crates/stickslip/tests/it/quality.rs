@@ -612,6 +612,48 @@ step = [{{ name = "turn", increments = {{ fixed = 4 }} }}]
 }
 
 #[test]
+fn a_body_that_is_strained_by_more_than_a_twentieth_is_beyond_the_theory_of_its_frame() {
+    let axle = format!(
+        "reference.axle.point = [0, 0]\nsupport.axle = {{ set = \"axle\", x = 0, y = 0, rotation-z = {} }}\n",
+        std::f64::consts::FRAC_PI_2
+    );
+    for (rotation, more, turned) in [
+        ("rotation = \"corotational\"", "", false),
+        ("rotation = \"large\"", "", false),
+        ("rotation.with = \"axle\"", axle.as_str(), true),
+    ] {
+        // A bar that a force draws out evenly: by that over its section and its modulus.
+        let drawn = |strain: f64| {
+            let along = match turned {
+                true => [0.0, 1e3 * strain],
+                false => [1e3 * strain, 0.0],
+            };
+            run(&format!(
+                r#"format = 1
+model.space = "plane-stress"
+body.bar = {{ generate.rectangle = {{ to = [4, 1], cells = [4, 2] }}, material = "m", {rotation} }}
+material.m.isotropic = {{ young = 1e3, poisson = 0 }}
+support.root = {{ set = "bar.left", x = 0, y = 0 }}
+load.pull = {{ set = "bar.right", traction.value = {along:?} }}
+step = [{{ increments = {{ fixed = 1 }} }}]
+{more}"#
+            ))
+        };
+        let (far, near) = (drawn(0.06), drawn(0.04));
+        trips(&far, "strain");
+        for (simulation, strain) in [(&far, 0.06), (&near, 0.04)] {
+            let found = figure(simulation, "strain");
+            assert_eq!(found.met, strain < 0.05, "{rotation}: {found:?}");
+            let value = found.value;
+            assert!((value / strain - 1.0).abs() < 1e-6, "{rotation}: {value}");
+        }
+    }
+    // Bodies without frames have other figures.
+    let mut figures = with("").summary.quality.figures.into_iter();
+    assert!(figures.all(|f| f.figure != "strain"));
+}
+
+#[test]
 fn a_body_that_spins_by_more_than_the_theory_knows_is_not_a_good_result() {
     for rigid in [false, true] {
         let text = format!(
