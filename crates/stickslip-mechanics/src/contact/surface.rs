@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::symmetry::Across;
-use crate::math::{Vec3, angle, distance};
+use crate::math::{Vec3, angle, cross, distance, norm};
 use crate::shape::ElementKind;
 
 /// A point of the secondary surface at which contact is checked: a node, a quadrature point of a face, or on an obstacle the mean over a quadratic
@@ -171,6 +171,20 @@ pub fn turns(facets: &[&Facet], x: &[Vec3]) -> Vec<[f64; 2]> {
         _ => None,
     };
     sides.values().filter_map(pair).collect()
+}
+
+/// Distance of the nodes of a facet, from its measure: that of a square, or half of one, with nodes at its corners.
+pub fn spacing(facet: &Facet, x: &[Vec3]) -> f64 {
+    let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| x[n]).collect();
+    let [s, t, _] = facet.kind.centre();
+    let p = evaluate(facet.kind, &nodes, [s, t]);
+    let jacobian = norm(cross(p.a[0], p.a[1]));
+    let whole = match facet.kind.linear() {
+        ElementKind::Line2 => 2.0 * jacobian,
+        ElementKind::Tri3 => jacobian.sqrt(),
+        _ => 2.0 * jacobian.sqrt(),
+    };
+    whole / facet.kind.order().max(1) as f64
 }
 
 /// Splits quadrilaterals into triangles along their first diagonal, for the paper's 3 + 1 node element.

@@ -3,8 +3,9 @@
 use super::definition::{Interface, Primary};
 use super::initial::{CLOSE, Start, Within};
 use super::search::Search;
+use crate::contact::facet_point::evaluate;
 use crate::contact::surface::{ContactPoint, skin};
-use crate::math::{Vec3, add_scaled, dot, normalize, scale, sub};
+use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale, sub};
 use crate::system::Stage;
 
 impl Interface {
@@ -73,6 +74,24 @@ impl Interface {
                 (node, scale(-gap, normal))
             })
             .filter(|(node, _)| chosen(*node))
+            .collect()
+    }
+
+    /// Points of the mesh on both surfaces with the unit normal out of their body, a mean over the faces around each.
+    pub fn outward(&self) -> Vec<(usize, Vec3)> {
+        let mut sums = vec![[0.0; 3]; self.nodes.len()];
+        let own = self.skin.iter().map(|skin| &skin.facet);
+        for facet in own.chain(self.facets()) {
+            let x: Vec<Vec3> = facet.nodes.iter().map(|&n| self.reference[n]).collect();
+            let [s, t, _] = facet.kind.centre();
+            let at = evaluate(facet.kind, &x, [s, t]);
+            for &n in &facet.nodes {
+                sums[n] = add_scaled(sums[n], 1.0, cross(at.a[0], at.a[1]));
+            }
+        }
+        let nodes = self.nodes.iter().copied().zip(sums);
+        nodes
+            .filter_map(|(node, sum)| Some((node, normalize(sum)?)))
             .collect()
     }
 

@@ -81,6 +81,7 @@ impl Interface {
         self.history.energy.dissipated += dissipated;
         self.leave_traces(&traces);
         self.hollow_out(&volumes);
+        self.wear_ground(&volumes, stage);
         let stored = self.stored_energy();
         let before = std::mem::replace(&mut self.history.energy.stored, stored);
         if increment.resolved {

@@ -1,5 +1,6 @@
 //! What an interface knows of accepted increments: plain data, which a checkpoint holds and an increment that waits for its report keeps.
 
+use super::ground::Depths;
 use crate::contact::response::Status;
 use crate::math::Vec3;
 use crate::system::Energy;
@@ -27,6 +28,8 @@ pub struct History {
     pub(super) nodal: Vec<Vec3>,
     /// Dissipated energy per area and worn depth at the nodes of the primary, by node; empty before anything slid.
     pub(super) traces: Vec<[f64; 2]>,
+    /// Depths that are not kept at nodes.
+    pub(super) ground: Depths,
     /// Force, and moment about the centre of rotation, with which a moving obstacle pushed.
     pub(super) pushed: [Vec3; 2],
     /// Largest velocity of slip below the limit over the last increment `[m/s]`.
@@ -170,6 +173,7 @@ crate::keep!(History {
     worn,
     nodal,
     traces,
+    ground,
     pushed,
     creep,
     cone

@@ -1,5 +1,6 @@
-//! What an interface has to know of the primary to keep a depth on it.
+//! What an interface has to know of the primary to keep a depth on it: at its nodes, or on a ground.
 
+use super::ground::Ground;
 use crate::contact::mortar::positive_areas;
 use crate::contact::surface::{Facet, edges};
 use crate::math::Vec3;
@@ -11,6 +12,8 @@ pub struct Hollows {
     pub(super) area: Vec<f64>,
     /// The two corners whose mean a node has: twice itself of a corner.
     pub(super) ends: Vec<[usize; 2]>,
+    /// Where the depth is kept in place of nodes: of an obstacle, and where matter goes by.
+    pub(super) ground: Option<Ground>,
 }
 
 impl Hollows {
@@ -19,6 +22,7 @@ impl Hollows {
         let mut out = Hollows {
             area: vec![0.0; x.len()],
             ends: (0..x.len()).map(|n| [n, n]).collect(),
+            ground: None,
         };
         for facet in facets {
             let corners = facet.kind.corner_count();
@@ -41,7 +45,15 @@ impl Hollows {
         out
     }
 
-    /// Whether there are any.
+    /// Of a primary whose depth is kept on a ground.
+    pub fn on(ground: Ground) -> Self {
+        Hollows {
+            ground: Some(ground),
+            ..Hollows::default()
+        }
+    }
+
+    /// Whether there are nodes with a depth.
     pub fn is_empty(&self) -> bool {
         self.area.is_empty()
     }

@@ -25,7 +25,7 @@ impl Interface {
         if let Some(glued) = self.history.start.glued.get(i) {
             batch.stencil.gap -= glued;
         }
-        let hollow = self.hollow(i, &batch.sides[met.sides..]);
+        let hollow = self.hollow(i, scene, &batch.sides[met.sides..]);
         batch.stencil.gap += hollow - self.offset_at_start(i, scene.t);
         let slots = self.claim(met, batch);
         let stencil = &batch.stencil;

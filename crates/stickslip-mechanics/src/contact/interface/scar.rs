@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 
 use super::definition::{Interface, Primary};
-use super::spacing::spacing;
 use crate::contact::facet_point::evaluate;
-use crate::contact::surface::Facet;
+use crate::contact::surface::{Facet, spacing};
 use crate::math::{Vec3, cross, dot, norm, scale, sub};
 
 /// Cosine of the angle between faces from which they meet at an edge, which is no curvature.
@@ -42,9 +41,10 @@ impl Interface {
         };
         let sides = [own, theirs].map(|facets| self.scar_of(&facets, &depths));
         let [a, b] = sides;
+        let [slope, curved] = self.ground_scar();
         Some(Scar {
-            slope: a.slope.max(b.slope),
-            curved: a.curved.max(b.curved),
+            slope: a.slope.max(b.slope).max(slope),
+            curved: a.curved.max(b.curved).max(curved),
         })
     }
 

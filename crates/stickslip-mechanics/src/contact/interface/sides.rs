@@ -133,9 +133,10 @@ impl Interface {
             return None;
         }
         let secondary = self.history.points.iter().map(|h| h.worn);
-        let primary = self.history.traces.iter().map(|t| t[1]);
+        let nodes = self.history.traces.iter().map(|t| t[1]);
+        let ground = self.ground_lost().map_or(0.0, |[deepest, _]| deepest);
         let mut report = WearReport {
-            depth: [secondary.fold(0.0, f64::max), primary.fold(0.0, f64::max)],
+            depth: [secondary.fold(0.0, f64::max), nodes.fold(ground, f64::max)],
             volume: self.history.worn,
         };
         if self.exchanged {

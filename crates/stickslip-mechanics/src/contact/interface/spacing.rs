@@ -2,10 +2,7 @@
 
 use super::between::Side;
 use super::definition::{Interface, Primary};
-use crate::contact::facet_point::evaluate;
-use crate::contact::surface::Facet;
-use crate::math::{Vec3, cross, norm};
-use crate::shape::ElementKind;
+use crate::contact::surface::{Facet, spacing};
 
 /// Part of all places, the nearest ones, where cells are compared; at least this many places.
 const NEAREST: f64 = 0.25;
@@ -51,20 +48,6 @@ impl Interface {
         pairs.retain(|p| p[0] <= gap + ALIKE * size);
         Some(median(pairs.iter().map(|p| p[1]).collect()))
     }
-}
-
-/// Distance of the nodes of a facet, from its measure: that of a square, or half of one, with nodes at its corners.
-pub(super) fn spacing(facet: &Facet, x: &[Vec3]) -> f64 {
-    let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| x[n]).collect();
-    let [s, t, _] = facet.kind.centre();
-    let p = evaluate(facet.kind, &nodes, [s, t]);
-    let jacobian = norm(cross(p.a[0], p.a[1]));
-    let whole = match facet.kind.linear() {
-        ElementKind::Line2 => 2.0 * jacobian,
-        ElementKind::Tri3 => jacobian.sqrt(),
-        _ => 2.0 * jacobian.sqrt(),
-    };
-    whole / facet.kind.order().max(1) as f64
 }
 
 /// The middle one of some numbers; NaN of none.

@@ -3,7 +3,8 @@
 //! The secondary has a depth at each contact point. With dual functions as weights, the mean gap of a point sees the depth of that point and of no other, so that
 //! the depth of a point times its area is volume lost. The primary has a depth at its nodes, linear in between: what a point takes from it is divided among the
 //! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
-//! weights. What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
+//! weights. An obstacle has no nodes, and those of a primary are of no use where its matter goes by under the mesh: there the depth is kept on a ground
+//! ([`Ground`](super::Ground)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact
 //! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides, and its derivative is left out of the tangent: the
@@ -12,6 +13,7 @@
 use super::definition::Interface;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
+use super::scene::Scene;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
 use crate::contact::response::{LawInput, Response, Status, Worn};
@@ -51,9 +53,12 @@ impl Interface {
     }
 
     /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
-    pub(super) fn hollow(&self, i: usize, sides: &[(usize, f64)]) -> f64 {
+    pub(super) fn hollow(&self, i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
         if !self.laws.wears_away() {
             return 0.0;
+        }
+        if self.hollows.ground.is_some() {
+            return self.history.points[i].worn + self.ground_depth(i, scene, sides);
         }
         let traces = &self.history.traces;
         let theirs = sides.iter().filter(|(n, _)| *n < self.primary_nodes);
@@ -84,10 +89,11 @@ impl Interface {
         };
         // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
         let mut worn = Worn::default();
-        for rate in self.wear_rates(&at) {
+        let felt = self.history.ground.felt.get(i).copied().unwrap_or(1.0);
+        for (rate, part) in self.wear_rates(&at).into_iter().zip([1.0, felt]) {
             let change = pressure * rate.d_pressure;
-            worn.slope += (rate.per_path(shear) + change) * way;
-            worn.base -= pressure * change * way;
+            worn.slope += part * (rate.per_path(shear) + change) * way;
+            worn.base -= part * pressure * change * way;
         }
         worn
     }
@@ -192,6 +198,9 @@ impl Interface {
     pub fn hollowed(&self) -> [f64; 2] {
         let points = self.history.points.iter().zip(&self.points);
         let own = points.map(|(h, p)| h.worn * p.area * self.share).sum();
+        if let Some([_, volume]) = self.ground_lost() {
+            return [own, volume];
+        }
         let depths = self.history.traces.iter().zip(&self.hollows.area);
         [own, depths.map(|(t, area)| t[1] * area).sum()]
     }
@@ -211,7 +220,10 @@ impl Interface {
         }
         let own = points.map(|(h, p)| h.worn * p.area * self.share);
         let depths = self.history.traces.iter().zip(&self.hollows.area);
-        own.chain(depths.map(|(t, area)| t[1] * area)).collect()
+        let nodes = depths.map(|(t, area)| t[1] * area);
+        own.chain(nodes)
+            .chain(self.history.ground.taken.iter().copied())
+            .collect()
     }
 
     /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.

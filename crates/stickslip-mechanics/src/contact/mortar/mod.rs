@@ -30,7 +30,7 @@ mod view;
 mod window;
 
 pub use correct::correct;
-pub use dual::{mean_weights, positive_areas};
+pub use dual::{mean_weights, positive, positive_areas};
 pub use face::{FACE_NODES, Face, Mortar};
 pub use integral::{FaceIntegral, Piece};
 pub use integrate::{Scratch, integrate};

@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::chart::Chart;
 use super::foot::{Foot, Shape, radial_foot, radial_slope_derivative, to_vec3, vector_fault};
 use crate::contact::law::normal::positive;
 use crate::math::{Mat3, Vec3, identity, normalize};
@@ -23,12 +24,14 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
+    fn direction(&self) -> Vec3 {
+        let axis = self.axis.as_deref();
+        axis.and_then(|axis| normalize(to_vec3(axis)))
+            .unwrap_or([0.0, 0.0, 1.0])
+    }
+
     fn cross_section(&self) -> Mat3 {
-        let axis = self
-            .axis
-            .as_deref()
-            .and_then(|axis| normalize(to_vec3(axis)))
-            .unwrap_or([0.0, 0.0, 1.0]);
+        let axis = self.direction();
         let mut q = identity();
         for (i, row) in q.iter_mut().enumerate() {
             for (j, x) in row.iter_mut().enumerate() {
@@ -56,6 +59,11 @@ impl Shape for Cylinder {
         } else {
             self.radius
         }
+    }
+
+    fn chart(&self, dim: usize, spacing: f64) -> Chart {
+        let axis = (to_vec3(&self.centre), self.direction());
+        Chart::cylinder(axis, self.radius, (dim, spacing))
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

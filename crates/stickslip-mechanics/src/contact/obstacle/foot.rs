@@ -1,5 +1,6 @@
 //! The foot of a point on an obstacle, and what every shape must tell of it.
 
+use super::chart::Chart;
 use crate::math::{Mat3, Vec3};
 
 /// The foot of a point on a shape, in the frame of the shape.
@@ -30,6 +31,9 @@ pub trait Shape: Send + Sync {
     fn radius(&self) -> f64 {
         0.0
     }
+
+    /// Numbered places on it, about `spacing` apart `[m]`, in a space of dimension `dim`.
+    fn chart(&self, dim: usize, spacing: f64) -> Chart;
 
     /// What is wrong with the parameters in a space of dimension `dim`, as `(key, message)`.
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)>;

@@ -1,11 +1,13 @@
 //! Rigid obstacles: shapes given by formulas, with a prescribed motion.
 
+mod chart;
 mod cylinder;
 mod foot;
 mod motion;
 mod plane;
 mod sphere;
 
+pub use chart::{Chart, Place};
 pub use cylinder::Cylinder;
 pub use foot::{Foot, Shape};
 pub use motion::{Motion, Pose, Rotation};

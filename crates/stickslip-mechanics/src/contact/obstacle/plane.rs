@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::chart::Chart;
 use super::foot::{Foot, Shape, to_vec3, vector_fault};
 use crate::math::{Mat3, Vec3, add_scaled, dot, identity, normalize, sub};
 use crate::registry::Samples;
@@ -36,6 +37,11 @@ impl Shape for Plane {
 
     fn slope_derivative(&self, _x: Vec3, _v: Vec3) -> Mat3 {
         [[0.0; 3]; 3]
+    }
+
+    fn chart(&self, dim: usize, spacing: f64) -> Chart {
+        let normal = normalize(to_vec3(&self.normal)).unwrap_or([0.0, 1.0, 0.0]);
+        Chart::plane(to_vec3(&self.point), normal, (dim, spacing))
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::chart::Chart;
 use super::foot::{Foot, Shape, radial_foot, radial_slope_derivative, to_vec3, vector_fault};
 use crate::contact::law::normal::positive;
 use crate::math::{Mat3, Vec3, identity};
@@ -35,6 +36,10 @@ impl Shape for Sphere {
         } else {
             self.radius
         }
+    }
+
+    fn chart(&self, dim: usize, spacing: f64) -> Chart {
+        Chart::sphere(to_vec3(&self.centre), self.radius, (dim, spacing))
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
