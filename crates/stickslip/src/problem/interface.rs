@@ -132,7 +132,7 @@ impl Interface {
 pub enum Roles {
     /// The points of the more finely meshed surface, if the cells of the other are larger by more than a quarter where the two are nearest to each other at the
     /// start; a note says so. Forces, slip and wear are reported as of the sides as they are named. Surfaces that are tied, two-sided or moved by
-    /// `initial`, and rigid primaries, keep their roles.
+    /// `initial`, rigid primaries, and primaries that wear and have a `primary-velocity`, keep their roles.
     #[default]
     ByMesh,
     /// The points of the surface that is named secondary.

@@ -10,6 +10,7 @@ mod bad_input;
 mod bending;
 mod condensed;
 mod convergence;
+mod counterfaces;
 mod couplings;
 mod defects;
 mod dynamics;

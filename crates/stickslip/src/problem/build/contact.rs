@@ -11,13 +11,15 @@ use super::surfaces::{Numbering, Surfaces};
 use crate::body::Space;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Attempt, Cache, Directives, History, Hollows, Initial, Interface, Primary, Start, neighbours,
+    Above, Attempt, Cache, Directives, Ground, History, Hollows, Initial, Interface, Primary,
+    Start, neighbours,
 };
+use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::mortar::Mortar;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
 use crate::error::{Diagnostic, Error};
-use crate::math::{Vec3, scale, sub};
+use crate::math::{Vec3, norm, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
 use crate::model::Body;
 use crate::system::{Dofs, Schedule};
@@ -131,7 +133,8 @@ impl Make<'_> {
             || table.tied
             || table.initial == Start::Snap
             || table.roughness.is_some()
-            || table.initial_set.is_some();
+            || table.initial_set.is_some()
+            || goes_by(table);
         if settled {
             return false;
         }
@@ -232,14 +235,40 @@ impl Make<'_> {
         (points, mortar)
     }
 
-    /// How what is worn off the primary is divided among its nodes, where something wears.
-    fn hollows(&self, opposite: &Primary, x: &[Vec3]) -> Hollows {
-        match opposite {
-            Primary::Facets(facets) if self.table.wear.as_dyn().active() => {
-                Hollows::new(facets, x, |at| self.surfaces.space.extent(at))
-            }
-            _ => Hollows::default(),
+    /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its matter goes by, on a ground.
+    fn hollows(&self, opposite: &Primary, above: Above, key: &str) -> Result<Hollows, Error> {
+        let wear = self.table.wear.as_dyn();
+        if !wear.active() {
+            return Ok(Hollows::default());
         }
+        let extent = |at: Vec3| self.surfaces.space.extent(at);
+        let facets = match opposite {
+            Primary::Facets(facets) => facets,
+            Primary::Rigid(..) if wear.fastest()[1] == WearRate::default() => {
+                return Ok(Hollows::default());
+            }
+            Primary::Rigid(shape, _) => {
+                return Ok(Hollows::on(Ground::of_obstacle(
+                    shape.as_dyn(),
+                    above,
+                    extent,
+                )));
+            }
+        };
+        if !goes_by(self.table) {
+            return Ok(Hollows::new(facets, above.x, extent));
+        }
+        let rows = belt(self.table);
+        let speed = |row: &[f64; 4]| norm([row[1], row[2], row[3]]);
+        let fastest = rows.iter().max_by(|a, b| speed(a).total_cmp(&speed(b)));
+        let direction = fastest.map_or([1.0, 0.0, 0.0], |row| [row[1], row[2], row[3]]);
+        let ground = Ground::of_facets((facets, direction), above, extent);
+        let message = "the primary wears and has a `primary-velocity`, and is not plane: where its matter is after a time is not known";
+        let fault = Diagnostic::new(key, message)
+            .help("make the primary an obstacle that turns by `motion.rotation`, or let the secondary alone wear");
+        ground
+            .map(Hollows::on)
+            .ok_or_else(|| problem_error(vec![fault]))
     }
 
     /// An interface between two surfaces, given with the keys that name them, which carries `share` of the pressure.
@@ -274,6 +303,19 @@ impl Make<'_> {
             .as_ref()
             .map(|m| m.faces.iter().map(|f| f.points.clone()));
         let own: Option<Vec<Vec<usize>>> = faces.map(Iterator::collect);
+        let neighbours = neighbours(&points, &beneath, &reference);
+        // A few points chosen from a body make no surface.
+        let skin = match only {
+            Some(_) => Vec::new(),
+            None => skin(beneath, &points, own.as_deref()),
+        };
+        let above = Above {
+            points: &points,
+            skin: &skin,
+            x: &reference,
+            dim: surfaces.space.dim(),
+        };
+        let hollows = self.hollows(&opposite, above, &primary.1)?;
         let mut interface = Interface {
             name,
             dofs: Dofs {
@@ -281,18 +323,14 @@ impl Make<'_> {
                 points: mesh.points.len(),
             },
             node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
-            neighbours: neighbours(&points, &beneath, &reference),
-            // A few points chosen from a body make no surface.
-            skin: match only {
-                Some(_) => Vec::new(),
-                None => skin(beneath, &points, own.as_deref()),
-            },
+            neighbours,
+            skin,
             origin,
             nodes,
             primary_nodes,
             points,
             mortar,
-            hollows: self.hollows(&opposite, &reference),
+            hollows,
             primary: opposite,
             reference,
             share,
@@ -348,4 +386,11 @@ fn belt(table: &Table) -> Vec<[f64; 4]> {
     let rows = table.primary_velocity_table.iter().flatten();
     rows.map(|r| [at(r, 0), at(r, 1), at(r, 2), at(r, 3)])
         .collect()
+}
+
+/// Whether the primary wears and its matter goes by, so that what is worn off it goes along.
+fn goes_by(table: &Table) -> bool {
+    let moves = table.primary_velocity.is_some() || table.primary_velocity_table.is_some();
+    let [_, primary] = table.wear.as_dyn().fastest();
+    moves && primary != WearRate::default() && table.wear_feedback != Feedback::None
 }

@@ -11,6 +11,7 @@ use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 use crate::contact::law::slip::SlipModel;
 use crate::contact::law::wear::{Feedback, WearModel, WearRate};
+use crate::contact::obstacle::ObstacleShape;
 use crate::math::{Mat3, determinant, normalize};
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError, Component};
@@ -482,25 +483,28 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
     let mut add = |message: &str, help: &str| {
         findings.add(&[table, &["wear"]].concat(), message, help);
     };
-    let [_, primary] = interface.wear.as_dyn().fastest();
-    let other = primary != WearRate::default();
-    let belt = interface.primary_velocity.is_some() || interface.primary_velocity_table.is_some();
-    if interface.discretisation().as_dyn().two_sided() {
+    let obstacle = problem.obstacle.get(&interface.primary);
+    if interface.discretisation().as_dyn().two_sided() && obstacle.is_none() {
         add(
             "two-sided contact has a depth for each half of the pressure, of which the other half knows nothing",
             "choose another discretisation, or write wear-feedback = \"none\"",
         );
     }
-    if other && problem.obstacle.contains_key(&interface.primary) {
+    let [_, primary] = interface.wear.as_dyn().fastest();
+    let belt = interface.primary_velocity.is_some() || interface.primary_velocity_table.is_some();
+    if primary == WearRate::default() || !belt {
+        return;
+    }
+    if obstacle.is_some_and(|o| !matches!(o.shape, ObstacleShape::Plane(_))) {
         add(
-            "what is worn off an obstacle cannot open the gap: an obstacle has no surface to keep it on",
-            "let the secondary alone wear, make the obstacle a body, or write wear-feedback = \"none\"",
+            "what is worn off a round obstacle goes around with it, and `primary-velocity` has one direction",
+            "let the obstacle turn: `motion.rotation`",
         );
     }
-    if other && belt {
+    if problem.model.space == SpaceKind::Axisymmetric {
         add(
-            "what is worn off a primary with `primary-velocity` cannot open the gap: it would have to go along with the material",
-            "let the secondary alone wear, or move the body",
+            "a surface that moves by `primary-velocity` does not turn about the axis: where its matter comes from is not known",
+            "let the secondary alone wear, or write wear-feedback = \"none\"",
         );
     }
 }
