@@ -1,7 +1,9 @@
 //! The surfaces of interfaces, with what is known at their points.
 
 use stickslip::Error;
+use stickslip::io::pvd::Part;
 use stickslip::io::vtu::{self, Grid, PointArray};
+use stickslip::results::OPPOSITE;
 
 use crate::results::{Frame, Results};
 
@@ -90,15 +92,29 @@ impl Results {
     /// # Errors
     /// [`Error::Io`] if a file cannot be read or is damaged.
     pub fn sheets(&self, frame: usize) -> Result<Vec<Sheet>, Error> {
+        let here = self.at(frame).filter(|part| !part.name.ends_with(OPPOSITE));
+        here.map(|part| self.read(part)).collect()
+    }
+
+    /// The surface of one interface, or that opposite its contact points; `None` where there is none.
+    ///
+    /// # Errors
+    /// As [`Results::sheets`].
+    pub fn sheet(&self, frame: usize, name: &str) -> Result<Option<Sheet>, Error> {
+        let part = self.at(frame).find(|part| part.name == name);
+        part.map(|part| self.read(part)).transpose()
+    }
+
+    fn at(&self, frame: usize) -> impl Iterator<Item = &Part> {
         let Frame { time, .. } = self.frames[frame];
-        let here = self.surfaces.iter().filter(|part| part.time == time);
-        here.map(|part| {
-            Ok(Sheet {
-                name: part.name.clone(),
-                grid: vtu::read_surface(&self.directory.join(&part.file))?,
-            })
+        self.surfaces.iter().filter(move |part| part.time == time)
+    }
+
+    fn read(&self, part: &Part) -> Result<Sheet, Error> {
+        Ok(Sheet {
+            name: part.name.clone(),
+            grid: vtu::read_surface(&self.directory.join(&part.file))?,
         })
-        .collect()
     }
 
     /// The largest pressure of each frame; empty where there are no surfaces.

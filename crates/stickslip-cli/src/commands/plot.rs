@@ -43,7 +43,7 @@ pub struct Arguments {
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
     at: Option<Place>,
     /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
-    /// field alone, in a plane, with --time all a line a time.
+    /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
     #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "body", "at", "arrows", "cut", "mirror", "history"])]
     along: Option<String>,
     /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.

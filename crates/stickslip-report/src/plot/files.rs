@@ -51,3 +51,10 @@ pub fn numbered(file: &Path, number: usize) -> PathBuf {
     let (stem, ending) = (part(file.file_stem()), part(file.extension()));
     file.with_file_name(format!("{stem}_{number:05}.{ending}"))
 }
+
+/// `scar.svg` of what lies beside is `scar-opposite.svg`.
+pub fn beside(file: &Path, what: &str) -> PathBuf {
+    let part = |p: Option<&std::ffi::OsStr>| p.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, ending) = (part(file.file_stem()), part(file.extension()));
+    file.with_file_name(format!("{stem}-{what}.{ending}"))
+}

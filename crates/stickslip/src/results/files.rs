@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 
 use super::analysis::Analysis;
 use super::fatigue;
-use super::folder::{Claim, Folder, FolderClaim, INTERFACES, SURFACES, surface_name};
+use super::folder::{Claim, Folder, FolderClaim, INTERFACES, OPPOSITE, SURFACES, surface_name};
 use super::frd;
 use super::history::Row;
 use super::modes;
@@ -168,7 +168,13 @@ impl ResultFiles {
                 (interface.name.clone(), table, interface.sheet(u, time))
             })
             .collect();
-        let parts: Vec<String> = tables.iter().map(|(name, ..)| name.clone()).collect();
+        let opposite = view.contact.interfaces.iter();
+        let opposite: Vec<(String, Sheet)> = opposite
+            .filter_map(|i| Some((format!("{}{OPPOSITE}", i.name), i.opposite_sheet(u)?)))
+            .collect();
+        let parts = tables.iter().map(|(name, ..)| name);
+        let parts = parts.chain(opposite.iter().map(|(name, _)| name));
+        let parts: Vec<String> = parts.cloned().collect();
         let path = self.folder.directory.join(&name);
         let folder = self.folder.directory.join(INTERFACES);
         let frd = self
@@ -184,6 +190,9 @@ impl ResultFiles {
             for (interface, table, sheet) in &tables {
                 csv::write(&folder.join(format!("{interface}.csv")), table)?;
                 write_sheet(&folder.join(surface_name(interface, &fields_name)), sheet)?;
+            }
+            for (name, sheet) in &opposite {
+                write_sheet(&folder.join(surface_name(name, &fields_name)), sheet)?;
             }
             Ok(())
         };

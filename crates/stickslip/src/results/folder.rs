@@ -238,6 +238,9 @@ pub fn running(directory: &Path) -> Option<String> {
 /// The folder of what is known of interfaces.
 pub(crate) const INTERFACES: &str = "interfaces";
 
+/// What follows the name of an interface in that of the surface opposite its contact points, where something wears.
+pub const OPPOSITE: &str = ".opposite";
+
 /// The collection of their surfaces.
 pub(crate) const SURFACES: &str = "interfaces.pvd";
 

@@ -19,7 +19,7 @@ pub(crate) mod summary;
 
 pub use analysis::Analysis;
 pub use files::{ResultFiles, fields};
-pub use folder::{Claim, FileClaim, FolderClaim, running};
+pub use folder::{Claim, FileClaim, FolderClaim, OPPOSITE, running};
 pub use frd::{Due, FrdPlan, Quantity, Request};
 pub use history::Row;
 pub use observer::{Advance, Event, Observer, Snapshot};

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::io::{csv, write_atomically};
+use stickslip::results::OPPOSITE;
 
 use self::page::Page;
 use super::picture::{Units, When, Zoom};
@@ -58,33 +59,25 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
     }
     let name = format!("{}.png", wanted.interface);
     let file = file.map_or_else(|| directory.join(name), Path::to_path_buf);
-    let table = file
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    let table = is_table(&file);
     if !table {
         files::canvas(&file, wanted.size)?;
     }
     if let Some(field) = &wanted.field {
-        let frames = files::chosen(&results, wanted.when)?;
-        let what = (wanted.interface.as_str(), field.as_str(), wanted.zoom);
-        let lines = over::table(&results, what, &frames)?;
-        match table {
-            true => csv::write(&file, &lines)?,
-            false => {
-                let mut canvas = files::canvas(&file, wanted.size)?;
-                let source = (&lines, wanted.interface.as_str());
-                history::draw(
-                    &results,
-                    source,
-                    &lines.names[1..],
-                    "S",
-                    wanted.size,
-                    canvas.as_mut(),
-                )?;
-                write_atomically(&file, &canvas.finish())?;
-            }
+        let mut written = vec![file.clone()];
+        lines(&results, (&wanted.interface, field), wanted, &file)?;
+        // Where something wears there is the other side of the scar as well.
+        let opposite = format!("{}{OPPOSITE}", wanted.interface);
+        let known = ["CWEAR", "CDISS"].contains(&field.as_str());
+        let last = files::chosen(&results, wanted.when)?.pop();
+        let sheet = last.map(|frame| results.sheet(frame, &opposite));
+        let worn = sheet.transpose()?.flatten().is_some_and(|s| s.flat());
+        if known && worn {
+            let beside = files::beside(&file, "opposite");
+            lines(&results, (&opposite, field), wanted, &beside)?;
+            written.push(beside);
         }
-        return Ok(vec![file]);
+        return Ok(written);
     }
     let mut written = Vec::new();
     for frame in files::chosen(&results, wanted.when)? {
@@ -120,6 +113,30 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
         written.push(file);
     }
     Ok(written)
+}
+
+/// Draws a field along a surface, a line a time, or writes the table of these.
+fn lines(
+    results: &Results,
+    (surface, field): (&str, &str),
+    wanted: &Along,
+    file: &Path,
+) -> Result<(), Error> {
+    let frames = files::chosen(results, wanted.when)?;
+    let lines = over::table(results, (surface, field, wanted.zoom), &frames)?;
+    if is_table(file) {
+        return csv::write(file, &lines);
+    }
+    let mut canvas = files::canvas(file, wanted.size)?;
+    let columns = &lines.names[1..];
+    let source = (&lines, surface);
+    history::draw(results, source, columns, "S", wanted.size, canvas.as_mut())?;
+    write_atomically(file, &canvas.finish())
+}
+
+fn is_table(file: &Path) -> bool {
+    let ending = file.extension();
+    ending.is_some_and(|e| e.eq_ignore_ascii_case("csv"))
 }
 
 /// Drawings of at most this many interfaces go into a report.
@@ -158,7 +175,7 @@ pub(crate) fn drawings(results: &Results) -> Result<Vec<String>, Error> {
 fn names(results: &Results) -> Result<Vec<&str>, Error> {
     let mut names: Vec<&str> = Vec::new();
     for part in &results.surfaces {
-        if !names.contains(&part.name.as_str()) {
+        if !part.name.ends_with(OPPOSITE) && !names.contains(&part.name.as_str()) {
             names.push(&part.name);
         }
     }

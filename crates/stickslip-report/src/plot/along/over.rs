@@ -1,5 +1,7 @@
 //! One field along a surface at several times, a line each: how a scar grows.
 
+use std::collections::HashMap;
+
 use stickslip::Error;
 use stickslip::io::csv::Table;
 
@@ -24,29 +26,44 @@ pub fn table(
 ) -> Result<Table, Error> {
     let wrong = |message: String| fault(&results.directory, message);
     let mut table = Table::default();
+    let mut sheets = Vec::new();
     for &frame in frames {
-        let sheets = results.sheets(frame)?;
-        let Some(sheet) = sheets.iter().find(|s| s.name == interface) else {
-            continue;
-        };
-        if !sheet.flat() {
+        let time = results.frames[frame].time;
+        let sheet = results.sheet(frame, interface)?;
+        sheets.extend(sheet.map(|sheet| (time, sheet)));
+    }
+    // Places that a track is kept at come in as they are worn: the last time has all of them.
+    let arc = match sheets.last() {
+        Some((_, last)) if last.flat() => Arc::of(last),
+        Some(_) => {
             return Err(wrong(format!(
                 "interface {interface} is a surface in space: lines of a field are for plane problems; leave --field out for maps"
             )));
         }
-        let arc = Arc::of(sheet);
-        let values = values(sheet, &arc, field).ok_or_else(|| {
+        None => {
+            return Err(wrong(format!(
+                "interface {interface} has no surface at these times"
+            )));
+        }
+    };
+    let last = &sheets[sheets.len() - 1].1;
+    let places: Vec<[f64; 3]> = arc
+        .points
+        .iter()
+        .map(|&i| last.grid.points.points[i])
+        .collect();
+    table.names.push("S".into());
+    table.columns.push(arc.s);
+    for (time, sheet) in &sheets {
+        let values = values(sheet, (&arc.points, &places), field).ok_or_else(|| {
             wrong(format!(
                 "interface {interface} has no field `{field}` with one component; there are {}",
                 single(sheet).collect::<Vec<_>>().join(", ")
             ))
         })?;
-        if table.names.is_empty() {
-            table.names.push("S".into());
-            table.columns.push(arc.s);
-        }
-        let time = axis::number(results.frames[frame].time, 5);
-        table.names.push(format!("{field} at {time}"));
+        table
+            .names
+            .push(format!("{field} at {}", axis::number(*time, 5)));
         table.columns.push(values);
     }
     let seen = match zoom {
@@ -63,12 +80,7 @@ pub fn table(
             column.retain(|_| kept.next() == Some(&true));
         }
     }
-    match table.columns.len() > 1 {
-        true => Ok(table),
-        false => Err(wrong(format!(
-            "interface {interface} has no surface at these times"
-        ))),
-    }
+    Ok(table)
 }
 
 fn single(sheet: &Sheet) -> impl Iterator<Item = &str> {
@@ -78,10 +90,30 @@ fn single(sheet: &Sheet) -> impl Iterator<Item = &str> {
         .map(|(name, _)| name.as_str())
 }
 
-fn values(sheet: &Sheet, arc: &Arc, field: &str) -> Option<Vec<f64>> {
+/// Values at the points of the last time, zero where there was none yet.
+fn values(
+    sheet: &Sheet,
+    (points, places): (&[usize], &[[f64; 3]]),
+    field: &str,
+) -> Option<Vec<f64>> {
     let mut arrays = sheet.grid.points.arrays.iter();
     let (_, array) = arrays.find(|(name, a)| *name == field && a.components == 1)?;
-    Some(arc.points.iter().map(|&i| array.values[i]).collect())
+    let bits = |x: &[f64; 3]| x.map(f64::to_bits);
+    let here = &sheet.grid.points.points;
+    let same = points.iter().zip(places);
+    if same
+        .clone()
+        .all(|(&i, place)| here.get(i).is_some_and(|x| bits(x) == bits(place)))
+    {
+        return Some(points.iter().map(|&i| array.values[i]).collect());
+    }
+    let known: HashMap<[u64; 3], f64> = here
+        .iter()
+        .map(bits)
+        .zip(array.values.iter().copied())
+        .collect();
+    let value = |place: &[f64; 3]| known.get(&bits(place)).copied().unwrap_or(0.0);
+    Some(places.iter().map(value).collect())
 }
 
 /// Between which lengths the lines are not zero.
