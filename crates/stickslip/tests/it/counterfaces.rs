@@ -47,6 +47,11 @@ fn volumes(simulation: &Simulation, what: &str) -> f64 {
 
 /// A pin of one half of a unit on a counterface that goes by: an obstacle, or the surface of a body. Poisson's ratio is zero and nothing rubs: over an obstacle the pressure is even.
 fn pin(counterface: &str, increments: usize, more: &str) -> String {
+    let primary = match counterface {
+        body if body.starts_with("body.rail") => "rail.top",
+        body if body.starts_with("body.roll") => "roll.arc",
+        _ => "counterface",
+    };
     format!(
         r#"format = 1
 model.space = "plane-strain"
@@ -58,7 +63,7 @@ step = [{{ name = "press", increments.fixed = 1 }}, {{ name = "slide", increment
 {counterface}
 [interface.joint]
 secondary = "pin.bottom"
-primary = "counterface"
+primary = "{primary}"
 roles = "as-named"
 wear.archard = {{ coefficient = {PIN:?}, primary-coefficient = {TRACK:?} }}
 {more}
@@ -68,7 +73,6 @@ wear.archard = {{ coefficient = {PIN:?}, primary-coefficient = {TRACK:?} }}
 
 const BODY: &str = r#"body.rail = { generate.rectangle = { from = [-1, -0.5], to = [1.5, 0], cells = [50, 4] }, material = "soft" }
 support.rail = { set = "rail.bottom", x = 0.0, y = 0.0 }
-set.counterface = { of = "rail.top" }
 "#;
 
 /// All of the pin has gone over the middle of its track: depth `k p 2a` a pass, however long increments are, and `k P` where the pressure is uneven. The pin loses `k p s`.
@@ -108,7 +112,7 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
         for ([x, ..], depth) in &track {
             // The pin begins over [0, 0.5] and ends over [3, 3.5], seen from the track.
             if (0.6..2.9).contains(x) {
-                close(*depth, full, 1e-4, &format!("{what} at {x}"));
+                close(*depth, full, 1e-3, &format!("{what} at {x}"));
             }
             if (-0.01..0.51).contains(x) && even {
                 let ramp = full * (x / 0.5).clamp(0.0, 1.0);
@@ -165,12 +169,10 @@ wear.archard = {{ coefficient = {PIN:?}, primary-coefficient = {TRACK:?} }}
             (std::f64::consts::TAU / 0.025).round() as usize
         );
         for (x, depth) in &track {
-            close(
-                *depth,
-                2.0 * TRACK * 20.0,
-                1e-2,
-                &format!("{what} at {x:?}"),
-            );
+            // Where it begins and ends the block gives way before it slides.
+            let within = if x[1] < 0.1 { 0.03 } else { 2e-3 };
+            let exact = 2.0 * TRACK * 20.0;
+            close(*depth, exact, within, &format!("{what} at {x:?}"));
             close(
                 (x[0].powi(2) + (x[1] - 1.0).powi(2)).sqrt(),
                 1.0,
@@ -270,7 +272,7 @@ fn what_has_no_track_is_said() {
     let round = "obstacle.counterface = { cylinder = { centre = [0.25, -1], radius = 1 } }";
     let curved = r#"body.roll = { generate.half-disc = { centre = [0.25, -1], radius = 1, direction = [0, 1], size = 0.2 }, material = "soft" }
 support.roll = { set = "roll.flat", x = 0.0, y = 0.0 }
-set.counterface = { of = "roll.arc" }"#;
+"#;
     let belt = "primary-velocity = [1.0, 0.0]";
     for (counterface, told) in [(round, "motion.rotation"), (curved, "is not plane")] {
         let problem = Problem::from_toml(&pin(counterface, 2, belt), None);
