@@ -52,7 +52,7 @@ impl External {
         {
             return Err("bodies that turn by any angle".into());
         }
-        let unknown = ["wear", "roughness"];
+        let unknown = ["wear", "worn", "roughness"];
         let interfaces = case.named("interface");
         let mut found = unknown
             .iter()

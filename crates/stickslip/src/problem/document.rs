@@ -75,7 +75,9 @@ impl Document {
             .filter_map(|i| i.roughness.as_ref());
         let maps = roughness.filter_map(|r| r.kind.as_dyn().file());
         let named = meshes.chain(results).map(|file| folder.join(file));
+        let worn = problem.interface.values().flat_map(|i| &i.worn);
         let named = named.chain(maps.map(|file| folder.join(file)));
+        let named = named.chain(worn.map(|file| folder.join(file)));
         self.file.iter().cloned().chain(named).collect()
     }
 

@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
 use super::roughness::Roughness;
@@ -43,6 +45,10 @@ pub struct Interface {
     /// Whether contact feels what is worn off.
     #[serde(default, skip_serializing_if = "implicit")]
     pub wear_feedback: Feedback,
+    /// Result files `fields_*.vtu` of earlier runs of the same mesh that have worn this interface, relative to the folder of the problem file, the first run first: the points of both surfaces
+    /// move into their bodies by the depths in them (`CWEAR`), along the normals that the surfaces had in that run, and depths count from zero again. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub worn: Vec<PathBuf>,
     /// Heights of the secondary surface above its mesh. Default: none, it is smooth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roughness: Option<Roughness>,

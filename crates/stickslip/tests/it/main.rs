@@ -52,3 +52,4 @@ mod units;
 mod vibrations;
 mod wear;
 mod wear_laws;
+mod worn;

@@ -159,7 +159,7 @@ fn deep(interface: &Interface) -> Option<Finding> {
     Some(
         finding
             .blame(Guilty::interface(name, "worn beyond first order"))
-            .advise("end the run here, mesh the bodies as they are worn, and go on from there"),
+            .advise(format!("end the run here and begin another one on the worn surfaces, with `worn` of `interface.{name}`")),
     )
 }
 

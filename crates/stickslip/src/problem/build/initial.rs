@@ -151,7 +151,11 @@ fn from_result(
 }
 
 /// For every point the index of the one at the same place, or the first that has none.
-fn match_points(points: &[usize], mesh: &Mesh, others: &[Vec3]) -> Result<Vec<usize>, usize> {
+pub(super) fn match_points(
+    points: &[usize],
+    mesh: &Mesh,
+    others: &[Vec3],
+) -> Result<Vec<usize>, usize> {
     let reach = 1e-6 * mesh.diameter();
     let mut order: Vec<usize> = (0..others.len()).collect();
     order.sort_by(|&a, &b| others[a][0].total_cmp(&others[b][0]));

@@ -19,6 +19,7 @@ mod snap;
 mod surfaces;
 mod turning;
 mod unused;
+mod worn;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -59,14 +60,18 @@ impl Problem {
         if !findings.is_empty() {
             return Err(problem_error(findings));
         }
-        let setup = self.build_moved(folder, meshes, snap::Moves::default())?;
-        let start = setup.model.steps.first().map_or(0.0, |s| s.start);
-        let moves = snap::moves(self, &setup.contact.interfaces, start);
-        if moves.notes.is_empty() {
-            return Ok(setup);
+        let mut moves = snap::Moves::default();
+        let mut setup = self.build_moved(folder, meshes, moves.clone())?;
+        for round in 0..worn::rounds(self) {
+            worn::add_round(self, (folder, round), &setup, &mut moves)?;
+            // All that follows from coordinates is made anew.
+            setup = self.build_moved(folder, meshes, moves.clone())?;
         }
-        // All that follows from coordinates is made anew.
-        self.build_moved(folder, meshes, moves)
+        let start = setup.model.steps.first().map_or(0.0, |s| s.start);
+        match snap::add(self, &setup.contact.interfaces, start, &mut moves) {
+            true => self.build_moved(folder, meshes, moves),
+            false => Ok(setup),
+        }
     }
 
     /// What is said of an interface whose sides were exchanged.

@@ -492,6 +492,13 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
     }
     let [_, primary] = interface.wear.as_dyn().fastest();
     let belt = interface.primary_velocity.is_some() || interface.primary_velocity_table.is_some();
+    if !interface.worn.is_empty() && primary != WearRate::default() && (obstacle.is_some() || belt)
+    {
+        add(
+            "`worn` moves points of a mesh: what has been worn off an obstacle, or off a primary with `primary-velocity`, has none",
+            "make the obstacle a body, or remove `worn`",
+        );
+    }
     if primary == WearRate::default() || !belt {
         return;
     }
