@@ -11,7 +11,7 @@ use stickslip::run::Simulation;
 
 /// The rows of cycles.
 #[derive(Default)]
-struct Cycles(Vec<Row>);
+pub struct Cycles(pub Vec<Row>);
 
 impl Observer for Cycles {
     fn see(&mut self, _: &Analysis, event: Event) -> Result<(), Error> {
@@ -23,7 +23,7 @@ impl Observer for Cycles {
 }
 
 impl Cycles {
-    fn of(simulation: &mut Simulation) -> Self {
+    pub fn of(simulation: &mut Simulation) -> Self {
         let mut cycles = Cycles::default();
         simulation
             .run(&mut [&mut cycles])
@@ -36,7 +36,7 @@ impl Cycles {
         self.0.iter().map(value).collect()
     }
 
-    fn last(&self, name: &str) -> f64 {
+    pub fn last(&self, name: &str) -> f64 {
         *self.column(name).last().expect("a cycle")
     }
 }
@@ -179,15 +179,15 @@ fn blocks_that_are_taken_back_leave_no_trace_and_a_run_goes_on_with_the_same_bit
 }
 
 /// Load and friction of the cylinder, half of the friction that it can take as tangential force, radius and moduli; N, mm.
-const LOAD: f64 = 120.0;
-const MU: f64 = 0.6;
-const FORCE: f64 = 36.0;
+pub const LOAD: f64 = 120.0;
+pub const MU: f64 = 0.6;
+pub const FORCE: f64 = 36.0;
 const RADIUS: f64 = 6.0;
 const YOUNG: f64 = 2e5;
 const POISSON: f64 = 0.3;
 
 /// Plane modulus of both bodies together, and half width of the contact.
-fn hertz() -> (f64, f64) {
+pub fn hertz() -> (f64, f64) {
     let modulus = 0.5 * YOUNG / (1.0 - POISSON * POISSON);
     (
         modulus,
@@ -214,7 +214,7 @@ fn graded(half: f64, fine: f64, far: f64) -> Vec<f64> {
 }
 
 /// A cylinder that is pressed on a flat by a constant force and pushed to and fro by another, with cells of `size` where they touch.
-fn cylinder(size: f64, cycles: &str, increments: usize, wear: &str) -> Simulation {
+pub fn cylinder(size: f64, cycles: &str, increments: usize, wear: &str) -> Simulation {
     let x = graded(0.15, size, 6.0);
     let depth = graded(0.04, size, 6.0);
     let y: Vec<f64> = depth.iter().copied().filter(|y| *y <= 1e-12).collect();

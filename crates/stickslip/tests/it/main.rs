@@ -24,6 +24,7 @@ mod fretting;
 mod heat;
 mod layers;
 mod library;
+mod loops;
 mod loose;
 mod malformed;
 mod mirrors;
