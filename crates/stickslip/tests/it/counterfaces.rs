@@ -103,7 +103,7 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
         close(
             volumes(&simulation, &what),
             (PIN + TRACK) * PRESSURE * 0.5 * path,
-            1e-4,
+            if even { 1e-4 } else { 5e-4 },
             &what,
         );
         let full = TRACK * PRESSURE * 0.5 * passes;
@@ -112,7 +112,8 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
         for ([x, ..], depth) in &track {
             // The pin begins over [0, 0.5] and ends over [3, 3.5], seen from the track.
             if (0.6..2.9).contains(x) {
-                close(*depth, full, 1e-3, &format!("{what} at {x}"));
+                // Places lie a tenth of the pin apart: the half of one that begins and ends a pass.
+                close(*depth, full, 5e-3, &format!("{what} at {x}"));
             }
             if (-0.01..0.51).contains(x) && even {
                 let ramp = full * (x / 0.5).clamp(0.0, 1.0);
@@ -170,7 +171,7 @@ wear.archard = {{ coefficient = {PIN:?}, primary-coefficient = {TRACK:?} }}
         );
         for (x, depth) in &track {
             // Where it begins and ends the block gives way before it slides.
-            let within = if x[1] < 0.1 { 0.03 } else { 2e-3 };
+            let within = if x[1] < 0.1 { 0.03 } else { 5e-3 };
             let exact = 2.0 * TRACK * 20.0;
             close(*depth, exact, within, &format!("{what} at {x:?}"));
             close(

@@ -77,7 +77,7 @@ fn the_shear_of_a_loop_is_that_of_cattaneo_and_mindlin() {
 
 /// A ball on a block of the same material, as in the example, to and fro a thousand times: few cycles are computed, and the work of each is Mindlin's as well as that of the example.
 #[test]
-fn a_thousand_cycles_of_a_ball_cost_no_more_than_ten() {
+fn a_thousand_cycles_of_a_ball_cost_no_more_than_twenty() {
     let case = include_str!("../../../../examples/fretting-sphere/case.toml");
     let (model, _) = case
         .split_once("# 100 increments in all.")
@@ -107,7 +107,7 @@ increments.fixed = 8
     let mut simulation = Simulation::new(setup).unwrap_or_else(|e| panic!("{e}"));
     let cycles = Cycles::of(&mut simulation);
     let computed = cycles.0.len();
-    assert!(computed <= 10, "{computed}");
+    assert!(computed <= 20, "{computed}");
     assert_eq!(cycles.last("CYCLES"), 1000.0);
     // Half of the ball is modelled.
     let (p, q) = (

@@ -493,7 +493,7 @@ fn runs_with_rigid_bodies_that_turn_go_on_where_they_stopped() {
             top(MIDPOINT, [50.0, 1.0], 0.002).replace("= 0.6", "= 0.02"),
         ),
         ("roller at rest", rigid_roller(20)),
-        ("drum", driven(true, [90, 20])),
+        ("drum", driven(true, [90, 100])),
     ];
     for (name, text) in cases {
         restart::check(name, &support::problem(&text), Path::new("."), 3);
