@@ -39,8 +39,7 @@ fn the_shear_of_a_loop_is_that_of_cattaneo_and_mindlin() {
         {
             let sixteenth = (simulation.frame.state.t - 2.0) * 16.0;
             let quarter = sixteenth.round();
-            if quarter < 4.0
-                || quarter > 12.0
+            if !(4.0..=12.0).contains(&quarter)
                 || (sixteenth - quarter).abs() > 1e-6
                 || quarter % 2.0 != 0.0
             {

@@ -98,7 +98,10 @@ fn a_snap_that_turns_a_cell_inside_out_is_refused() {
         Err(e) => e.to_string(),
         Ok(_) => panic!("built"),
     };
-    assert!(message.contains("moved onto a primary"), "{message}");
+    assert!(
+        message.contains("after points of surfaces were moved"),
+        "{message}"
+    );
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn depths(simulation: &Simulation) -> Vec<f64> {
 fn a_run_on_worn_surfaces_goes_on_where_the_one_before_ended() {
     let folder = support::folder("worn");
     let (first, name) = run(&folder, "first", &case(200, &[]));
-    let (second, again) = run(&folder, "second", &case(200, &[name.clone()]));
+    let (second, again) = run(&folder, "second", &case(200, std::slice::from_ref(&name)));
     let (whole, _) = run(&folder, "whole", &case(400, &[]));
     let note = format!("as worn in {name}");
     assert!(
