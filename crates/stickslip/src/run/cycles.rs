@@ -5,6 +5,9 @@
 //! `N Σ w`, and what has been worn off in the step so far, `V`, by the share `N` of all cycles. Summed over the step that is no more than the error times what is worn off in all, as
 //! wear makes differences of depth smaller and not larger.
 //!
+//! Where nothing wears, what friction keeps settles within some cycles, and cycles change ever less: once all that is to come, as a geometric series, is no more than the error, one stands for all that are
+//! left, and is taken back if it shows that they have changed by more. Where that cannot be seen, and with wear, they are as good as equal if the last change, over and over again, comes to no more than the error.
+//!
 //! A block begins with a checkpoint. What it finds is reported when it is over; where it stands for too many it is taken back to that checkpoint, and nobody is told.
 
 use super::jumps::Jumps;
@@ -103,14 +106,24 @@ impl Simulation {
         self.flush(observers)?;
         let verdict = self.judge_block(&mut running.jumps, count);
         let n = stands_for as f64;
+        let wears = self.contact.interfaces.iter().any(|i| i.wears());
+        let jumps = &mut running.jumps;
+        if let Some(verdict) = verdict {
+            jumps.note_change(verdict.all);
+        }
         let governing = verdict.map_or(0.0, |v| v.wearing) / chosen.error;
         if governing > 1.0 && stands_for > 1 {
             let part = (SAFETY / governing).max(SHRINKAGE);
             return self.take_block_back(running, (n * part).floor());
         }
-        let jumps = &mut running.jumps;
+        let settled = |last: f64| !wears && last + jumps.to_come() <= chosen.error;
+        if !wears
+            && stands_for > 1
+            && verdict.is_some_and(|v| v.all * n > chosen.error && !settled(v.all))
+        {
+            return self.take_block_back(running, 1.0);
+        }
         jumps.kept += 1;
-        let wears = self.contact.interfaces.iter().any(|i| i.wears());
         jumps.wish = match verdict {
             // The first has nothing to be compared with.
             None => n,
@@ -118,13 +131,17 @@ impl Simulation {
             Some(_) => n * (SAFETY / governing.max(1e-12)).clamp(SHRINKAGE, GROWTH),
         };
         let left = count - after;
-        let repeats = verdict.is_some_and(|v| v.all * left as f64 <= chosen.error * n);
+        let repeats = verdict.is_some_and(|v| {
+            v.all * left as f64 <= chosen.error * n || !wears && jumps.to_come() <= chosen.error
+        });
         if repeats && left as f64 > jumps.wish.max(1.0) {
             jumps.wish = left as f64;
-            self.solver.log.notes.push(format!(
-                "step `{}`: what a cycle dissipates and wears off stays the same from cycle {after} on: the next one stands for all that are left",
-                self.step().name
-            ));
+            if chosen.largest.is_none_or(|most| most >= left) {
+                self.solver.log.notes.push(format!(
+                    "step `{}`: what a cycle dissipates and wears off stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
+                    self.step().name
+                ));
+            }
         }
         self.frame.block = Block {
             before: after,

@@ -10,6 +10,8 @@ pub(super) struct Jumps {
     pub rates: Vec<Vec<f64>>,
     /// By interface, what cycles of the step have taken in all.
     pub total: Vec<f64>,
+    /// By how much a cycle of each of the last blocks differed from one of the block before, relative to what it took; no more than three.
+    pub changes: Vec<f64>,
     /// Blocks that were kept, and those that were taken back.
     pub kept: usize,
     pub rejected: usize,
@@ -20,6 +22,52 @@ crate::keep!(Jumps {
     start,
     rates,
     total,
+    changes,
     kept,
     rejected
 });
+
+impl Jumps {
+    pub(super) fn note_change(&mut self, change: f64) {
+        if self.changes.len() == 3 {
+            self.changes.remove(0);
+        }
+        self.changes.push(change);
+    }
+
+    /// By how much cycles in which nothing wears will come to differ from the last one, however many there are: what friction keeps from one to the next settles, and changes that
+    /// fall by the larger of their last two quotients are a geometric series. Infinite as long as they do not fall.
+    pub(super) fn to_come(&self) -> f64 {
+        let [before, between, last] = self.changes[..] else {
+            return f64::INFINITY;
+        };
+        let quotient = (between / before).max(last / between);
+        match quotient < 1.0 {
+            true => last * quotient / (1.0 - quotient),
+            false => f64::INFINITY,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Jumps;
+
+    #[test]
+    fn changes_that_fall_are_summed_and_others_are_not() {
+        let mut jumps = Jumps::default();
+        for change in [0.4, 0.1] {
+            jumps.note_change(change);
+            assert_eq!(jumps.to_come(), f64::INFINITY);
+        }
+        // The larger quotient, a half: 0.025 + 0.0125 + ...
+        jumps.note_change(0.05);
+        assert!((jumps.to_come() - 0.05).abs() < 1e-15);
+        jumps.note_change(0.05);
+        assert_eq!(jumps.to_come(), f64::INFINITY);
+        for _ in 0..3 {
+            jumps.note_change(0.0);
+        }
+        assert_eq!(jumps.to_come(), f64::INFINITY, "nothing to go by");
+    }
+}

@@ -452,16 +452,19 @@ fn a_ball_thrown_with_backspin_ends_with_five_sevenths_of_its_velocity_less_two_
     }
 }
 
-#[test]
-fn a_rigid_roller_goes_half_the_way_of_what_it_carries() {
-    let text = roller(true, 40);
-    let text = text.replacen(
+/// The roller of the tests of elastic bodies, rigid.
+fn rigid_roller(increments: usize) -> String {
+    let text = roller(true, increments).replacen(
         "rotation = \"large\"",
         "rotation = \"large\"\nrigid = true",
         1,
     );
-    let text = text.replace("poisson = 0.3 }", "poisson = 0.3, density = 1000 }");
-    let record = run(&text);
+    text.replace("poisson = 0.3 }", "poisson = 0.3, density = 1000 }")
+}
+
+#[test]
+fn a_rigid_roller_goes_half_the_way_of_what_it_carries() {
+    let record = run(&rigid_roller(40));
     let (way, angle) = (column(&record, "roller.U1"), column(&record, "roller.UR3"));
     let (end, middle) = (way.len() - 1, way.len() / 2 - 1);
     let gone = way[end] - way[middle];
@@ -485,14 +488,20 @@ fn runs_with_rigid_bodies_that_turn_go_on_where_they_stopped() {
             ball("{ scheme.generalised-alpha.rho = 0.8 }", 0.02, increments),
         ),
         ("explicit ball", ball(EXPLICIT, 0.002, "")),
+        (
+            "top",
+            top(MIDPOINT, [50.0, 1.0], 0.002).replace("= 0.6", "= 0.02"),
+        ),
+        ("roller at rest", rigid_roller(20)),
+        ("drum", driven(true, [90, 100])),
     ];
     for (name, text) in cases {
         restart::check(name, &support::problem(&text), Path::new("."), 3);
     }
 }
 
-/// A roller on an axle that is pressed against a rigid drum, an obstacle, which turns by two revolutions.
-fn driven(rigid: bool) -> String {
+/// A roller of so many sides on an axle that is pressed against a rigid drum, an obstacle, which turns by two revolutions in so many increments.
+fn driven(rigid: bool, [sides, increments]: [usize; 2]) -> String {
     let body = match rigid {
         true => "rigid = true",
         false => "",
@@ -509,7 +518,7 @@ fn driven(rigid: bool) -> String {
         material = "m"
         {body}
         rotation.with = "axle"
-        generate.ring = {{ bore = 0.03, radius = 0.1, cells = [360, 3] }}
+        generate.ring = {{ bore = 0.03, radius = 0.1, cells = [{sides}, 3] }}
         [material.m]
         isotropic = {{ young = 1e7, poisson = 0.3, density = 1000 }}
         [reference.axle]
@@ -535,21 +544,27 @@ fn driven(rigid: bool) -> String {
         [[step]]
         increments.fixed = 5
         [[step]]
-        increments.fixed = 500
+        increments.fixed = {increments}
         "#
     )
 }
 
 #[test]
 fn a_drum_that_turns_by_revolutions_drives_a_wheel_by_the_ratio_of_radii() {
-    for rigid in [true, false] {
-        let record = run(&driven(rigid));
+    // In increments as long as a side, and longer than three of them, too.
+    for (rigid, cells) in [
+        (true, [360, 500]),
+        (false, [360, 500]),
+        (true, [90, 100]),
+        (true, [360, 133]),
+    ] {
+        let record = run(&driven(rigid, cells));
         let angle = last(&record, "axle.UR3");
         let expected = -0.5 * 4.0 * PI;
-        // A polygon of 360 sides, and a rim that is pressed in.
+        // A polygon, and a rim that is pressed in.
         assert!(
             (angle / expected - 1.0).abs() < 0.01,
-            "{rigid}: {angle} {expected}"
+            "{rigid} {cells:?}: {angle} {expected}"
         );
     }
 }

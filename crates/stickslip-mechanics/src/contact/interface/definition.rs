@@ -70,6 +70,8 @@ pub struct Interface {
     pub schedule: Schedule,
     /// The bodies of its sides that turn; shared by all interfaces, and empty where none of its points is one of theirs.
     pub frames: Arc<BodyFrames>,
+    /// Whether a body of its sides turns by any angle as a whole, in a frame or free.
+    pub turns: bool,
     /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
     pub edge_tolerance: f64,
     /// What becomes of the gaps of the meshes.

@@ -3,9 +3,14 @@
 use super::definition::Interface;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
+use super::initial::TOUCHING;
 use super::scene::Scene;
-use crate::contact::kinematics::{add_average_hessian, add_rigid_hessian, average, rigid_stencil};
+use crate::contact::kinematics::{
+    Part, RigidFoot, add_average_hessian, add_rigid_hessian, arriving_slip, average, rigid_stencil,
+    rotation_of,
+};
 use crate::contact::obstacle::Shape;
+use crate::contact::response::Status;
 use crate::math::norm;
 
 impl Interface {
@@ -32,6 +37,19 @@ impl Interface {
         ) else {
             return Evaluation::open(f64::INFINITY);
         };
+        if self.arrives(i, &feet, scene) {
+            let own = rotation_of(self.skin_around(i), (nodes, &scene.cache.before), dim);
+            let told = (&own, &feet, scene.belt_seen());
+            let places = (x, before);
+            arriving_slip(
+                (pose, pose_before),
+                point,
+                places,
+                told,
+                dim,
+                &mut batch.stencil,
+            );
+        }
         // One with several nodes has the mean of their gaps.
         let mean = point.nodes.len() > 1;
         if mean && average(shape, pose, point, nodes, dim, &mut batch.stencil).is_none() {
@@ -60,5 +78,21 @@ impl Interface {
             }
         }
         e
+    }
+
+    /// Whether a point of a body that turns was away when a quasi-static increment began and is near the obstacle now. In motion friction sees velocities, and where faces hardly turn its foot
+    /// goes the way of the surface.
+    fn arrives(&self, i: usize, feet: &RigidFoot, scene: &Scene) -> bool {
+        let size = self.points[i].size;
+        let near = feet.foot.gap <= size && feet.gap_before > TOUCHING * size;
+        let away = self.history.points[i].status == Status::Open && !self.laws.tied;
+        let told = self.turns && self.skin_around(i).next().is_some();
+        told && near && away && scene.rate.is_none() && self.laws.friction_law().frictional()
+    }
+
+    /// The corners of the faces around a point that are no mortar's.
+    fn skin_around(&self, i: usize) -> impl Iterator<Item = Part<'_>> + Clone {
+        let around = self.skin.iter().filter(move |s| s.points.contains(&i));
+        around.map(|s| (&s.facet.nodes[..s.facet.kind.corner_count()], 1.0))
     }
 }

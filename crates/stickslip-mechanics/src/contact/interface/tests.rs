@@ -100,6 +100,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         belt: Vec::new(),
         schedule: Schedule::always(),
         frames: Default::default(),
+        turns: false,
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),

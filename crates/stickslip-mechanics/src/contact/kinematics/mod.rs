@@ -8,6 +8,7 @@
 //! unit vectors of that plane. Slip is a length of way over an increment that may be long, and its gradient `S` is not of length one. A way that began
 //! in another tangent plane, and tractions that were carried in it, are turned into that of now: nothing of them is lost by projection.
 
+mod arriving;
 mod average;
 mod convective;
 mod dual;
@@ -24,6 +25,7 @@ mod turning;
 #[cfg(test)]
 mod tests;
 
+pub use arriving::arriving_slip;
 pub use average::{add_average_hessian, average, mean_gap};
 pub use convective::Convective;
 pub use mortar::{Carried, Gathered, MeanPoint, gather};

@@ -36,6 +36,8 @@ pub fn carried_over(v: Vec3, from: Vec3, to: Vec3) -> Vec3 {
 pub struct RigidFoot {
     /// The foot of the point.
     pub foot: Foot,
+    /// The gap at the last accepted state `[m]`.
+    pub gap_before: f64,
     /// Derivatives of the two directions of the shear with respect to the point `[1/m]`, row: component.
     pub turning: [Mat3; 2],
 }
@@ -224,6 +226,7 @@ pub fn rigid_stencil(
     }
     Some(RigidFoot {
         foot,
+        gap_before: anchor.gap,
         turning: way.directions.map(|e| e.map(|c| c.slope)),
     })
 }
@@ -270,7 +273,7 @@ pub fn add_rigid_hessian(
     true
 }
 
-fn spread(point: &ContactPoint, v: Vec3, dim: usize, row: &mut [f64]) {
+pub(super) fn spread(point: &ContactPoint, v: Vec3, dim: usize, row: &mut [f64]) {
     for (k, w) in point.weights.iter().enumerate() {
         for i in 0..dim {
             row[k * dim + i] += w * v[i];

@@ -340,6 +340,7 @@ impl Make<'_> {
             belt: belt(table),
             schedule: self.schedule.clone(),
             frames: Arc::default(),
+            turns: false,
             edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.1)?,
             relief: Vec::new(),

@@ -82,6 +82,7 @@ pub(super) fn attach(
             point.across = Default::default();
         }
         interface.frames = Arc::clone(frames);
+        interface.turns = true;
     }
     Ok(())
 }
