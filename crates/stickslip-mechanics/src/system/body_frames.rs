@@ -99,6 +99,14 @@ impl BodyFrames {
         self.all.iter().any(|f| f.rigid)
     }
 
+    /// Whether nothing prescribes by how much some frame turns.
+    pub fn any_unheld(&self, fixed: &[bool]) -> bool {
+        let hidden = self.all.iter().filter_map(BodyFrame::hidden);
+        let axes = if self.dofs.dim == 2 { 1 } else { 3 };
+        let mut turns = hidden.flat_map(|h| (0..axes).map(move |k| (h + 1, k)));
+        turns.any(|(h, k)| !fixed[self.dofs.of(h, k)])
+    }
+
     /// Hidden points of frames that turn freely in space: those that carry rigid bodies.
     pub fn spun(&self) -> Vec<(usize, f64)> {
         let mut out: Vec<(usize, f64)> = Vec::new();

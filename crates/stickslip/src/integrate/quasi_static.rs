@@ -6,7 +6,7 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::solve::accepted::Accepted;
-use crate::solve::checks::check_change;
+use crate::solve::checks::{check_change, check_way};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
 use crate::system::{State, StepFailure};
@@ -46,6 +46,7 @@ impl Integrator for QuasiStatic {
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;
         check_change(model, pairs(&at.u, &frame.state.u))?;
+        check_way((model, contact), [&frame.state, &at], &fixed)?;
         let external = match model.is_corotational() {
             // Pressures have followed.
             true => frame.external_at(model, trial.to, &at.u),

@@ -2,7 +2,7 @@
 
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
-use crate::system::{Cause, StepFailure};
+use crate::system::{Cause, State, StepFailure};
 
 /// Out-of-balance force relative to the forces in play that rounding may leave in a recovered interior.
 const LEFT: f64 = 1e-6;
@@ -75,6 +75,28 @@ pub(crate) fn check_change(
                 "two successive solutions are {change:.3e} apart, more than `largest-change` allows"
             ),
         ));
+    }
+    Ok(())
+}
+
+/// Refuses a solution that bodies which turn on axles that contact alone holds can have reached through each other only.
+pub(crate) fn check_way(
+    (model, contact): (&Model, &Contact),
+    ends: [&State; 2],
+    fixed: &[bool],
+) -> Result<(), StepFailure> {
+    if !model.frames.any_unheld(fixed) {
+        return Ok(());
+    }
+    for interface in &contact.interfaces {
+        if let Some(deep) = interface.passes_through(ends.map(|s| &*s.u), ends.map(|s| s.t)) {
+            let message = format!(
+                "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
+                interface.name
+            );
+            return Err(StepFailure::new(Cause::TooFar, message)
+                .help("smaller increments, or finer cells where the bodies touch"));
+        }
     }
     Ok(())
 }

@@ -15,6 +15,9 @@ const STREAM: f64 = 1.2e9;
 /// Newton iterations of a quasi-static and of a dynamic increment, and Krylov iterations of each.
 const NEWTON: [f64; 2] = [2.5, 1.5];
 const KRYLOV: f64 = 6.0;
+/// Newton iterations of a quasi-static increment in which bodies turn, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
+/// `geneva-drive`, 6.5 in `rolling-wheel` and `bentall-johnson`.
+const NEWTON_TURNING: f64 = 6.0;
 
 /// Newton iterations that one factor of the gaps serves.
 const SERVES: f64 = 6.0;
@@ -70,10 +73,21 @@ pub(crate) struct Choice {
 impl Scene<'_> {
     /// The cheapest way that fits into memory.
     pub(crate) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
+        // In the plane an ordering costs little, and another one after the first singular matrix as much again.
+        if self.model.dofs.dim == 2 && self.turns_unheld() {
+            return Choice {
+                method: Solution::Sparse,
+                reason:
+                    "contact alone holds an axle: condensed bodies are singular where it lets go"
+                        .into(),
+            };
+        }
         let free = held.iter().filter(|h| !**h).count() as f64;
         let candidates = cost.candidates as f64;
         let [static_, moving] = self.increments_left();
-        let iterations = static_ * NEWTON[0] + moving * NEWTON[1];
+        let turns = self.contact.interfaces.iter().any(|i| i.turns);
+        let at_rest = if turns { NEWTON_TURNING } else { NEWTON[0] };
+        let iterations = static_ * at_rest + moving * NEWTON[1];
         let memory = available_memory().map(|free| free as f64);
         let points: usize = self.contact.interfaces.iter().map(|i| i.points.len()).sum();
         let bytes = cost.bytes as f64 + self.pending_bytes() as f64 * static_.min(TOGETHER as f64);
@@ -141,6 +155,16 @@ impl Scene<'_> {
                 list.join(", ")
             ),
         }
+    }
+
+    /// Whether nothing but contact holds an axle in some step at rest that is to come.
+    fn turns_unheld(&self) -> bool {
+        let ahead = self.model.steps[self.frame.step..].iter();
+        let mut at_rest = ahead.filter(|s| s.dynamic.is_none());
+        at_rest.any(|step| {
+            let constraints = self.frame.constraints(self.model, step.end);
+            self.model.frames.any_unheld(&constraints.fixed)
+        })
     }
 
     /// Memory that an increment takes until it is reported `[bytes]`.

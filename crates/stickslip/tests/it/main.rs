@@ -21,6 +21,7 @@ mod fatigue;
 mod flying;
 mod frd;
 mod fretting;
+mod gears;
 mod heat;
 mod layers;
 mod library;

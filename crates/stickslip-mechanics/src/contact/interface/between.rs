@@ -218,7 +218,7 @@ impl Interface {
     }
 
     /// The smallest gap found anywhere on each face of the secondary; infinite where nothing lies opposite.
-    fn lowest(&self, x: &[Vec3], t: f64) -> Vec<f64> {
+    pub(super) fn lowest(&self, x: &[Vec3], t: f64) -> Vec<f64> {
         let mut lowest = vec![f64::INFINITY; self.skin.len()];
         match &self.primary {
             Primary::Rigid(shape, motion) => {

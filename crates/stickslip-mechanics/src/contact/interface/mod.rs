@@ -42,6 +42,7 @@ mod onset;
 mod opposite_sheet;
 mod oscillation;
 mod pass;
+mod passing;
 mod quality;
 mod resolution;
 mod respond;

@@ -12,7 +12,7 @@ use crate::model::ledger::Flow;
 use crate::newton::condensed::{Amplitudes, CondensedBulk};
 use crate::newton::describe;
 use crate::solve::accepted::Accepted;
-use crate::solve::checks::{Recovered, check_candidates, check_change};
+use crate::solve::checks::{Recovered, check_candidates, check_change, check_way};
 use crate::solve::iteration::Iteration;
 use crate::solve::solver::Solver;
 use crate::solve::work::Work;
@@ -72,6 +72,7 @@ impl Solver {
         let base = vec![0.0; condensation.size()];
         let mut bulk =
             CondensedBulk::new((condensation, reduced), diagonal, load, base, guess, scale);
+        let fixed = constraints.fixed.clone();
         let converged = Iteration {
             newton,
             seen,
@@ -85,6 +86,7 @@ impl Solver {
         let dofs = condensation.dofs.iter();
         check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
         check_candidates(contact)?;
+        check_way((model, contact), [from, &at], &fixed)?;
         Ok(Accepted {
             contact: converged.contact.clone(),
             external,
