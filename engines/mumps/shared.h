@@ -43,6 +43,15 @@ Words write_to(const char *name, const char *ending, int part, size_t count);
 void write_words(Words *to, const void *words, size_t count);
 void end_writing(Words *to);
 
+/* cells, in Rust: hands out the entries of the matrices of some cells. Returns 0, 1 + the row where one is no number, or -1 if the words are those of another version. */
+int64_t stickslip_cells(const uint64_t *words, size_t count, void (*take)(void *to, uint32_t row, uint32_t column, double value), void *to);
+
+/* matrix.c: the share of this rank of a matrix, as MUMPS takes it. Entries that it was sent come first. */
+void read_matrix(DMUMPS_STRUC_C *body, const char *file);
+/* Adds those of its cells. Returns 0, or 1 + the row where one is no number, on all ranks. */
+int64_t make_cells(DMUMPS_STRUC_C *body, const char *file);
+void free_matrix(DMUMPS_STRUC_C *body);
+
 /* schur.c: a dense symmetric matrix over a grid of all ranks, of which the lower triangle counts. */
 typedef struct Grid Grid;
 /* Lets MUMPS leave the Schur complement there, before the analysis. */

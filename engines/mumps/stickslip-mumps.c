@@ -4,9 +4,9 @@
  * FOLDER, whose format words.c knows. Who reads a file
  * deletes it. What a body is known by, ID, is a small number that stickslip chooses.
  *
- *   factor ID N C OUT-OF-CORE LOW-RANK MEGABYTES SPREAD FILE
- *                               rank r reads FILE.r, its share of the lower triangle of a matrix of N rows, of which the last C are kept; what is in several shares is
- *                               added up. The Schur complement goes to FILE.schur, by columns from the diagonal, or stays with the ranks if SPREAD is 1
+ *   factor ID N C OUT-OF-CORE LOW-RANK MEGABYTES SPREAD CELLS FILE
+ *                               rank r reads FILE.r, its share of the lower triangle of a matrix of N rows, of which the last C are kept, and if CELLS is 1 makes the
+ *                               matrices of the cells in FILE.cells.r besides; what is in several shares is added up. The Schur complement goes to FILE.schur, by columns from the diagonal, or stays with the ranks if SPREAD is 1
  *   reduce ID COLUMNS FILE      forces, N a column -> FILE.out, what is left of them at the kept rows, C a column
  *   expand ID COLUMNS 0 FILE    displacements of the kept rows for the forces reduced last -> FILE.out.r, those of the others that rank r has: their
  *                               count, their rows, the columns
@@ -30,10 +30,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PROTOCOL 2
+#define PROTOCOL 3
 #define BODIES 256
 #define USE_COMM_WORLD -987654
-#define CHUNK 65536
 /* Times that a factorisation which asked for more work space is tried again with twice as much. */
 #define TRIES 6
 
@@ -41,7 +40,7 @@ enum { QUIT, FACTOR, REDUCE, EXPAND, MULTIPLY, INVERT, FREE };
 
 /* A command, as all ranks get it. */
 typedef struct {
-    int what, id, columns, fresh, out_of_core, megabytes, spread;
+    int what, id, columns, fresh, out_of_core, megabytes, spread, cells;
     int64_t n, kept;
     double low_rank, sigma;
     char file[64];
@@ -166,8 +165,8 @@ static Command next_command(void) {
     if (rank == 0) {
         pthread_mutex_lock(&lock);
         while (!has_line) pthread_cond_wait(&came, &lock);
-        if (sscanf(line, "factor %d %" SCNd64 " %" SCNd64 " %d %lf %d %d %63s", &c.id, &c.n, &c.kept, &c.out_of_core, &c.low_rank, &c.megabytes,
-                   &c.spread, c.file) == 8)
+        if (sscanf(line, "factor %d %" SCNd64 " %" SCNd64 " %d %lf %d %d %d %63s", &c.id, &c.n, &c.kept, &c.out_of_core, &c.low_rank, &c.megabytes,
+                   &c.spread, &c.cells, c.file) == 9)
             c.what = FACTOR;
         else if (sscanf(line, "reduce %d %d %63s", &c.id, &c.columns, c.file) == 3)
             c.what = REDUCE;
@@ -192,37 +191,6 @@ static Command next_command(void) {
     MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
     for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) doze(&pause);
     return c;
-}
-
-/* The share of the matrix of this rank: words (row, column) of 32 bits each, and values, in turn. */
-static void read_matrix(DMUMPS_STRUC_C *body, const char *file) {
-    uint64_t *pairs = get(2 * CHUNK, 8);
-    Words from = read_from(file, rank, ANY);
-    size_t count = from.count / 2;
-    body->nnz_loc = (int64_t)count;
-    body->irn_loc = get(count, sizeof *body->irn_loc);
-    body->jcn_loc = get(count, sizeof *body->jcn_loc);
-    body->a_loc = get(count, sizeof *body->a_loc);
-    for (size_t done = 0; done < count;) {
-        size_t some = count - done < CHUNK ? count - done : CHUNK;
-        read_words(&from, pairs, 2 * some);
-        for (size_t i = 0; i < some; i++, done++) {
-            body->irn_loc[done] = (MUMPS_INT)(pairs[2 * i] & 0xffffffffu) + 1;
-            body->jcn_loc[done] = (MUMPS_INT)(pairs[2 * i] >> 32) + 1;
-            memcpy(body->a_loc + done, pairs + 2 * i + 1, 8);
-        }
-    }
-    end_reading(&from);
-    free(pairs);
-}
-
-static void free_matrix(DMUMPS_STRUC_C *body) {
-    free(body->irn_loc);
-    free(body->jcn_loc);
-    free(body->a_loc);
-    body->irn_loc = body->jcn_loc = NULL;
-    body->a_loc = NULL;
-    body->nnz_loc = 0;
 }
 
 static void job(DMUMPS_STRUC_C *body, int number) {
@@ -304,6 +272,11 @@ static void factor(const Command *c) {
         return drop(c->id);
     }
     read_matrix(body, c->file);
+    int64_t wrong = c->cells ? make_cells(body, c->file) : 0;
+    if (wrong) {
+        answer("error 1 %" PRId64 " assembly", wrong - 1);
+        return drop(c->id);
+    }
     keep_schur(body, c);
     job(body, 1);
     if (body->INFOG(1) < 0) {

@@ -1,6 +1,6 @@
 //! Programs beside the main binary that factor bodies: `cargo xtask engine mumps`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::workspace::{root, target};
@@ -26,7 +26,7 @@ pub fn build(arguments: &[String]) -> Result<(), String> {
     let folder = target().join("engines");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let program = folder.join("stickslip-mumps");
-    compile(&root().join("engines/mumps"), &program)?;
+    compile(&root().join("engines/mumps"), &build_cells()?, &program)?;
     println!("{}", program.display());
     Ok(())
 }
@@ -89,11 +89,39 @@ fn has_header() -> bool {
     written.is_ok() && compiled.is_ok_and(|o| o.status.success())
 }
 
+/// Builds what computes cells on the ranks, in the profile that this program was built in, and returns the library.
+fn build_cells() -> Result<PathBuf, String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let (profile, folder) = match cfg!(debug_assertions) {
+        true => ("dev", "debug"),
+        false => ("release", "release"),
+    };
+    let mut build = Command::new(cargo);
+    build.args([
+        "build",
+        "--package",
+        "stickslip-mumps-cells",
+        "--profile",
+        profile,
+    ]);
+    let status = build.current_dir(root()).status();
+    match status.map_err(|e| format!("cargo: {e}"))?.success() {
+        true => Ok(target().join(folder).join("libstickslip_mumps_cells.a")),
+        false => Err("what computes cells on the ranks does not build".into()),
+    }
+}
+
 /// What the library is called that MUMPS itself needs: by Debian, and by others.
 const SCALAPACK: [&str; 3] = ["-lscalapack-openmpi", "-lscalapack-mpich", "-lscalapack"];
 
-/// Compiles the sources of a folder, with the first name of ScaLAPACK that there is.
-fn compile(folder: &Path, program: &Path) -> Result<(), String> {
+/// What keeps the names in a library to the program: MUMPS may bring another METIS along than the library has.
+const HIDDEN: &[&str] = match cfg!(target_os = "linux") {
+    true => &["-Wl,--gc-sections", "-Wl,--exclude-libs,ALL"],
+    false => &[],
+};
+
+/// Compiles the sources of a folder, with a library and the first name of ScaLAPACK that there is.
+fn compile(folder: &Path, library: &Path, program: &Path) -> Result<(), String> {
     let listed = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let paths = listed.flatten().map(|entry| entry.path());
     let mut sources: Vec<_> = paths
@@ -106,9 +134,11 @@ fn compile(folder: &Path, program: &Path) -> Result<(), String> {
             .args(["-O2", "-Wall", "-Wextra", "-std=gnu11", "-o"])
             .arg(program)
             .args(&sources)
+            .arg(library)
+            .args(HIDDEN)
             .args(words("CFLAGS"))
             .args(words("LDFLAGS"))
-            .args(["-ldmumps", scalapack, "-lpthread", "-ldl"])
+            .args(["-ldmumps", scalapack, "-lpthread", "-ldl", "-lm"])
             .output()
             .map_err(|e| format!("mpicc: {e}"))?;
         said = String::from_utf8_lossy(&output.stderr).into_owned();

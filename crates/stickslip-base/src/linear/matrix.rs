@@ -26,6 +26,11 @@ pub trait Matrix: Debug + Send + Sync {
     /// The matrix with its entries, or, if it is not kept, what tells it from others.
     fn kept(&self) -> Result<&BlockCsr, [u64; 2]>;
 
+    /// The cells whose matrices are summands in the rows of these points, where whoever factors the matrix may compute them.
+    fn cells(&self, _points: Range<usize>) -> Option<Box<dyn Cells + '_>> {
+        None
+    }
+
     /// Makes all entries.
     fn make(&self) -> BlockCsr;
 
@@ -48,6 +53,18 @@ pub trait Matrix: Debug + Send + Sync {
             }
         }
     }
+}
+
+/// Cells that a matrix is a sum over, which may be computed elsewhere.
+pub trait Cells {
+    /// Hands out the points of each cell, in the order of their numbers.
+    fn couplings(&self, visit: &mut dyn FnMut(&[usize]));
+
+    /// What makes the matrices of some cells, given by ascending numbers: body by body the points that they couple, ascending, and bytes, which this room cannot read.
+    fn portions(&self, cells: &[u32]) -> Vec<(Vec<usize>, Vec<u8>)>;
+
+    /// Hands out the summands that are not of cells: row, column and value.
+    fn others(&self, visit: &mut Summands);
 }
 
 /// Takes row, column and value.

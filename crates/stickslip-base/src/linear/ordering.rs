@@ -46,7 +46,7 @@ pub(super) fn elimination_order(graph: &Graph) -> Vec<u32> {
 }
 
 /// METIS keeps its random numbers and its error traps in globals: one call at a time, for safety and reproducibility.
-static METIS: Mutex<()> = Mutex::new(());
+pub(super) static METIS: Mutex<()> = Mutex::new(());
 
 /// Nested dissection by METIS; `None` if it fails or the graph is too large for its 32-bit indices.
 fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {

@@ -21,6 +21,9 @@ output.history-every = 1
 step = [{ name = "fall", duration = 1.5e-4, increments = { fixed = 15 }, dynamic = {} }]
 "#;
 
+/// Cells of these blocks.
+const CELLS: f64 = 18.0 * 6.0 + 7.0 * 7.0;
+
 /// Whether there is a program for the ranks; says so if not. The binary looks there, too.
 fn built() -> bool {
     let own = Path::new(env!("CARGO_BIN_EXE_stickslip"));
@@ -124,8 +127,30 @@ fn pressed() -> String {
         )
 }
 
-/// Results with the built-in engine, and with MUMPS on ranks with these keys, which must be the same.
-fn compare(name: &str, case: &str, all: &[(&str, &str)]) {
+/// Who made the matrices of bodies: cells of each rank, bytes it was sent for them, entries that the first process made.
+struct Assembly {
+    cells: Vec<f64>,
+    bytes: Vec<f64>,
+    entries: f64,
+}
+
+fn assembly(summary: &str) -> Assembly {
+    let summary: serde_json::Value = serde_json::from_str(summary).expect("a summary");
+    let engine = &summary["engine"];
+    let list = |key: &str| -> Vec<f64> {
+        let numbers = engine[key].as_array().expect("a list").iter();
+        numbers.map(|n| n.as_f64().expect("a number")).collect()
+    };
+    Assembly {
+        cells: list("cells-of-ranks"),
+        bytes: list("bytes-of-ranks"),
+        entries: engine["entries-dealt"].as_f64().expect("a number"),
+    }
+}
+
+/// Results with the built-in engine, and with MUMPS on ranks with these keys, which must be the same. Returns who made the matrices in each of these runs.
+fn compare(name: &str, case: &str, all: &[(&str, &str)]) -> Vec<Assembly> {
+    let mut assemblies = Vec::new();
     let folder = place(name, case);
     let own = output(run(&folder, &["-o", "own"]));
     assert_eq!(code(&own), Some(0), "{}", text(&own.stderr));
@@ -144,8 +169,10 @@ fn compare(name: &str, case: &str, all: &[(&str, &str)]) {
         ] {
             assert!(summary.contains(part), "{part} in {summary}");
         }
+        assemblies.push(assembly(&summary));
         assert_clean(&folder);
     }
+    assemblies
 }
 
 #[test]
@@ -154,8 +181,61 @@ fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
         return;
     }
     let all = [("1", ""), ("2", ""), ("3", ", spread = true")];
-    compare("motion", THROWN, &all);
-    compare("rest", &pressed(), &all);
+    for motion in compare("motion", THROWN, &all) {
+        assert!(motion.cells.is_empty() && motion.entries > 0.0);
+    }
+    let rest = compare("rest", &pressed(), &all);
+    let of_one = rest[0].bytes[0];
+    for (ranks, rest) in (1..).zip(&rest) {
+        // Each makes the matrices of its part of the cells, the first process none.
+        assert_eq!(rest.entries, 0.0);
+        assert_eq!(rest.cells.len(), ranks);
+        assert_eq!(rest.cells.iter().sum::<f64>(), CELLS);
+        let largest = |list: &[f64]| list.iter().fold(0.0, |m: f64, x| m.max(*x));
+        let share = 1.0 / ranks as f64;
+        assert!(largest(&rest.cells) <= 1.1 * share * CELLS + 2.0);
+        // Beside its cells there is the head of a file for each body, and points that it shares with others.
+        assert!(largest(&rest.bytes) <= (share + 0.2) * of_one);
+    }
+}
+
+/// Other elements and materials than those above: what one word of the problem file makes of it.
+#[test]
+fn cells_of_all_sorts_are_made_by_the_ranks() {
+    if !built() {
+        return;
+    }
+    const STRAIN: &str = "plane-strain";
+    const STEEL: &str = "material = \"steel\" }";
+    const CONSTANT: &str =
+        "material.steel.isotropic = { young = 210e9, poisson = 0.3, density = 7800 }";
+    const GRADED: &str = r#"material.steel.isotropic = { young = 210e9, poisson = 0.3, density = 7800 }
+material.steel.temperature = 0
+material.steel.at = [{ temperature = 400, isotropic = { young = 90e9, poisson = 0.2 } }]
+initial.floor = { set = "floor", temperature.linear = { value = 0, point = [0, 0], gradient = [100, 0] } }
+initial.block = { set = "block", temperature.linear = { value = 0, point = [0, 0], gradient = [100, 50] } }"#;
+    for (name, old, new) in [
+        ("stress", STRAIN, "plane-stress"),
+        ("axis", STRAIN, "axisymmetric"),
+        (
+            "reduced",
+            STEEL,
+            "material = \"steel\", formulation = \"reduced\" }",
+        ),
+        (
+            "modes",
+            STEEL,
+            "material = \"steel\", formulation = \"incompatible-modes\" }",
+        ),
+        ("graded", CONSTANT, GRADED),
+    ] {
+        let case = pressed().replace(old, new);
+        assert_ne!(case, pressed());
+        for by_ranks in compare(name, &case, &[("2", "")]) {
+            assert_eq!(by_ranks.entries, 0.0);
+            assert_eq!(by_ranks.cells.iter().sum::<f64>(), CELLS);
+        }
+    }
 }
 
 /// Springs on an elastic body, which contact alone would hold along the floor, and on a rigid one: what is not of cells.
@@ -174,7 +254,11 @@ load.press = { set = "block.top", pressure.value = 1e8 }
         "support.top = { set = \"block.top\", x = 2e-4, y = -1e-3 }\n",
         springs,
     );
-    compare("springs", &case, &[("2", ""), ("3", ", spread = true")]);
+    for by_ranks in compare("springs", &case, &[("2", ""), ("3", ", spread = true")]) {
+        // The rigid wall is no body of cells to be factored.
+        assert_eq!(by_ranks.cells.iter().sum::<f64>(), CELLS);
+        assert!(by_ranks.entries > 0.0 && by_ranks.entries < 1000.0);
+    }
 }
 
 #[test]

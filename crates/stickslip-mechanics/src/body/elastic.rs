@@ -43,7 +43,7 @@ pub struct Elastic {
     pub(super) parts: Vec<Part>,
     /// Stiffness as it acts in the space (condensed for plane stress), by part.
     pub(super) acting: Vec<Stiffness>,
-    points: Vec<usize>,
+    pub(super) points: Vec<usize>,
     pub(super) temperatures: Option<Arc<Temperatures>>,
     pub(super) corotational: bool,
 }
@@ -110,16 +110,7 @@ impl Elastic {
             .collect();
         points.sort_unstable();
         points.dedup();
-        let acting = parts
-            .iter()
-            .map(|p| {
-                if in_plane_stress {
-                    plane_stress(&p.stiffness)
-                } else {
-                    p.stiffness
-                }
-            })
-            .collect();
+        let acting = acting_stiffness(space, &parts);
         Ok(Elastic {
             name,
             mesh,
@@ -275,6 +266,16 @@ impl Elastic {
     }
 }
 
+/// The stiffness of parts as it acts in the space: condensed for plane stress.
+pub(super) fn acting_stiffness(space: Space, parts: &[Part]) -> Vec<Stiffness> {
+    let in_plane_stress = matches!(space, Space::PlaneStress { .. });
+    let acting = |part: &Part| match in_plane_stress {
+        true => plane_stress(&part.stiffness),
+        false => part.stiffness,
+    };
+    parts.iter().map(acting).collect()
+}
+
 /// The first cell whose volume is not positive at a quadrature point.
 fn check_cells<const N: usize>(
     mesh: &Mesh,
@@ -308,6 +309,13 @@ fn check_cells<const N: usize>(
 }
 
 impl Elastic {
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        let of_block = |block: &Block| block.connectivity.len() / block.kind.node_count();
+        let blocks = self.parts.iter().map(|part| &self.mesh.blocks[part.block]);
+        blocks.map(of_block).sum()
+    }
+
     /// Points whose dofs the body couples, cell by cell.
     pub fn couplings(&self, visit: &mut dyn FnMut(&[usize])) {
         for part in &self.parts {

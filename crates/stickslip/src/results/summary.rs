@@ -137,6 +137,12 @@ pub struct EngineSummary {
     pub memory_of_rank: u64,
     /// See `memory-of-rank`.
     pub memory_of_all: u64,
+    /// Cells whose matrices each of them has made, added up over all bodies that were factored; empty where this process has made all.
+    pub cells_of_ranks: Vec<u64>,
+    /// What each of them was sent to make these of `[bytes]`.
+    pub bytes_of_ranks: Vec<u64>,
+    /// Entries of matrices of cells and springs that this process has made for them.
+    pub entries_dealt: u64,
 }
 
 impl From<EngineReport> for EngineSummary {
@@ -148,6 +154,9 @@ impl From<EngineReport> for EngineSummary {
             reproducible: report.reproducible,
             memory_of_rank: report.memory_of_rank,
             memory_of_all: report.memory_of_all,
+            cells_of_ranks: report.cells_of_ranks,
+            bytes_of_ranks: report.bytes_of_ranks,
+            entries_dealt: report.entries_dealt,
         }
     }
 }
@@ -340,7 +349,10 @@ crate::keep!(EngineSummary {
     ranks,
     reproducible,
     memory_of_rank,
-    memory_of_all
+    memory_of_all,
+    cells_of_ranks,
+    bytes_of_ranks,
+    entries_dealt
 });
 crate::keep!(Size {
     points,

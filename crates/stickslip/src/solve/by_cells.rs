@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use crate::body::Elastic;
-use crate::linear::{BlockCsr, Matrix, Summands};
+use crate::linear::{BlockCsr, Cells, Matrix, Summands};
 use crate::model::definition::{Model, Step};
 use crate::newton::condensed::Identity;
 use crate::system::{Dofs, Links};
@@ -55,13 +55,22 @@ impl ByCells {
         })
     }
 
+    /// The bodies that have some of these points.
+    fn within(&self, within: Range<usize>) -> impl Iterator<Item = &Elastic> {
+        let some = self
+            .bodies
+            .iter()
+            .filter(move |(points, _)| points.start < within.end && within.start < points.end);
+        some.map(|(_, elastic)| elastic)
+    }
+
     /// Hands out dense matrices, row by row, and their points.
     fn groups(&self, within: Range<usize>, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
-        for (points, elastic) in &self.bodies {
-            if points.start < within.end && within.start < points.end {
-                elastic.element_matrices(visit);
-            }
-        }
+        (self.within(within)).for_each(|elastic| elastic.element_matrices(visit));
+        self.spring_groups(visit);
+    }
+
+    fn spring_groups(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
         for &(dof, stiffness) in &self.springs {
             let (points, dense) = self.links.spring(dof, stiffness);
             visit(&points, &dense);
@@ -118,14 +127,15 @@ impl Matrix for ByCells {
     fn summands(&self, points: Range<usize>, visit: &mut Summands) {
         let dim = self.dofs.dim;
         self.groups(points, &mut |points, dense| {
-            let dof = |k: usize| points[k / dim] * dim + k % dim;
-            let width = points.len() * dim;
-            for (i, row) in dense.chunks_exact(width).enumerate() {
-                for (j, &value) in row.iter().enumerate() {
-                    visit(dof(i), dof(j), value);
-                }
-            }
+            each_entry(dim, points, dense, visit)
         });
+    }
+
+    fn cells(&self, points: Range<usize>) -> Option<Box<dyn Cells + '_>> {
+        Some(Box::new(CellsOf {
+            all: self,
+            bodies: self.within(points).collect(),
+        }))
     }
 
     fn kept(&self) -> Result<&BlockCsr, [u64; 2]> {
@@ -145,6 +155,47 @@ impl Matrix for ByCells {
             self.links.add_spring(&mut stiffness, dof, k);
         }
         stiffness
+    }
+}
+
+/// Cells that ranks of an engine may compute.
+struct CellsOf<'a> {
+    all: &'a ByCells,
+    bodies: Vec<&'a Elastic>,
+}
+
+impl Cells for CellsOf<'_> {
+    fn couplings(&self, visit: &mut dyn FnMut(&[usize])) {
+        self.bodies.iter().for_each(|body| body.couplings(visit));
+    }
+
+    fn portions(&self, cells: &[u32]) -> Vec<(Vec<usize>, Vec<u8>)> {
+        let (mut left, mut first) = (cells, 0);
+        let of_body = |body: &&Elastic| {
+            let behind = first + body.cells() as u32;
+            let (own, rest) = left.split_at(left.partition_point(|&cell| cell < behind));
+            let own: Vec<u32> = own.iter().map(|cell| cell - first).collect();
+            (left, first) = (rest, behind);
+            let (points, portion) = body.portion(&own);
+            (points, portion.to_bytes())
+        };
+        self.bodies.iter().map(of_body).collect()
+    }
+
+    fn others(&self, visit: &mut Summands) {
+        let dim = self.all.dofs.dim;
+        (self.all).spring_groups(&mut |points, dense| each_entry(dim, points, dense, visit));
+    }
+}
+
+/// Hands out the entries of a dense matrix over points.
+fn each_entry(dim: usize, points: &[usize], dense: &[f64], visit: &mut Summands) {
+    let dof = |k: usize| points[k / dim] * dim + k % dim;
+    let width = points.len() * dim;
+    for (i, row) in dense.chunks_exact(width).enumerate() {
+        for (j, &value) in row.iter().enumerate() {
+            visit(dof(i), dof(j), value);
+        }
     }
 }
 

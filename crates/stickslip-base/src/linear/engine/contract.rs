@@ -156,4 +156,10 @@ pub struct EngineReport {
     pub memory_of_rank: u64,
     /// The sum of what each of them has taken at most `[bytes]`.
     pub memory_of_all: u64,
+    /// Cells of all bodies whose matrices each of them has made; empty where this process has made all.
+    pub cells_of_ranks: Vec<u64>,
+    /// What each of them was sent for that `[bytes]`.
+    pub bytes_of_ranks: Vec<u64>,
+    /// Entries that this process has made for them, sums of which it has sent.
+    pub entries_dealt: u64,
 }

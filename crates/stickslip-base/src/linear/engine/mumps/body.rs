@@ -1,4 +1,5 @@
 use std::io;
+use std::path::Path;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -8,7 +9,7 @@ use super::options::MumpsOptions;
 use super::words::WordWriter;
 use crate::linear::engine::split::Split;
 use crate::linear::union::Union;
-use crate::linear::{LinearError, Matrix};
+use crate::linear::{LinearError, Matrix, Summands};
 use crate::machine;
 
 /// Bytes of a compliance, its copy in single precision and the work space, an entry.
@@ -28,9 +29,10 @@ pub(super) struct Body {
     pub note: Option<String>,
 }
 
-/// A matrix that was written: its file, and a number for each kept dof that those which hang together have in common.
+/// A matrix that was written: its file, whether ranks compute cells for it, and a number for each kept dof that those which hang together have in common.
 pub(super) struct Written {
     pub file: String,
+    pub by_ranks: bool,
     pub pieces: Vec<u32>,
 }
 
@@ -56,22 +58,52 @@ impl Body {
         }
     }
 
-    /// Writes the lower triangle as it is made, some entries for each rank: what is added up in several shares MUMPS adds up.
+    /// Writes what the ranks make the matrix of: the cells of each where they can be computed there, and what else it is a sum of, its lower triangle entry by entry. What
+    /// is in several shares MUMPS adds up.
     pub fn write(&self, matrix: &dyn Matrix) -> Result<Written, LinearError> {
         let (file, path) = self.job.new_file();
+        let mut union = Union::new(self.split.len());
+        let b = matrix.block_size();
+        let cells = matrix.cells(self.split.points(b));
+        match &cells {
+            Some(cells) => {
+                self.deal_cells(&**cells, b, &path, &mut union)?;
+                self.deal_entries(&path, &mut union, true, &mut |visit| cells.others(visit))?;
+            }
+            None => {
+                let (points, unkept) = (self.split.points(b), matrix.kept().is_err());
+                self.deal_entries(&path, &mut union, unkept, &mut |visit| {
+                    matrix.summands(points.clone(), visit);
+                })?;
+            }
+        }
+        let kept = self.split.interior.len()..self.split.len();
+        Ok(Written {
+            file,
+            by_ranks: cells.is_some(),
+            pieces: kept.map(|i| union.top(i) as u32).collect(),
+        })
+    }
+
+    /// Writes the lower triangle of what is handed out as it is made, some entries for each rank. Where `unchecked`, nobody has looked yet whether another body is coupled.
+    fn deal_entries(
+        &self,
+        path: &Path,
+        union: &mut Union,
+        unchecked: bool,
+        summands: &mut dyn FnMut(&mut Summands),
+    ) -> Result<(), LinearError> {
         let split = &self.split;
         let create = |rank: usize| WordWriter::new(&path.with_extension(rank.to_string()));
         let shares: io::Result<Vec<WordWriter>> = (0..self.options.ranks).map(create).collect();
         let mut shares = shares.map_err(|e| self.job.trouble(&e))?;
-        let mut union = Union::new(split.len());
         let mut entries: Vec<(u64, f64)> = Vec::new();
-        let (mut wrong, mut unwritten) = (None, None);
-        let (b, unkept) = (matrix.block_size(), matrix.kept().is_err());
-        matrix.summands(split.points(b), &mut |row, column, value| {
+        let (mut wrong, mut unwritten, mut count) = (None, None, 0);
+        summands(&mut |row, column, value| {
             let Some(i) = split.position(row).filter(|_| unwritten.is_none()) else {
                 return;
             };
-            if unkept && !split.contains(column) {
+            if unchecked && !split.contains(column) {
                 wrong.get_or_insert(LinearError::NotAnalysed {
                     dofs: [row, column],
                 });
@@ -83,6 +115,7 @@ impl Body {
                 wrong.get_or_insert(LinearError::NotFinite { dof: row });
             }
             union.join(i, j);
+            count += 1;
             entries.push(((i as u64) << 32 | j as u64, value));
             if entries.len() == TOGETHER {
                 unwritten = deal(&mut entries, &mut shares).err();
@@ -97,11 +130,8 @@ impl Body {
                 .and_then(|()| shares.into_iter().try_for_each(WordWriter::finish)),
         };
         written.map_err(|e| self.job.trouble(&e))?;
-        let kept = split.interior.len()..split.len();
-        Ok(Written {
-            file,
-            pieces: kept.map(|i| union.top(i) as u32).collect(),
-        })
+        self.job.dealt().entries += count;
+        Ok(())
     }
 }
 

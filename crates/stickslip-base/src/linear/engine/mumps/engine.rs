@@ -30,6 +30,7 @@ impl Mumps {
 impl Engine for Mumps {
     fn report(&self) -> EngineReport {
         let [rank, all] = &self.job.memory;
+        let dealt = self.job.dealt().clone();
         EngineReport {
             name: "mumps",
             version: self.job.version.clone(),
@@ -37,6 +38,9 @@ impl Engine for Mumps {
             reproducible: false,
             memory_of_rank: rank.load(Ordering::Relaxed),
             memory_of_all: all.load(Ordering::Relaxed),
+            cells_of_ranks: dealt.cells,
+            bytes_of_ranks: dealt.bytes,
+            entries_dealt: dealt.entries,
         }
     }
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::body::{Body, Written};
 use super::number::Number;
 use super::options::MumpsOptions;
-use super::refusal::refusal;
+use super::refusal::{not_finite, refusal};
 use super::root::Root;
 use super::words::WordReader;
 use crate::linear::engine::contract::{FactorEffort, Interior, Ordered};
@@ -93,7 +93,11 @@ impl Factor {
             number: body.job.take_number()?,
             factored: false,
         };
-        let Written { file, pieces } = body.write(matrix)?;
+        let Written {
+            file,
+            by_ranks,
+            pieces,
+        } = body.write(matrix)?;
         let (n, c) = (body.split.len(), body.split.root.len());
         let MumpsOptions {
             out_of_core,
@@ -102,14 +106,20 @@ impl Factor {
             ..
         } = body.options;
         let answer = body.job.ask(&format!(
-            "factor {} {n} {c} {} {:e} {} {} {file}",
+            "factor {} {n} {c} {} {:e} {} {} {} {file}",
             number.number,
             u8::from(out_of_core),
             low_rank.unwrap_or(0.0),
             memory.map_or(0, |bytes| (bytes / MIB).max(1)),
             u8::from(body.spread),
+            u8::from(by_ranks),
         ))?;
-        let figures = answer.map_err(|words| refusal(&words))?;
+        let figures = answer.map_err(|words| match not_finite(&words) {
+            Some(row) => LinearError::NotFinite {
+                dof: body.split.dof(row.min(n - 1)),
+            },
+            None => refusal(&words),
+        })?;
         number.factored = true;
         let figure = |at: usize| figures.get(at).and_then(|w| w.parse::<f64>().ok());
         for (at, most) in body.job.memory.iter().enumerate() {

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::folder::Folder;
@@ -13,7 +13,7 @@ use super::words::{WordReader, WordWriter};
 use crate::linear::LinearError;
 
 /// Version of the protocol.
-const PROTOCOL: &str = "2";
+const PROTOCOL: &str = "3";
 
 /// Bodies with a factor at a time.
 const BODIES: usize = 256;
@@ -43,6 +43,17 @@ pub(super) struct Job {
     files: AtomicU64,
     /// Most memory of a rank so far, and that of all of them `[bytes]`.
     pub memory: [AtomicU64; 2],
+    dealt: Mutex<Dealt>,
+}
+
+/// What the ranks were given for the matrices of all bodies.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Dealt {
+    /// Cells that each rank has computed, and the bytes it was sent for them.
+    pub cells: Vec<u64>,
+    pub bytes: Vec<u64>,
+    /// Entries that were computed here.
+    pub entries: u64,
 }
 
 #[derive(Debug)]
@@ -102,6 +113,7 @@ impl Job {
             alive: AtomicBool::new(true),
             files: AtomicU64::new(0),
             memory: Default::default(),
+            dealt: Mutex::default(),
         })
     }
 
@@ -119,6 +131,11 @@ impl Job {
             Some(over) => over.clone(),
             None => talk.died("has died", DIED),
         })
+    }
+
+    /// What the ranks were given so far.
+    pub fn dealt(&self) -> MutexGuard<'_, Dealt> {
+        self.dealt.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub fn folder(&self) -> &Path {

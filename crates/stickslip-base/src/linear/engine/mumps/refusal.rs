@@ -3,6 +3,17 @@ use crate::linear::LinearError;
 /// What to try where memory does not suffice.
 const MEMORY: &str = "more ranks on more machines, `solver.engine.mumps.out-of-core = true`, a larger `solver.engine.mumps.memory`, or `low-rank`";
 
+/// No code of MUMPS: the row where the matrix that a rank has computed is no number.
+const NOT_FINITE: &str = "1";
+
+/// The row in which cells that a rank has computed are no numbers, if it complains of that.
+pub(super) fn not_finite(words: &[String]) -> Option<usize> {
+    match words {
+        [code, row, ..] if code == NOT_FINITE => row.parse().ok(),
+        _ => None,
+    }
+}
+
 /// What MUMPS complains of: `INFOG(1) INFOG(2) PHASE`.
 pub(super) fn refusal(words: &[String]) -> LinearError {
     let number = |at: usize| words.get(at).and_then(|w| w.parse::<i64>().ok());
