@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::linear::{Linear, Pair, add_pairs};
+use super::map::Over;
 use super::outcome::{ModalOutcome, Mode};
 use super::quadratic::{Eigen, residuals, solve};
 use super::shifted::{Root, Shifted};
@@ -10,9 +11,10 @@ use super::{export, map, sensitivity};
 use crate::error::RunError;
 use crate::linear::Complex;
 use crate::math::vector::dot;
+use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::modal::{ComplexPlan, MapPlan};
+use crate::model::modal::{ComplexPlan, MapOver, MapPlan};
 
 /// Residual of the equations of motion above which a note says so.
 const DOUBTFUL: f64 = 1e-4;
@@ -20,7 +22,7 @@ const DOUBTFUL: f64 = 1e-4;
 /// The modes that a step asks for.
 pub(crate) fn modes(
     model: &Model,
-    frame: &Frame,
+    (frame, contact): (&Frame, &mut Contact),
     linear: &Linear,
     plan: &ComplexPlan,
 ) -> Result<ModalOutcome, RunError> {
@@ -38,7 +40,7 @@ pub(crate) fn modes(
         notes: notes(linear),
         ..ModalOutcome::default()
     };
-    let (open, _) = residuals(&shifted, &found, 1.0, &mut solves);
+    let (open, _) = residuals(&shifted, &found, linear.rub(1.0), &mut solves);
     for (eigen, residual) in found.iter().zip(open) {
         let mut mode = Mode {
             residual,
@@ -59,14 +61,23 @@ pub(crate) fn modes(
         out.notes.extend(notes);
     }
     if plan.map.is_some() || plan.export {
-        let largest = plan.map.as_ref().map_or(1.0, MapPlan::largest);
-        let mut reduced = map::space(&shifted, asked, largest, &mut solves);
+        let over = plan.map.as_ref().map_or(MapOver::default(), |m| m.over);
+        let mut at_speed = |factor: f64| {
+            let mut found = linear.at_speed(model, frame, contact, factor);
+            if !plan.friction_damping {
+                found.drag.clear();
+            }
+            found
+        };
+        let mut over = Over::new(&shifted, over, &mut at_speed);
+        let ends = plan.map.as_ref().map_or(vec![1.0], MapPlan::ends);
+        let reduced = map::space(&mut over, asked, &ends, &mut solves);
         if plan.export {
             out.export = export::matrices(&shifted);
             out.arrays = export::arrays(&shifted, &root, &reduced);
         }
-        if let Some(plan_of_map) = &plan.map {
-            let map = map::friction(&shifted, &mut reduced, plan_of_map, asked, &mut solves);
+        if let Some(plan) = &plan.map {
+            let map = map::rows(&mut over, reduced, plan, asked, &mut solves);
             out.notes.extend(map::notes(&map));
             out.map = Some(map);
         }

@@ -202,7 +202,7 @@ impl Shaken<'_> {
     /// `f - (K + i ω C - ω² M) x`.
     fn open(&self, x: &Pair, omega: f64) -> Pair {
         let linear = self.shifted.linear;
-        let mut parts = [0, 1].map(|q| linear.forces(&x[q], 1.0));
+        let mut parts = [0, 1].map(|q| linear.forces(&x[q], linear.rub(1.0)));
         for (part, x) in parts.iter_mut().zip(x) {
             for (d, image) in &self.modal {
                 let along = d * dot(image, x);
@@ -282,7 +282,7 @@ fn notes(
     // Without friction nothing grows.
     let [value, omega] = match linear.friction.is_empty() && linear.drag.is_empty() {
         true => [0.0; 2],
-        false => reduced.fastest(1.0, (plan.count, f64::INFINITY)),
+        false => reduced.fastest((plan.count, f64::INFINITY)),
     };
     if value > UNSTABLE * value.hypot(omega) {
         notes.push(format!(

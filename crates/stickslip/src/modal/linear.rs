@@ -7,6 +7,7 @@ use crate::contact::interface::LinearPoint;
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::linear::BlockCsr;
+use crate::math::scale;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -32,6 +33,8 @@ pub(crate) struct Pair {
     pub interface: usize,
     /// Number of the contact point in the interface.
     pub point: usize,
+    /// Whether it follows from how surfaces approach, and not from the pressure at hand.
+    pub approach: bool,
 }
 
 impl Pair {
@@ -42,6 +45,14 @@ impl Pair {
             false => (&self.left, &self.right),
         }
     }
+}
+
+/// Friction: what it adds to stiffness and damping. Factors: of what follows motion across the surface, and of what goes with the pressure at hand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rub<'a> {
+    pub friction: &'a [Pair],
+    pub drag: &'a [Pair],
+    pub factors: [f64; 2],
 }
 
 /// Matrices of small motions: `M ẍ + (C + f Σ drag) ẋ + (K + f Σ friction) x = 0` with the friction `f` relative to that of the state.
@@ -87,9 +98,19 @@ impl Linear {
             parts.couple(&model.links, block, (stiffness, damping));
         }
         let lines = points(frame, contact, t, step.end - step.start);
-        let mut linear = Linear {
-            stiffness: BlockCsr::empty(model.dofs.dim),
-            mass: BlockCsr::empty(model.dofs.dim),
+        let mut linear = Linear::empty(model.dofs.dim, fixed);
+        linear.add_all(model, &lines, &mut parts);
+        parts.assemble(model, contact, solver, &mut linear);
+        match linear.stiffness.first_not_finite() {
+            None => Ok(linear),
+            Some(_) => Err(fault(frame, "the linearised stiffness is not finite")),
+        }
+    }
+
+    fn empty(dim: usize, fixed: Vec<bool>) -> Self {
+        Linear {
+            stiffness: BlockCsr::empty(dim),
+            mass: BlockCsr::empty(dim),
             damping: None,
             friction: Vec::new(),
             drag: Vec::new(),
@@ -97,13 +118,46 @@ impl Linear {
             sliding: Vec::new(),
             points: [0; 3],
             mu: 0.0,
-        };
-        linear.add_all(model, &lines, &mut parts);
-        parts.assemble(model, contact, solver, &mut linear);
-        match linear.stiffness.first_not_finite() {
-            None => Ok(linear),
-            Some(_) => Err(fault(frame, "the linearised stiffness is not finite")),
         }
+    }
+
+    /// All friction times a factor.
+    pub fn rub(&self, factor: f64) -> Rub<'_> {
+        Rub {
+            friction: &self.friction,
+            drag: &self.drag,
+            factors: [factor; 2],
+        }
+    }
+
+    /// Friction alone, at so many times the speed of sliding and the pressures of the state: laws are evaluated there. The rest is as it was.
+    pub fn at_speed(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        factor: f64,
+    ) -> Linear {
+        let step = &model.steps[frame.step];
+        let t = step.start + SOON * (step.end - step.start);
+        let all = contact.interfaces.iter();
+        let before: Vec<_> = all.map(|i| (i.directives.steady, i.belt.clone())).collect();
+        for interface in &mut contact.interfaces {
+            for row in &mut interface.belt {
+                row[1..].iter_mut().for_each(|v| *v *= factor);
+            }
+            if let Some(steady) = &mut interface.directives.steady {
+                steady.velocity = scale(factor, steady.velocity);
+                steady.turning = scale(factor, steady.turning);
+            }
+        }
+        let lines = points(frame, contact, t, step.end - step.start);
+        for (interface, (steady, belt)) in contact.interfaces.iter_mut().zip(before) {
+            (interface.directives.steady, interface.belt) = (steady, belt);
+        }
+        let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone());
+        linear.add_all(model, &lines, &mut Parts::default());
+        linear
     }
 
     /// Adds the points of all interfaces.
@@ -185,17 +239,18 @@ impl Linear {
             kept.collect()
         };
         let unit = |q: usize| std::array::from_fn(|i| if i == q { 1.0 } else { 0.0 });
-        let pair = |left: [f64; 3], right: [f64; 3]| Pair {
+        let pair = |left: [f64; 3], right: [f64; 3], approach: bool| Pair {
             left: sum(left),
             right: sum(right),
             interface,
             point: point.point,
+            approach,
         };
-        let friction = pair([0.0, k[1][0], k[2][0]], unit(0));
+        let friction = pair([0.0, k[1][0], k[2][0]], unit(0), true);
         let drags = [
-            pair([0.0, c[1][0], c[2][0]], unit(0)),
-            pair(unit(1), [0.0, c[1][1], c[1][2]]),
-            pair(unit(2), [0.0, c[2][1], c[2][2]]),
+            pair([0.0, c[1][0], c[2][0]], unit(0), true),
+            pair(unit(1), [0.0, c[1][1], c[1][2]], false),
+            pair(unit(2), [0.0, c[2][1], c[2][2]], false),
         ];
         let acts = |p: &Pair| !p.left.is_empty() && !p.right.is_empty();
         self.friction.extend(Some(friction).filter(acts));

@@ -100,19 +100,21 @@ pub struct Mode {
     pub shape: [Vec<f64>; 2],
 }
 
-/// Frequencies and growth over the friction relative to that of the step.
+/// Frequencies and growth over friction, speed or load relative to that of the step.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct FrictionMap {
+    /// What is multiplied: `friction`, `speed` or `load`.
+    pub over: String,
     /// Mean coefficient of friction of the step: limit over pressure, weighted by pressure.
     pub mu: f64,
     /// Dimension of the space in which the map was made.
     pub dimension: usize,
     /// Rows by factor.
     pub rows: Vec<MapRow>,
-    /// Factors at which the largest growth rate comes up through zero, with the frequency there.
+    /// Factors at which the largest growth rate comes up through zero, over speed and load down through it as well, with the frequency there.
     pub critical: Vec<[f64; 2]>,
-    /// The largest residual of unstable modes in the equations of motion of all dofs.
+    /// The largest residual of unstable modes in the equations of motion of all dofs, at some of the factors.
     pub residual: f64,
     /// Critical factor without the damping of bodies, where there is one and with damping the factor is less.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -123,8 +125,10 @@ pub struct FrictionMap {
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct MapRow {
-    /// Friction relative to that of the step.
+    /// Friction, speed or load relative to that of the step.
     pub factor: f64,
+    /// Mean coefficient of friction.
+    pub mu: f64,
     /// Frequency and growth by mode.
     pub modes: Vec<[f64; 2]>,
 }
@@ -224,6 +228,7 @@ crate::keep!(Mode {
     shape
 });
 crate::keep!(FrictionMap {
+    over,
     mu,
     dimension,
     rows,
@@ -242,7 +247,7 @@ crate::keep!(ResponseRow {
     values,
     shape
 });
-crate::keep!(MapRow { factor, modes });
+crate::keep!(MapRow { factor, mu, modes });
 crate::keep!(Sensitivity {
     mode,
     of,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::linear::{Linear, Pair, add_pairs};
+use super::linear::{Linear, Pair, Rub, add_pairs};
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, Krylov, arnoldi};
 
@@ -50,8 +50,7 @@ impl<'a> Companion<'a> {
             Pair {
                 left: left.clone(),
                 right: right.clone(),
-                interface: pair.interface,
-                point: pair.point,
+                ..*pair
             }
         });
         Companion {
@@ -159,11 +158,11 @@ pub(crate) fn by_frequency(modes: &mut [Eigen]) {
     });
 }
 
-/// What is left of the equations of motion with all friction times `factor`, real and imaginary part.
-pub(crate) fn open(linear: &Linear, eigen: &Eigen, factor: f64) -> [Vec<f64>; 2] {
+/// What is left of the equations of motion with such friction, real and imaginary part.
+pub(crate) fn open(linear: &Linear, eigen: &Eigen, rub: Rub) -> [Vec<f64>; 2] {
     let [l, w] = eigen.value;
     let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
-    let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], factor));
+    let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], rub));
     let mut open = [0, 1].map(|_| vec![0.0; linear.size()]);
     for (q, [a, b]) in powers.into_iter().enumerate() {
         for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {
@@ -178,10 +177,10 @@ pub(crate) fn open(linear: &Linear, eigen: &Eigen, factor: f64) -> [Vec<f64>; 2]
 pub(crate) fn residuals(
     shifted: &Shifted,
     modes: &[Eigen],
-    factor: f64,
+    rub: Rub,
     solves: &mut usize,
 ) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let open = modes.iter().flat_map(|e| open(shifted.linear, e, factor));
+    let open = modes.iter().flat_map(|e| open(shifted.linear, e, rub));
     let open: Vec<Vec<f64>> = open.collect();
     let solved = shifted.solved(&open);
     *solves += solved.len();

@@ -109,7 +109,7 @@ fn changes(
         }
         out
     };
-    let below = project(&|x| linear.forces(x, 1.0), &|[l, w]| {
+    let below = project(&|x| linear.forces(x, linear.rub(1.0)), &|[l, w]| {
         [[0.0; 2], [1.0, 0.0], [2.0 * l, 2.0 * w]]
     });
     let each = quantities.iter().map(|quantity| {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::linear::{Linear, Pair, add_pairs, fault, product};
+use super::linear::{Linear, Pair, Rub, add_pairs, fault, product};
 use crate::error::RunError;
 use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic};
 use crate::math::vector::dot;
@@ -240,12 +240,15 @@ impl Root {
 }
 
 impl Linear {
-    /// Forces of stiffness, damping and mass of a displacement, with friction.
-    pub fn forces(&self, x: &[f64], factor: f64) -> [Vec<f64>; 3] {
+    /// Forces of stiffness, damping and mass of a displacement, with such friction.
+    pub fn forces(&self, x: &[f64], rub: Rub) -> [Vec<f64>; 3] {
         let mut k = self.times(&self.stiffness, x);
-        add_pairs(&self.friction, factor, x, &mut k);
+        add_pairs(rub.friction, rub.factors[0], x, &mut k);
         let mut c = self.damped(x);
-        add_pairs(&self.drag, factor, x, &mut c);
+        for (approach, factor) in [true, false].into_iter().zip(rub.factors) {
+            let own = rub.drag.iter().filter(|p| p.approach == approach);
+            add_pairs(own, factor, x, &mut c);
+        }
         [k, c, self.times(&self.mass, x)]
     }
 }

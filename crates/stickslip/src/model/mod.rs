@@ -31,8 +31,8 @@ pub use kick::{Growth, Kick, Share};
 pub use ledger::{EnergyLedger, EnergyQuality};
 pub use limits::{GateMode, Limits};
 pub use modal::{
-    ComplexPlan, Frequencies, HarmonicPlan, KickPlan, MapPlan, Modal, ModalDamping, RealPlan,
-    SteadyPlan,
+    ComplexPlan, Frequencies, HarmonicPlan, KickPlan, MapOver, MapPlan, Modal, ModalDamping,
+    RealPlan, SteadyPlan,
 };
 pub use scene::Scene;
 pub use setup::Setup;

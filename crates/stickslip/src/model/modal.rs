@@ -148,9 +148,36 @@ impl ModalDamping {
     }
 }
 
-/// Friction relative to that of the step.
+/// What a map multiplies: the contact state of the step is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum MapOver {
+    /// Friction: what it adds to stiffness and damping.
+    #[default]
+    Friction,
+    /// The speed of sliding: laws are evaluated at each, with their coefficients and slopes, at the pressures of the step. Exact where pressures do not depend on friction.
+    Speed,
+    /// The pressures at which friction damps, as a load does that presses in proportion on contact of which stiffness and damping do not depend on it.
+    Load,
+}
+
+impl MapOver {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            MapOver::Friction => "friction",
+            MapOver::Speed => "speed",
+            MapOver::Load => "load",
+        }
+    }
+}
+
+/// A map over a factor of something.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapPlan {
+    /// What is multiplied.
+    pub over: MapOver,
     /// Smallest and largest factor.
     pub range: [f64; 2],
     /// How many factors.
@@ -158,9 +185,20 @@ pub struct MapPlan {
 }
 
 impl MapPlan {
-    /// The largest factor by its size.
-    pub(crate) fn largest(&self) -> f64 {
-        self.range[1].abs().max(self.range[0].abs())
+    /// The factors at which the space of a map has to be good.
+    pub(crate) fn ends(&self) -> Vec<f64> {
+        match self.over {
+            MapOver::Speed => self.range.to_vec(),
+            _ => vec![self.range[1].abs().max(self.range[0].abs())],
+        }
+    }
+
+    /// All factors.
+    pub(crate) fn factors(&self) -> Vec<f64> {
+        let ([from, last], points) = (self.range, self.points.max(2));
+        let step = (last - from) / (points - 1) as f64;
+        let inner = (0..points - 1).map(|k| from + step * k as f64);
+        inner.chain([last]).collect()
     }
 }
 

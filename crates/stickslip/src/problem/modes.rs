@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::interface::Steady;
 use crate::math::{Vec3, norm};
-use crate::model::{ComplexPlan, KickPlan, MapPlan, Modal, RealPlan, SteadyPlan};
+use crate::model::{ComplexPlan, KickPlan, MapOver, MapPlan, Modal, RealPlan, SteadyPlan};
 
 /// `modes` of a step: real modes, the lowest first. An empty table takes the defaults.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,7 +65,7 @@ pub struct ComplexModes {
     /// Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and what Abaqus takes
     /// if not told otherwise.
     pub friction_damping: bool,
-    /// Frequencies and growth for other friction: the contact state is kept, and what friction adds to the equations is multiplied.
+    /// Frequencies and growth for other friction, speed or load: the contact state is kept, and what friction adds to the equations is multiplied, or evaluated anew.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<FrictionRange>,
     /// Whether eigenvalues are differentiated by friction, moduli and densities, the contact state kept.
@@ -97,6 +97,7 @@ impl ComplexModes {
             shapes: self.shapes,
             friction_damping: self.friction_damping,
             map: self.map.as_ref().map(|m| MapPlan {
+                over: m.over,
                 range: [m.from, m.to],
                 points: m.points,
             }),
@@ -132,12 +133,14 @@ impl Kick {
     }
 }
 
-/// Friction relative to that of the step.
+/// A map of the modes over a factor of the friction, the speed or the load of the step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct FrictionRange {
-    /// Smallest factor `[-]`.
+    /// What is multiplied.
+    pub over: MapOver,
+    /// Smallest factor `[-]`; above 0 where it is one of the speed.
     #[cfg_attr(feature = "schema", schemars(extend("minimum" = 0)))]
     pub from: f64,
     /// Largest factor `[-]`.
@@ -151,6 +154,7 @@ pub struct FrictionRange {
 impl Default for FrictionRange {
     fn default() -> Self {
         FrictionRange {
+            over: MapOver::default(),
             from: 0.0,
             to: 2.0,
             points: 51,

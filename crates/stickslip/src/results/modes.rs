@@ -146,7 +146,7 @@ fn map_table(map: &FrictionMap) -> Table {
         table.columns.push(map.rows.iter().map(of).collect());
     };
     column("factor".into(), &|r| r.factor);
-    column("mu".into(), &|r| r.factor * map.mu);
+    column("mu".into(), &|r| r.mu);
     column("largest-growth".into(), &|r| {
         r.modes.iter().fold(f64::NEG_INFINITY, |m, v| m.max(v[1]))
     });

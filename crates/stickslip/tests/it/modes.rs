@@ -643,11 +643,10 @@ fn modes_of_equal_bodies_come_as_often_as_there_are_bodies() {
     }
 }
 
-#[test]
-fn a_mass_on_a_belt_loses_stability_at_the_speed_of_hopf() {
-    let at = |speed: f64| {
-        let law = "friction.exponential-decay = { static = 0.5, kinetic = 0.3, decay = 10 }";
-        let more = r#"
+/// BENCHMARKS Q2: a mass on a belt, with friction that falls with the speed.
+fn mass_on_a_belt(speed: f64, asked: &str) -> ModalOutcome {
+    let law = "friction.exponential-decay = { static = 0.5, kinetic = 0.3, decay = 10 }";
+    let more = r#"
 load.press = { set = "centre", nodal-force = { value = [0, -10] } }
 coupling.k.spring = { stiffness = 100.0, terms = [{ set = "centre", component = "x" }] }
 coupling.d.dashpot = { coefficient = 2.0, terms = [{ set = "centre", component = "x" }] }
@@ -655,11 +654,14 @@ support.guide = { set = "block", hold = ["y"] }
 [[step]]
 supports = []
 steady = {}
-[[step]]
-complex-modes = { count = 1 }
 "#;
-        worst(&modes(&block(&format!("{speed:?}"), law, more)))
-    };
+    let asked = format!("{more}[[step]]\ncomplex-modes = {{ count = 1{asked} }}\n");
+    modes(&block(&format!("{speed:?}"), law, &asked))
+}
+
+#[test]
+fn a_mass_on_a_belt_loses_stability_at_the_speed_of_hopf() {
+    let at = |speed: f64| worst(&mass_on_a_belt(speed, ""));
     for (speed, growth, omega) in [
         (0.05, 5.065306597, 8.622219498),
         (0.1, 2.678794412, 9.634524404),
@@ -672,6 +674,153 @@ complex-modes = { count = 1 }
     let hopf = 0.1 * 10.0_f64.ln();
     near(at(hopf)[0], 0.0, 1e-9);
     assert!(at(hopf * 1.001)[0] < 0.0);
+}
+
+/// Other speeds and loads than those of the step, from its matrices: `λ² + (2 - 20 f exp(-10 s V)) λ + 100 = 0`.
+#[test]
+fn maps_over_speed_and_load_have_the_roots_of_the_mass_on_a_belt() {
+    let speed = 0.1;
+    for (over, range, critical, side) in [
+        ("speed", "from = 0.5, to = 3", 10.0_f64.ln(), "below"),
+        ("load", "from = 0, to = 2", 0.1 * 1.0_f64.exp(), "above"),
+    ] {
+        let asked = format!(", map = {{ over = \"{over}\", {range}, points = 26 }}");
+        let outcome = mass_on_a_belt(speed, &asked);
+        let map = outcome.map.as_ref().expect("a map");
+        assert_eq!(map.rows.len(), 26);
+        for row in &map.rows {
+            let [s, f] = match over {
+                "speed" => [row.factor, 1.0],
+                _ => [1.0, row.factor],
+            };
+            let c = 2.0 - 20.0 * f * (-10.0 * s * speed).exp();
+            let [[frequency, growth]] = row.modes[..] else {
+                panic!("{:?}", row.modes);
+            };
+            near(growth, -0.5 * c, 1e-9);
+            near(TAU * frequency, (100.0 - 0.25 * c * c).sqrt(), 1e-9);
+            near(row.mu, 0.3 + 0.2 * (-10.0 * s * speed).exp(), 1e-12);
+        }
+        assert_eq!(map.critical.len(), 1, "{:?}", map.critical);
+        near(map.critical[0][0], critical, 1e-8);
+        near(TAU * map.critical[0][1], 10.0, 1e-6);
+        let told = format!("unstable {side} {critical:.6} times the {over}");
+        assert!(
+            outcome.notes.iter().any(|n| n.contains(&told)),
+            "{:?}",
+            outcome.notes
+        );
+    }
+    assert!(
+        complaint(&block(
+            "-1",
+            "friction.coulomb = { mu = 0.5 }",
+            "[[step]]\nsteady = {}\n[[step]]\ncomplex-modes = { map = { over = \"speed\" } }\n"
+        ))
+        .contains("begins above 0")
+    );
+}
+
+/// What a map says of another load is what an analysis finds there: springs that couple, contact that damps the approach, and friction with a slope.
+#[test]
+fn a_map_over_the_load_agrees_with_an_analysis_there() {
+    let at = |load: f64, asked: &str| {
+        let springs = r#"
+coupling.a.spring = { stiffness = 11.0, terms = [{ set = "centre", component = "x", factor = -0.8 }, { set = "centre", component = "y", factor = 0.6 }] }
+coupling.b.spring = { stiffness = 20.0, terms = [{ set = "centre", component = "x", factor = 0.8 }, { set = "centre", component = "y", factor = 0.6 }] }
+"#;
+        let law = "normal.linear = { c = 11.0 }, damping.viscous = { coefficient = 0.05 }, friction.exponential-decay = { static = 0.8, kinetic = 0.4, decay = 2 }";
+        let force = -0.3 * load;
+        let steps = format!(
+            "load.press = {{ set = \"centre\", nodal-force = {{ value = [0, {force:?}] }} }}\n[[step]]\nsteady = {{}}\n"
+        );
+        let asked = format!("[[step]]\ncomplex-modes = {{ count = 3{asked} }}\n");
+        modes(&block("-0.4", law, &format!("{springs}{steps}{asked}")))
+    };
+    let all = at(1.0, ", map = { over = \"load\", to = 4, points = 5 }");
+    agrees(&all, &[(1, &at(1.0, "")), (4, &at(4.0, ""))]);
+}
+
+/// Rows of a map are the modes of analyses, and not all the same.
+fn agrees(map: &ModalOutcome, alone: &[(usize, &ModalOutcome)]) {
+    let rows = &map.map.as_ref().expect("a map").rows;
+    for (row, alone) in alone {
+        assert_eq!(rows[*row].modes.len(), alone.modes.len());
+        for ([frequency, growth], mode) in rows[*row].modes.iter().zip(&alone.modes) {
+            let size = mode.growth.hypot(TAU * mode.frequency);
+            near(*growth, mode.growth, 1e-7 * size);
+            near(TAU * frequency, TAU * mode.frequency, 1e-7 * size);
+        }
+    }
+    let [one, other] = [alone[0].1, alone[1].1].map(worst);
+    assert!((one[0] - other[0]).abs() > 1e-3 * one[0].abs());
+}
+
+/// A pad with a back, pressed on a disc that slides below.
+fn pad_in_space(speed: f64, asked: &str) -> ModalOutcome {
+    modes(&format!(
+        r#"
+format = 1
+model.space = "solid"
+body.pad = {{ generate.box = {{ to = [0.1, 0.05, 0.02], cells = [8, 4, 2] }}, material = "lining", rayleigh = {{ stiffness = 1e-6 }} }}
+body.back = {{ generate.box = {{ from = [0, 0, 0.02], to = [0.1, 0.05, 0.03], cells = [8, 4, 1] }}, material = "steel", rayleigh = {{ stiffness = 1e-6 }} }}
+material.lining.isotropic = {{ young = 2e9, poisson = 0.3, density = 2500 }}
+material.steel.isotropic = {{ young = 2e11, poisson = 0.3, density = 7850 }}
+obstacle.disc.plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}
+interface.glue = {{ secondary = "pad.top", primary = "back.bottom", tied = true }}
+interface.rub = {{ secondary = "pad.bottom", primary = "disc", normal.linear = {{ c = 5e11 }}, friction.coulomb = {{ mu = 0.5 }}, primary-velocity = [{speed:?}, 0, 0] }}
+set.left = {{ of = "back", point = [0, 0.025, 0.03] }}
+set.right = {{ of = "back", point = [0.1, 0.025, 0.03] }}
+coupling.lean.spring = {{ stiffness = 2e8, terms = [{{ set = "left", component = "x", factor = 0.8 }}, {{ set = "left", component = "z", factor = -0.6 }}] }}
+coupling.guide.spring = {{ stiffness = 1e8, terms = [{{ set = "right", component = "x" }}] }}
+support.left = {{ set = "left", y = 0 }}
+support.right = {{ set = "right", y = 0 }}
+load.press = {{ set = "back.top", pressure = {{ value = 1e6 }} }}
+output.every = 0
+[[step]]
+steady = {{}}
+[[step]]
+complex-modes = {{ shapes = false, {asked} }}
+"#
+    ))
+}
+
+#[test]
+fn a_map_over_the_speed_agrees_with_an_analysis_there() {
+    let all = pad_in_space(
+        0.1,
+        "count = 6, map = { over = \"speed\", from = 1, to = 3, points = 3 }",
+    );
+    let [slow, fast] = [0.1, 0.3].map(|speed| pad_in_space(speed, "count = 6"));
+    agrees(&all, &[(0, &slow), (2, &fast)]);
+}
+
+/// Fifty coefficients cost no more solutions than the modes of one, and the modes of that are among them.
+#[test]
+fn a_map_of_a_pad_in_space_costs_no_more_than_one_analysis() {
+    let one = pad_in_space(5.0, "count = 20");
+    let all = pad_in_space(5.0, "count = 20, map = { to = 1.96, points = 50 }");
+    assert!(one.points[1] > 40, "{:?}", one.points);
+    let map = all.map.as_ref().expect("a map");
+    assert_eq!(map.rows.len(), 50);
+    let row = &map.rows[25];
+    near(row.factor, 1.0, 1e-12);
+    for (mode, [frequency, growth]) in one.modes.iter().zip(&row.modes) {
+        let size = mode.growth.hypot(TAU * mode.frequency);
+        near(*growth, mode.growth, 1e-6 * size);
+        near(TAU * frequency, TAU * mode.frequency, 1e-6 * size);
+    }
+    println!(
+        "{} solutions for one, {} with the map, in {} dimensions, residual {:e}",
+        one.solves, all.solves, map.dimension, map.residual
+    );
+    assert!(map.residual < 1e-4, "{:e}", map.residual);
+    assert!(
+        all.solves <= 2 * one.solves,
+        "{} {}",
+        one.solves,
+        all.solves
+    );
 }
 
 /// A pad that a belt drags along, of which friction falls with speed, and one that sticks to a wall.

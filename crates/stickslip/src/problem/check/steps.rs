@@ -7,6 +7,7 @@ use super::super::{Cycles, Increments, Problem, Step};
 use super::cycles;
 use super::findings::Findings;
 use crate::body::loads::LoadKind;
+use crate::model::MapOver;
 use crate::registry::Family;
 use crate::time::scheme::Method;
 
@@ -107,6 +108,13 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
     {
         let message = format!("`from` ({}) is not below `to` ({})", map.from, map.to);
         findings.add(&["step", i, key, "map", "from"], message, "");
+    }
+    if let Some(map) = step.complex_modes.as_ref().and_then(|m| m.map.as_ref())
+        && map.over == MapOver::Speed
+        && map.from <= 0.0
+    {
+        let message = "a map over the speed begins above 0, where sliding has a direction";
+        findings.add(&["step", i, key, "map", "from"], message, "`from = 0.2`");
     }
 }
 
