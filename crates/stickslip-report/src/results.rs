@@ -132,6 +132,12 @@ impl Results {
         Ok(results)
     }
 
+    /// How many steps the problem has; none, where it is not known.
+    pub fn steps(&self) -> usize {
+        let steps = self.problem.get("step").and_then(toml::Value::as_array);
+        steps.map_or(0, Vec::len)
+    }
+
     /// The title of the problem, or the name of the folder.
     pub fn title(&self) -> String {
         let of_summary = self.summary.get("title").and_then(Value::as_str);

@@ -658,7 +658,7 @@ fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
     let all = svg("chart.svg");
     for name in [
         "stable (1)",
-        "flutter (1)",
+        "flutter, the redder the faster it grows (1)",
         "divergence (1)",
         "not known (1)",
     ] {
@@ -672,4 +672,18 @@ fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
     assert!(svg("chart.frequency.svg").contains("<svg"));
     let error = plot::coupling(&folder.file("history.csv"), None, "TIME", [600, 400]).unwrap_err();
     assert!(error.to_string().contains("no columns of modes"), "{error}");
+    // Spectra over time: what is weak is the ground, and the report has them, too.
+    let vibration = "<section id=\"vibration\"";
+    assert!(!written(&folder.0).contains(vibration));
+    let spectra = folder.file("modes-3-waterfall.csv");
+    let text = "time,frequency,amplitude\n0.1,1,1e-2\n0.1,2,1\n0.2,1,1e-9\n0.2,2,0.5\n";
+    std::fs::write(&spectra, text).unwrap();
+    plot::waterfall(&spectra, Some(&chart), [600, 400]).unwrap();
+    let all = svg("chart.svg");
+    for (colour, count) in [("#08306b", 2), ("#f0f4f8", 2)] {
+        assert_eq!(all.matches(colour).count(), count, "{colour}: {all}");
+    }
+    let page = written(&folder.0);
+    nests(&page);
+    assert!(page.contains(vibration));
 }

@@ -12,7 +12,7 @@ use crate::print;
 /// Make a picture of results, PNG or SVG: the bodies, what an interface carries, columns of the history, or what the runs of a sweep do.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder with the results of a run; with --regimes, --stability and --coupling the table of a sweep, with the last of a map too.
+    /// The folder with the results of a run; with --regimes, --stability and --coupling the table of a sweep, with the last of a map too, with --waterfall that of spectra.
     #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
@@ -76,6 +76,9 @@ pub struct Arguments {
     /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
     #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "body", "history", "regimes", "stability"])]
     coupling: Option<String>,
+    /// Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`.
+    #[arg(long, conflicts_with_all = ["along", "field", "view", "body", "history", "regimes", "stability", "coupling"])]
+    waterfall: bool,
     /// The column along the horizontal axis.
     #[arg(
         long,
@@ -185,7 +188,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The files that were written of a table of many runs, if that is what is asked for.
+/// The files that were written of a table of many runs, modes or spectra, if that is what is asked for.
 fn of_table(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Failure> {
     let (table, output, size) = (
         &arguments.directory,
@@ -193,7 +196,8 @@ fn of_table(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Failure> {
         arguments.size,
     );
     let asked = [&arguments.regimes, &arguments.stability];
-    if asked.iter().all(|pair| pair.is_none()) && arguments.coupling.is_none() {
+    let of_two = asked.iter().any(|pair| pair.is_some());
+    if !of_two && arguments.coupling.is_none() && !arguments.waterfall {
         return Ok(None);
     }
     // Elsewhere a table is a file by mistake.
@@ -206,7 +210,7 @@ fn of_table(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Failure> {
     let file = match asked {
         [Some(Pair([across, up])), _] => plot::regimes(table, output, [across, up], size)?,
         [_, Some(Pair([across, up]))] => plot::stability(table, output, [across, up], size)?,
-        _ => return Ok(None),
+        _ => plot::waterfall(table, output, size)?,
     };
     Ok(Some(vec![file]))
 }

@@ -60,13 +60,15 @@ pub fn page(results: &Results, limits: Limits) -> Result<(String, Vec<String>), 
     let model = model::pack(results, limits.fields, &mut notes)?;
     let history = tables::pack(&results.history, limits.rows, &mut notes);
     let drawings = crate::plot::drawings(results)?;
-    let mut text = page::write(results, &model, &history, &drawings, &notes);
+    let waterfalls = crate::plot::waterfalls(results)?;
+    let drawings = [drawings.as_slice(), &waterfalls];
+    let mut text = page::write(results, &model, &history, drawings, &notes);
     if text.len() as u64 > LARGE {
         notes.push(format!(
             "this page has {:.0} MB; with a lower --limit it keeps fewer times",
             text.len() as f64 / 1e6
         ));
-        text = page::write(results, &model, &history, &drawings, &notes);
+        text = page::write(results, &model, &history, drawings, &notes);
     }
     Ok((text, notes))
 }

@@ -38,7 +38,7 @@ pub fn pack(
     notes: &mut Vec<String>,
 ) -> Result<Shapes, Error> {
     let mut shapes = Vec::new();
-    for step in 1..=steps(results) {
+    for step in 1..=results.steps() {
         shapes.extend(listed(&results.directory, step)?);
     }
     let room = usize::try_from(limit / (12 * skin.points.len().max(1)) as u64);
@@ -62,12 +62,6 @@ pub fn pack(
         out.blobs.push((key, pack::shorts(&quantised.values)));
     }
     Ok(out)
-}
-
-/// How many steps the problem has; none, where it is not known.
-fn steps(results: &Results) -> usize {
-    let steps = results.problem.get("step").and_then(toml::Value::as_array);
-    steps.map_or(0, Vec::len)
 }
 
 /// Which shapes there is room for, in their order.

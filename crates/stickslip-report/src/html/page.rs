@@ -27,7 +27,7 @@ pub fn write(
     results: &Results,
     model: &Packed,
     history: &Packed,
-    drawings: &[String],
+    [along, waterfalls]: [&[String]; 2],
     notes: &[String],
 ) -> String {
     let title = results.title();
@@ -60,10 +60,17 @@ pub fn write(
             false => VIEW_BODY.to_string(),
         },
     );
-    let along = drawings
-        .iter()
-        .map(|svg| format!("<figure class=\"along\">{svg}</figure>\n"));
-    section("along", "Along the interfaces", along.collect());
+    let figures = |all: &[String]| -> String {
+        let all = all.iter();
+        all.map(|svg| format!("<figure class=\"along\">{svg}</figure>\n"))
+            .collect()
+    };
+    section("along", "Along the interfaces", figures(along));
+    section(
+        "vibration",
+        "Vibration over time and frequency",
+        figures(waterfalls),
+    );
     section("solved", "What was solved", problem::section(results));
     section("quality", "Quality", quality::section(results));
     section("convergence", "Convergence", convergence::section(results));

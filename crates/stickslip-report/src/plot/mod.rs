@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::io::write_atomically;
 
+use crate::draw::{Canvas, Svg};
 use crate::results::{Results, fault};
 
 pub(crate) use along::drawings;
@@ -137,6 +138,35 @@ pub fn stability(
     size: [u32; 2],
 ) -> Result<PathBuf, Error> {
     map(table, file, &regimes::STABILITY, axes, size)
+}
+
+/// Draws how strong a vibration is over time and frequency, from the table of its spectra, `modes-3-waterfall.csv`; returns the file written, beside the table if none is
+/// named.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such table or column, or the file cannot be written.
+pub fn waterfall(table: &Path, file: Option<&Path>, size: [u32; 2]) -> Result<PathBuf, Error> {
+    map(table, file, &regimes::WATERFALL, SPECTRA, size)
+}
+
+/// The axes of a waterfall.
+const SPECTRA: [&str; 2] = ["time", "frequency"];
+
+/// The waterfalls of a folder of results as SVG, by step.
+pub(crate) fn waterfalls(results: &Results) -> Result<Vec<String>, Error> {
+    let size = [1000, 520];
+    let mut out = Vec::new();
+    for step in 1..=results.steps() {
+        let table = results
+            .directory
+            .join(format!("modes-{step}-waterfall.csv"));
+        if table.is_file() {
+            let mut canvas: Box<dyn Canvas> = Box::new(Svg::new(size));
+            regimes::draw(&table, &regimes::WATERFALL, SPECTRA, size, canvas.as_mut())?;
+            out.push(String::from_utf8_lossy(&canvas.finish()).into_owned());
+        }
+    }
+    Ok(out)
 }
 
 fn map(

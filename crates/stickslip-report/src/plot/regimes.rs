@@ -1,4 +1,5 @@
-//! Maps of what the runs of a sweep do, over two values that were varied: all sticks, part of it slips, all slides; or whether sliding is stable, flutters, diverges.
+//! Maps over two values: what the runs of a sweep do, whether all sticks, part of it slips, all slides, or whether sliding is stable, flutters, diverges; and how strong a
+//! vibration is over time and frequency.
 
 use std::path::Path;
 
@@ -20,6 +21,10 @@ pub struct Kind {
     regimes: &'static [(&'static str, Rgb)],
     /// The regime of a run by the two columns; `None` where it is not known.
     of: fn(f64, f64) -> Option<Regime>,
+    /// How far the colour of the second is from that of the first, by the size of what is told of it, and the largest of all.
+    part: fn(f64, f64) -> f64,
+    /// Whether cells are runs that are counted: those of a sweep.
+    runs: bool,
     /// Whether critical values that the sweep has found are drawn over it.
     critical: bool,
 }
@@ -29,6 +34,8 @@ pub const STICKING: Kind = Kind {
     columns: ["STICK", "SLIP"],
     regimes: &REGIMES,
     of: regime,
+    part: |slips, _| slips,
+    runs: true,
     critical: false,
 };
 
@@ -37,12 +44,28 @@ pub const STABILITY: Kind = Kind {
     columns: ["MODES.GROWTH", "MODES.FREQUENCY"],
     regimes: &[
         ("stable", [214, 226, 238]),
-        ("flutter", [213, 94, 0]),
+        ("flutter, the redder the faster it grows", [213, 94, 0]),
         ("divergence", [92, 40, 110]),
         ("", NOTHING),
     ],
     of: stability,
+    // What hardly grows is told apart from what does not.
+    part: |growth, most| 0.3 + 0.7 * growth / most,
+    runs: true,
     critical: true,
+};
+
+/// How strong a vibration is, over time and frequency: the waterfall of its spectra.
+pub const WATERFALL: Kind = Kind {
+    columns: ["amplitude", "amplitude"],
+    regimes: &[
+        ("a thousandth of the largest amplitude", [240, 244, 248]),
+        ("the largest", [8, 48, 107]),
+    ],
+    of: |amplitude, _| amplitude.is_finite().then_some((1, amplitude)),
+    part: |amplitude, most| 1.0 + (amplitude / most).log10() / 3.0,
+    runs: false,
+    critical: false,
 };
 
 const REGIMES: [(&str, Rgb); 4] = [
@@ -52,7 +75,7 @@ const REGIMES: [(&str, Rgb); 4] = [
     ("open", [222, 226, 232]),
 ];
 
-/// The number of a regime, and the part of the points that touch which slip.
+/// The number of a regime, and its size: the part of the points that touch which slip, or the growth.
 type Regime = (usize, f64);
 
 /// The regime of a run by how many points stick and slip; `None` where that is not known.
@@ -75,18 +98,18 @@ fn stability(growth: f64, frequency: f64) -> Option<Regime> {
     }
     Some(match (growth > 0.0, frequency > 0.0) {
         (false, _) => (0, 0.0),
-        (true, true) => (1, 1.0),
-        (true, false) => (2, 1.0),
+        (true, true) => (1, growth),
+        (true, false) => (2, growth),
     })
 }
 
 impl Kind {
-    /// The colour of a regime: where part slips, from that of stick on, the more slips.
-    fn shade(&self, regime: Option<Regime>) -> Rgb {
+    /// The colour of a regime: that of the second, from that of the first on, the more there is of it.
+    fn shade(&self, regime: Option<Regime>, most: f64) -> Rgb {
         let all = self.regimes;
         match regime {
             None => NOTHING,
-            Some((1, part)) => colour::along(&[all[0].1, all[1].1], part),
+            Some((1, size)) => colour::along(&[all[0].1, all[1].1], (self.part)(size, most)),
             Some((number, _)) => all[number].1,
         }
     }
@@ -220,19 +243,7 @@ impl Map<'_> {
         let (top, right, bottom) = (5.6 * em, width - margin, height - 4.2 * em);
         let px = |v: f64| left + (v - x0) / (x1 - x0) * (right - left);
         let py = |v: f64| bottom - (v - y0) / (y1 - y0) * (bottom - top);
-        for (place, regime) in &self.cells {
-            let Some([cx, cy]) = axes[0]
-                .cell(place[0])
-                .zip(axes[1].cell(place[1]))
-                .map(|(a, b)| [a, b])
-            else {
-                continue;
-            };
-            let colour = self.kind.shade(*regime);
-            let (from, to) = ([px(cx[0]), py(cy[1])], [px(cx[1]), py(cy[0])]);
-            // A hair of white between cells, so that they can be counted.
-            canvas.rectangle(from, [to[0] - from[0] - 1.0, to[1] - from[1] - 1.0], colour);
-        }
+        self.fill(&|[x, y]| [px(x), py(y)], canvas);
         for &[x, y] in &self.critical {
             for (r, ink) in [(0.5 * em, [255, 255, 255]), (0.35 * em, INK)] {
                 canvas.rectangle([px(x) - r, py(y) - r], [2.0 * r, 2.0 * r], ink);
@@ -256,6 +267,33 @@ impl Map<'_> {
         canvas.text(at, names[1], 1.05 * em, Anchor::Middle, INK, true);
     }
 
+    /// Draws the cells.
+    fn fill(&self, at: &dyn Fn([f64; 2]) -> [f64; 2], canvas: &mut dyn Canvas) {
+        let [across, up] = &self.axes;
+        let sizes = self.cells.iter().filter_map(|(_, regime)| *regime);
+        let sizes = sizes.filter(|(number, _)| *number == 1);
+        let most = sizes.fold(f64::MIN_POSITIVE, |m, (_, size)| m.max(size));
+        let mut cell = |[x0, x1]: [f64; 2], [y0, y1]: [f64; 2], hair: f64, colour: Rgb| {
+            let (from, to) = (at([x0, y1]), at([x1, y0]));
+            let size = [0, 1].map(|c| to[c] - from[c] - hair);
+            canvas.rectangle(from, size, colour);
+        };
+        // A hair of white between runs, so that they can be counted; what is weakest has no cell of its own.
+        let hair = if self.kind.runs { 1.0 } else { -0.3 };
+        if !self.kind.runs {
+            cell(across.ends(), up.ends(), 0.0, self.kind.regimes[0].1);
+        }
+        for ([x, y], regime) in &self.cells {
+            let faint = |(_, size): Regime| (self.kind.part)(size, most) <= 0.0;
+            if !self.kind.runs && regime.is_none_or(faint) {
+                continue;
+            }
+            if let Some((x, y)) = across.cell(*x).zip(up.cell(*y)) {
+                cell(x, y, hair, self.kind.shade(*regime, most));
+            }
+        }
+    }
+
     /// What the colours mean, and how many runs have each.
     fn legend(&self, at: [f64; 2], em: f64, canvas: &mut dyn Canvas) {
         let cells = &self.cells;
@@ -265,10 +303,12 @@ impl Map<'_> {
         let all = regimes.map(|(i, (name, colour))| (*name, *colour, count(Some(i))));
         let mut x = at[0];
         for (name, colour, count) in all.chain([("not known", NOTHING, count(None))]) {
-            if count == 0 {
-                continue;
-            }
-            let text = format!("{name} ({count})");
+            let text = match (self.kind.runs, count) {
+                (true, 0) => continue,
+                (true, _) => format!("{name} ({count})"),
+                (false, _) if name == "not known" => continue,
+                (false, _) => name.to_string(),
+            };
             canvas.rectangle([x, at[1]], [em, em], colour);
             let place = [x + 1.5 * em, at[1] + 0.85 * em];
             canvas.text(place, &text, em, Anchor::Start, INK, false);
@@ -302,6 +342,16 @@ mod tests {
         ];
         let found = found.map(|(growth, frequency)| Some(stability(growth, frequency)?.0));
         assert_eq!(found, [Some(0), Some(0), Some(1), Some(2), None]);
+    }
+
+    #[test]
+    fn what_grows_faster_is_redder_and_what_is_weak_is_pale() {
+        let red = |growth: f64| i32::from(STABILITY.shade(stability(growth, 5.0), 8.0)[2]);
+        assert!(red(8.0) < red(2.0) && red(2.0) < red(1e-9) && red(1e-9) < red(-1.0));
+        let dark = |amplitude: f64| WATERFALL.shade((WATERFALL.of)(amplitude, 0.0), 2.0);
+        assert_eq!(dark(2.0), WATERFALL.regimes[1].1);
+        assert_eq!(dark(1e-9), WATERFALL.regimes[0].1);
+        assert_eq!(STICKING.shade(regime(0.0, 2.0), 1.0), REGIMES[2].1);
     }
 
     #[test]

@@ -12,6 +12,13 @@ const HARMONICS: f64 = 10.0;
 /// Most rows of a spectrum.
 const MOST: usize = 2000;
 
+/// Fewest and most cycles of each spectrum of a waterfall, and most of these.
+const CYCLES: [f64; 2] = [6.0, 40.0];
+const SPANS: usize = 60;
+
+/// Most rows of the history for a cycle that a waterfall looks at: several for the highest harmonic.
+const FINE: f64 = 64.0;
+
 /// Columns of the history over the rows of a step.
 struct Rows {
     time: Vec<f64>,
@@ -42,6 +49,32 @@ impl Rows {
             points: [take("OPEN")?, take("STICK")?, take("SLIP")?],
             dissipated: take("ALLFD")?,
         })
+    }
+
+    /// Rows that are at least so far apart in time.
+    fn thinned(mut self, gap: f64) -> Self {
+        let mut last = f64::NEG_INFINITY;
+        let far = self.time.iter().map(|&t| {
+            let far = t >= last + gap;
+            last = if far { t } else { last };
+            far
+        });
+        let kept: Vec<bool> = far.collect();
+        let [open, stick, slip] = &mut self.points;
+        for column in [
+            &mut self.time,
+            &mut self.amplitude,
+            &mut self.phase,
+            &mut self.rest,
+            open,
+            stick,
+            slip,
+            &mut self.dissipated,
+        ] {
+            let mut kept = kept.iter();
+            column.retain(|_| kept.next() == Some(&true));
+        }
+        self
     }
 
     /// The first and the last row within half a cycle of a row.
@@ -107,28 +140,19 @@ pub(super) fn table(history: &Table, growth: &Growth) -> Option<Table> {
     Some(table)
 }
 
-/// Amplitudes by frequency of the mode over the second half of the step, weighted by a window of Hann.
-pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
-    let rows = Rows::of(history, growth)?;
-    let end = *rows.time.last()?;
-    let first = rows.time.partition_point(|t| *t < 0.5 * end);
-    let span = end - rows.time[first];
-    if span <= 0.0 || growth.frequency <= 0.0 {
-        return None;
-    }
+/// Amplitudes at frequencies of the mode over the rows from the first to the last, weighted by a window of Hann.
+fn amplitudes(rows: &Rows, [first, last]: [usize; 2], frequencies: &[f64]) -> Vec<f64> {
+    let span = rows.time[last] - rows.time[first];
     let window = |t: f64| (PI * (t - rows.time[first]) / span).sin().powi(2);
     // Weights of the trapezoidal rule.
-    let weights: Vec<f64> = (first..rows.time.len())
+    let weights: Vec<f64> = (first..=last)
         .map(|i| {
             let before = rows.time[i.saturating_sub(1).max(first)];
-            let after = rows.time[(i + 1).min(rows.time.len() - 1)];
+            let after = rows.time[(i + 1).min(last)];
             0.5 * (after - before) * window(rows.time[i])
         })
         .collect();
     let whole: f64 = weights.iter().sum();
-    let lines = (HARMONICS * growth.frequency * span).ceil() as usize;
-    let step = HARMONICS * growth.frequency / lines.min(MOST) as f64;
-    let frequencies: Vec<f64> = (0..=lines.min(MOST)).map(|k| k as f64 * step).collect();
     let amplitude = |f: &f64| {
         let mut sum = [0.0; 2];
         for (i, w) in (first..).zip(&weights) {
@@ -139,12 +163,67 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
         }
         2.0 * sum[0].hypot(sum[1]) / whole.max(f64::MIN_POSITIVE)
     };
+    frequencies.iter().map(amplitude).collect()
+}
+
+/// Frequencies up to some harmonics of the mode, as near to each other as a span of time tells them apart, but not more than so many.
+fn lines(frequency: f64, span: f64, most: usize) -> Vec<f64> {
+    let lines = ((HARMONICS * frequency * span).ceil() as usize).min(most);
+    let step = HARMONICS * frequency / lines as f64;
+    (0..=lines).map(|k| k as f64 * step).collect()
+}
+
+/// Amplitudes by frequency of the mode over the second half of the step.
+pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
+    let rows = Rows::of(history, growth)?;
+    let end = *rows.time.last()?;
+    let first = rows.time.partition_point(|t| *t < 0.5 * end);
+    let span = end - rows.time[first];
+    if span <= 0.0 || growth.frequency <= 0.0 {
+        return None;
+    }
+    let frequencies = lines(growth.frequency, span, MOST);
+    let found = amplitudes(&rows, [first, rows.time.len() - 1], &frequencies);
     Some(Table {
         names: vec!["frequency".into(), "amplitude".into()],
-        columns: vec![
-            frequencies.clone(),
-            frequencies.iter().map(amplitude).collect(),
-        ],
+        columns: vec![frequencies, found],
+    })
+}
+
+/// The same over spans of some cycles, one after the other, by the middle of each. `None` where the step is shorter than two.
+pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
+    let frequency = growth.frequency;
+    let rows = Rows::of(history, growth)?.thinned(1.0 / (FINE * frequency));
+    let end = *rows.time.last()?;
+    // Half of each is in the next.
+    let fit = (2.0 * end * frequency / CYCLES[0]).floor();
+    if fit < 3.0 {
+        return None;
+    }
+    let count = (fit as usize - 1).min(SPANS);
+    let span = (2.0 * end / (count + 1) as f64).min(CYCLES[1] / frequency);
+    let frequencies = lines(frequency, span, MOST);
+    let mut columns = vec![Vec::new(); 3];
+    for k in 0..count {
+        let from = (end - span) * k as f64 / (count - 1) as f64;
+        let first = rows.time.partition_point(|t| *t < from);
+        let last = rows.time.partition_point(|t| *t <= from + span);
+        let last = last.saturating_sub(1);
+        if last < first + 2 {
+            continue;
+        }
+        for (f, a) in frequencies
+            .iter()
+            .zip(amplitudes(&rows, [first, last], &frequencies))
+        {
+            let row = [from + 0.5 * span, *f, a];
+            columns.iter_mut().zip(row).for_each(|(c, v)| c.push(v));
+        }
+    }
+    let names = ["time", "frequency", "amplitude"].map(String::from);
+    Some(Table {
+        names: names.to_vec(),
+        columns,
     })
 }
 
@@ -152,9 +231,8 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_growing_oscillation_is_read_off_its_history() {
-        let (growth, frequency, n) = (0.5_f64, 3.0, 2001);
+    /// The history of a step in which a mode grows, and what is known of it.
+    fn growing(growth: f64, frequency: f64, n: i32) -> (Table, Growth) {
         let times: Vec<f64> = (0..n).map(|i| 5.0 + 1e-3 * f64::from(i)).collect();
         let column = |of: &dyn Fn(f64) -> f64| times.iter().map(|t| of(t - 5.0)).collect();
         let wrapped = |t: f64| {
@@ -186,6 +264,42 @@ mod tests {
             frequency,
             ..Growth::default()
         };
+        (history, told)
+    }
+
+    /// Each spectrum has its peak at the frequency of the mode, of the amplitude in its middle; harmonics have none.
+    #[test]
+    fn a_waterfall_follows_an_oscillation_that_grows() {
+        let (growth, frequency) = (0.1_f64, 3.0);
+        let (history, told) = growing(growth, frequency, 8001);
+        let found = waterfall(&history, &told).unwrap();
+        let [time, at, amplitude] = [0, 1, 2].map(|k| &found.columns[k]);
+        let mut middles = time.clone();
+        middles.dedup();
+        // 24 cycles, in spans of six that overlap by half.
+        assert_eq!(middles.len(), 7);
+        for (k, middle) in middles.iter().enumerate() {
+            assert!((middle - (k + 1) as f64).abs() < 1e-9, "{middles:?}");
+            let own: Vec<usize> = (0..time.len()).filter(|&i| time[i] == *middle).collect();
+            let peak = own.iter().copied();
+            let peak = peak.max_by(|&a, &b| amplitude[a].total_cmp(&amplitude[b]));
+            let peak = peak.unwrap();
+            assert!((at[peak] - frequency).abs() < 1e-9, "{}", at[peak]);
+            let there = 1e-3 * (growth * middle).exp();
+            assert!((amplitude[peak] / there - 1.0).abs() < 5e-3);
+            let twice = own.iter().find(|&&i| (at[i] - 6.0).abs() < 1e-9).unwrap();
+            assert!(amplitude[*twice] < 1e-3 * there);
+        }
+        let (short, told) = growing(growth, frequency, 3101);
+        assert!(waterfall(&short, &told).is_some());
+        let (short, told) = growing(growth, frequency, 2001);
+        assert!(waterfall(&short, &told).is_none());
+    }
+
+    #[test]
+    fn a_growing_oscillation_is_read_off_its_history() {
+        let (growth, frequency) = (0.5_f64, 3.0);
+        let (history, told) = growing(growth, frequency, 2001);
         let table = table(&history, &told).unwrap();
         for (name, value) in [
             ("growth", growth),

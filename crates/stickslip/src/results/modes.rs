@@ -95,6 +95,7 @@ pub(crate) fn write_growth(directory: &Path, all: &[Growth]) -> Result<(), Error
         let tables = [
             ("growth", growth::table(&history, one)),
             ("spectrum", growth::spectrum(&history, one)),
+            ("waterfall", growth::waterfall(&history, one)),
         ];
         for (name, table) in tables {
             if let Some(table) = table {
