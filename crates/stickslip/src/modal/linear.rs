@@ -63,6 +63,8 @@ pub(crate) struct Linear {
     pub mass: BlockCsr,
     /// Bodies, dashpots and the approach of surfaces, symmetric.
     pub damping: Option<BlockCsr>,
+    /// The part of the stiffness by which surfaces that slide resist their approach.
+    pub approach: Vec<Pair>,
     /// What friction adds to the stiffness: shear that follows the pressure.
     pub friction: Vec<Pair>,
     /// What friction adds to the damping: shear that turns with the sliding, and follows its speed.
@@ -112,6 +114,7 @@ impl Linear {
             stiffness: BlockCsr::empty(dim),
             mass: BlockCsr::empty(dim),
             damping: None,
+            approach: Vec::new(),
             friction: Vec::new(),
             drag: Vec::new(),
             fixed,
@@ -246,6 +249,7 @@ impl Linear {
             point: point.point,
             approach,
         };
+        let across = pair([k[0][0], 0.0, 0.0], unit(0), true);
         let friction = pair([0.0, k[1][0], k[2][0]], unit(0), true);
         let drags = [
             pair([0.0, c[1][0], c[2][0]], unit(0), true),
@@ -253,6 +257,7 @@ impl Linear {
             pair(unit(2), [0.0, c[2][1], c[2][2]], false),
         ];
         let acts = |p: &Pair| !p.left.is_empty() && !p.right.is_empty();
+        self.approach.extend(Some(across).filter(acts));
         self.friction.extend(Some(friction).filter(acts));
         self.drag.extend(drags.into_iter().filter(acts));
     }

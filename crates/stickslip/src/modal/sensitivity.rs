@@ -1,9 +1,10 @@
-//! How eigenvalues change with friction, moduli and densities, by left and right eigenvectors.
+//! How eigenvalues change with friction, contact stiffness, moduli, densities and damping, by left and right eigenvectors.
 //!
 //! With `P(λ) x = 0` and `yᵀ P(λ) = 0` an eigenvalue changes by `dλ = -yᵀ (dK + λ dC + λ² dM) x / yᵀ (2 λ M + C) x`. The contact state is kept.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::linear::{Linear, Pair, add_pairs};
 use super::outcome::Sensitivity;
@@ -23,6 +24,15 @@ type Change<'a> = Box<dyn Fn(&[f64]) -> [Vec<f64>; 3] + 'a>;
 struct Quantity<'a> {
     name: String,
     change: Change<'a>,
+}
+
+impl<'a> Quantity<'a> {
+    fn new(what: &str, whose: &str, change: impl Fn(&[f64]) -> [Vec<f64>; 3] + 'a) -> Quantity<'a> {
+        Quantity {
+            name: format!("{what}.{whose}"),
+            change: Box::new(change),
+        }
+    }
 }
 
 /// The changes of all modes with all quantities. Equal eigenvalues split: what is told of each is an eigenvalue of the change in the space of their vectors.
@@ -140,45 +150,53 @@ fn bilinear(y: &[Vec<f64>; 2], f: [&Vec<f64>; 2]) -> Complex {
 fn quantities<'a>(model: &'a Model, linear: &'a Linear) -> Vec<Quantity<'a>> {
     let mut out = Vec::new();
     for (i, name) in linear.sliding.iter().enumerate() {
-        let change = move |x: &[f64]| {
-            let of = |pairs: &[Pair]| {
-                let mut out = vec![0.0; x.len()];
-                add_pairs(pairs.iter().filter(|p| p.interface == i), 1.0, x, &mut out);
-                out
-            };
-            [of(&linear.friction), of(&linear.drag), vec![0.0; x.len()]]
+        let of = move |pairs: &[Pair], x: &[f64]| {
+            let mut out = vec![0.0; x.len()];
+            add_pairs(pairs.iter().filter(|p| p.interface == i), 1.0, x, &mut out);
+            out
         };
-        out.push(Quantity {
-            name: format!("friction.{name}"),
-            change: Box::new(change),
-        });
+        let none = |x: &[f64]| vec![0.0; x.len()];
+        out.push(Quantity::new("friction", name, move |x| {
+            [of(&linear.friction, x), of(&linear.drag, x), none(x)]
+        }));
+        // Friction follows the pressure, and so how surfaces resist their approach.
+        out.push(Quantity::new("contact", name, move |x| {
+            let mut k = of(&linear.approach, x);
+            let shear = of(&linear.friction, x);
+            k.iter_mut().zip(shear).for_each(|(k, s)| *k += s);
+            [k, none(x), none(x)]
+        }));
     }
     for body in model.elastic() {
-        let mut own: BlockCsr = linear.stiffness.zeros_like();
-        body.elastic.stiffness(&mut own);
+        let mut stiffness: BlockCsr = linear.stiffness.zeros_like();
+        body.elastic.stiffness(&mut stiffness);
+        let mut mass = linear.mass.zeros_like();
+        mass.add_scaled_rows(1.0, &linear.mass, body.points.clone());
         let [alpha, beta] = body.rayleigh;
-        let change = move |x: &[f64]| {
-            let k = linear.times(&own, x);
-            let c = k.iter().map(|k| beta * k).collect();
-            let none = vec![0.0; x.len()];
-            [k, c, none]
+        let [stiffness, mass] = [stiffness, mass].map(Arc::new);
+        let times = move |matrix: &Arc<BlockCsr>, factor: f64| {
+            let matrix = Arc::clone(matrix);
+            move |x: &[f64]| -> Vec<f64> {
+                let product = linear.times(&matrix, x);
+                product.into_iter().map(|v| factor * v).collect()
+            }
         };
-        out.push(Quantity {
-            name: format!("modulus.{}", body.name),
-            change: Box::new(change),
-        });
-        let mut own = linear.mass.zeros_like();
-        own.add_scaled_rows(1.0, &linear.mass, body.points.clone());
-        let change = move |x: &[f64]| {
-            let m = linear.times(&own, x);
-            let c = m.iter().map(|m| alpha * m).collect();
-            let none = vec![0.0; x.len()];
-            [none, c, m]
-        };
-        out.push(Quantity {
-            name: format!("density.{}", body.name),
-            change: Box::new(change),
-        });
+        let none = |x: &[f64]| vec![0.0; x.len()];
+        let (k, c) = (times(&stiffness, 1.0), times(&stiffness, beta));
+        out.push(Quantity::new("modulus", &body.name, move |x| {
+            [k(x), c(x), none(x)]
+        }));
+        let (m, c) = (times(&mass, 1.0), times(&mass, alpha));
+        out.push(Quantity::new("density", &body.name, move |x| {
+            [none(x), c(x), m(x)]
+        }));
+        if alpha != 0.0 || beta != 0.0 {
+            let (m, k) = (times(&mass, alpha), times(&stiffness, beta));
+            out.push(Quantity::new("damping", &body.name, move |x| {
+                let both = m(x).into_iter().zip(k(x)).map(|(m, k)| m + k);
+                [none(x), both.collect(), none(x)]
+            }));
+        }
     }
     out
 }

@@ -68,7 +68,7 @@ pub struct ComplexModes {
     /// Frequencies and growth for other friction, speed or load: the contact state is kept, and what friction adds to the equations is multiplied, or evaluated anew.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<FrictionRange>,
-    /// Whether eigenvalues are differentiated by friction, moduli and densities, the contact state kept.
+    /// Whether eigenvalues are differentiated by friction, contact stiffness, moduli, densities and damping, the contact state kept.
     pub sensitivity: bool,
     /// Whether the matrices are written for other programs: over all unknowns as MatrixMarket files, condensed to few displacements as arrays of NumPy.
     pub export: bool,
