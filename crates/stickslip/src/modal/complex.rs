@@ -28,7 +28,7 @@ pub(crate) fn modes(
 ) -> Result<ModalOutcome, RunError> {
     let shifted = Shifted::new(linear, frame, true)?;
     let mut root = Root::new(&shifted, frame)?;
-    let mut solves = 0;
+    let mut solves = root.pairs.len();
     let asked = (plan.count, plan.to);
     let found = solve(&shifted, &root, asked, false, &mut solves);
     let mut out = ModalOutcome {
@@ -36,6 +36,7 @@ pub(crate) fn modes(
         complex: true,
         sliding: linear.sliding.clone(),
         points: linear.points,
+        factorisations: shifted.factorisations,
         shapes: plan.shapes,
         notes: notes(linear),
         ..ModalOutcome::default()
@@ -70,14 +71,16 @@ pub(crate) fn modes(
             found
         };
         let mut over = Over::new(&shifted, over, &mut at_speed);
-        let ends = plan.map.as_ref().map_or(vec![1.0], MapPlan::ends);
-        let reduced = map::space(&mut over, asked, &ends, &mut solves);
+        let tried = plan.map.as_ref().map_or(vec![1.0], MapPlan::tried);
+        let before = solves;
+        let reduced = map::space(&mut over, asked, &tried, &mut solves);
         if plan.export {
             out.export = export::matrices(&shifted);
             out.arrays = export::arrays(&shifted, &root, &reduced);
         }
         if let Some(plan) = &plan.map {
-            let map = map::rows(&mut over, reduced, plan, asked, &mut solves);
+            let mut map = map::rows(&mut over, reduced, plan, asked, &mut solves);
+            map.solves = solves - before;
             out.notes.extend(map::notes(&map));
             out.map = Some(map);
         }

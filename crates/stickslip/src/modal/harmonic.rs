@@ -8,11 +8,11 @@
 use std::f64::consts::TAU;
 
 use super::linear::{Linear, fault};
-use super::map::{GOOD, ROUNDS};
+use super::map::ROUNDS;
 use super::outcome::{ModalOutcome, Response, ResponseRow};
 use super::quadratic::UNSTABLE;
 use super::real::{frequency, lowest};
-use super::reduced::{Reduced, extend, images};
+use super::reduced::{Reduced, images};
 use super::shifted::Shifted;
 use crate::error::RunError;
 use crate::linear::{DenseLu, RealModes};
@@ -20,6 +20,9 @@ use crate::math::vector::dot;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::HarmonicPlan;
+
+/// Residual in the equations of all dofs that is good enough.
+const GOOD: f64 = 1e-5;
 
 /// Modes up to so many times the highest frequency are in the space.
 const BEYOND: f64 = 1.5;
@@ -78,6 +81,7 @@ pub(crate) fn response(
         step: model.steps[frame.step].name.clone(),
         sliding: linear.sliding.clone(),
         points: linear.points,
+        factorisations: shifted.factorisations,
         solves,
         shapes: plan.shapes,
         notes: notes(linear, &reduced, &answer, plan),
@@ -130,13 +134,13 @@ impl Shaken<'_> {
         let modes = lowest(shifted, count, below);
         *solves += modes.solves + 2;
         self.take(plan, &modes);
-        let mut basis = Vec::new();
-        let mut block = extend(shifted, &mut basis, modes.vectors);
-        block.extend(extend(shifted, &mut basis, shifted.solved(&self.forces)));
+        let mut reduced = Reduced::new(shifted, (TAU * highest).max(f64::MIN_POSITIVE));
+        let damped = |x: &[f64]| self.damped(x);
+        let mut block = reduced.grow(shifted, &damped, modes.vectors);
+        let still = shifted.solved(&self.forces);
+        block.extend(reduced.grow(shifted, &damped, still));
         let images = images(shifted, &block, solves);
-        extend(shifted, &mut basis, images);
-        let pace = (TAU * highest).max(f64::MIN_POSITIVE);
-        let mut reduced = self.reduced(basis, pace);
+        reduced.grow(shifted, &damped, images);
         let every = self.frequencies.len().div_ceil(TRIED).max(1);
         let tried: Vec<f64> = self.frequencies.iter().copied().step_by(every).collect();
         for _ in 0..ROUNDS {
@@ -148,9 +152,7 @@ impl Shaken<'_> {
             if rests.is_empty() {
                 break;
             }
-            let mut basis = std::mem::take(&mut reduced.basis);
-            extend(shifted, &mut basis, rests);
-            reduced = self.reduced(basis, pace);
+            reduced.grow(shifted, &damped, rests);
         }
         reduced
     }
@@ -169,16 +171,19 @@ impl Shaken<'_> {
         self.modal = damped.collect();
     }
 
-    fn reduced(&self, basis: Vec<Vec<f64>>, pace: f64) -> Reduced {
-        let mut reduced = Reduced::new(self.shifted, basis, pace);
-        let r = reduced.basis.len();
+    /// What damping that has no friction makes of velocities.
+    fn damped(&self, x: &[f64]) -> Vec<f64> {
+        let mut out = self.shifted.linear.damped(x);
+        self.add_modal(x, &mut out);
+        out
+    }
+
+    /// Adds what damping by mode makes of velocities.
+    fn add_modal(&self, x: &[f64], out: &mut [f64]) {
         for (d, image) in &self.modal {
-            let along: Vec<f64> = reduced.basis.iter().map(|q| dot(q, image)).collect();
-            for (k, c) in reduced.damping.iter_mut().enumerate() {
-                *c += d * along[k / r] * along[k % r];
-            }
+            let along = d * dot(image, x);
+            out.iter_mut().zip(image).for_each(|(c, m)| *c += along * m);
         }
-        reduced
     }
 
     /// The answers at frequencies.
@@ -204,11 +209,7 @@ impl Shaken<'_> {
         let linear = self.shifted.linear;
         let mut parts = [0, 1].map(|q| linear.forces(&x[q], linear.rub(1.0)));
         for (part, x) in parts.iter_mut().zip(x) {
-            for (d, image) in &self.modal {
-                let along = d * dot(image, x);
-                let of_mode = part[1].iter_mut().zip(image);
-                of_mode.for_each(|(c, m)| *c += along * m);
-            }
+            self.add_modal(x, &mut part[1]);
         }
         let mut open = self.forces.clone();
         for (q, sign) in [(0, -1.0), (1, 1.0)] {

@@ -3,8 +3,8 @@
 //! `linear` is the model linearised: a symmetric stiffness of bodies, springs, couplings and closed contacts, the mass, the damping of bodies, and what
 //! friction adds, as pairs of sparse rows, one for each contact point that slides. `shifted` solves with it: the symmetric part is factored once, friction is
 //! a dense matrix over the sliding points (Woodbury's formula), and only that depends on the coefficient of friction. `real` and `complex` are the two
-//! eigenvalue problems (`quadratic` solves the second). `reduced` is the model in the space of a few real modes, in which `map` asks for many coefficients and
-//! `harmonic` for the answer to forces at many frequencies.
+//! eigenvalue problems (`quadratic` solves the second). `reduced` is the model in the space of a few real modes, `companion` has its modes and `few` those of many
+//! coefficients, for which `map` asks; `harmonic` finds there the answer to forces at many frequencies.
 //!
 //! At a point that slides with the velocity `v` along `s`, pressure `p`, `k_n = dp/d(-g)` and the law `μ(v, p)` the secondary meets per area
 //!
@@ -14,8 +14,10 @@
 //!
 //! as `Interface::linearise` reads off the laws themselves. There is no stiffness along the surface. What rotates does so slowly: convective and gyroscopic terms are left out.
 
+pub(crate) mod companion;
 pub(crate) mod complex;
 pub(crate) mod export;
+pub(crate) mod few;
 pub(crate) mod harmonic;
 pub(crate) mod linear;
 pub(crate) mod map;

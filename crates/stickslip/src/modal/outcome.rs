@@ -33,7 +33,9 @@ pub struct ModalOutcome {
     pub sliding: Vec<String>,
     /// Contact points that stick, that slide all the time, and that slid without a direction that lasts.
     pub points: [usize; 3],
-    /// Right-hand sides that were solved for.
+    /// Matrices over all dofs that were factored.
+    pub factorisations: usize,
+    /// Right-hand sides that were solved for, those of the map among them.
     pub solves: usize,
     /// Whether shapes are wanted as fields.
     pub shapes: bool,
@@ -110,6 +112,8 @@ pub struct FrictionMap {
     pub mu: f64,
     /// Dimension of the space in which the map was made.
     pub dimension: usize,
+    /// Right-hand sides over all dofs that were solved for.
+    pub solves: usize,
     /// Rows by factor.
     pub rows: Vec<MapRow>,
     /// Factors at which the largest growth rate comes up through zero, over speed and load down through it as well, with the frequency there.
@@ -166,7 +170,7 @@ pub struct ResponseRow {
 pub struct Sensitivity {
     /// Number of the mode, from 1.
     pub mode: usize,
-    /// The quantity: `friction.pad`, `modulus.disc`, `density.disc`.
+    /// The quantity: `friction.pad`, `contact.pad`, `modulus.disc`, `density.disc`, `damping.disc`.
     pub of: String,
     /// Change of the growth rate `[1/time]`.
     pub growth: f64,
@@ -207,6 +211,7 @@ crate::keep!(ModalOutcome {
     masses,
     sliding,
     points,
+    factorisations,
     solves,
     shapes,
     map,
@@ -231,6 +236,7 @@ crate::keep!(FrictionMap {
     over,
     mu,
     dimension,
+    solves,
     rows,
     critical,
     residual,

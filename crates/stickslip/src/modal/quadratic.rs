@@ -1,5 +1,6 @@
 //! The quadratic eigenvalue problem of steady sliding, by the method of Arnoldi on its companion form.
 
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 use super::linear::{Linear, Pair, Rub, add_pairs};
@@ -146,16 +147,14 @@ pub(crate) fn solve(
         })
         .filter(|e| e.value[1] <= TAU * to)
         .collect();
-    by_frequency(&mut all);
+    all.sort_by(|a, b| order(&a.value, &b.value));
     all
 }
 
-/// Sorts modes.
-pub(crate) fn by_frequency(modes: &mut [Eigen]) {
-    modes.sort_by(|a, b| {
-        let by_frequency = a.value[1].total_cmp(&b.value[1]);
-        by_frequency.then(a.value[0].total_cmp(&b.value[0]))
-    });
+/// The order of eigenvalues: by frequency, then by growth.
+pub(super) fn order(a: &Complex, b: &Complex) -> Ordering {
+    let by_frequency = a[1].total_cmp(&b[1]);
+    by_frequency.then(a[0].total_cmp(&b[0]))
 }
 
 /// What is left of the equations of motion with such friction, real and imaginary part.

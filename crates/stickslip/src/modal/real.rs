@@ -49,6 +49,7 @@ pub(crate) fn modes(
         directions: directions.iter().map(|d| d.name.into()).collect(),
         masses: directions.iter().map(|d| d.total).collect(),
         points: linear.points,
+        factorisations: shifted.factorisations,
         solves: found.solves,
         shapes: plan.shapes,
         notes: notes(linear, &found, &shifted),

@@ -1,15 +1,21 @@
 //! The model in a space of few displacements: real modes, and what their friction causes at rest.
 
-use super::linear::{Linear, Pair, add_pairs, product};
+use super::linear::{Linear, Pair, Sparse, add_pairs, product};
 use super::shifted::Shifted;
-use crate::math::vector::dot;
+use crate::linear::{products, sums};
+use crate::math::vector::dot_in_fours as dot;
 
 /// Part of a vector that has to be left after orthogonalisation.
 const DEPENDENT: f64 = 1e-9;
 
+/// An image of a vector.
+type Image<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
+
 /// The model in a space of few displacements, orthonormal in the product of the factored matrix.
 pub(crate) struct Reduced {
     pub basis: Vec<Vec<f64>>,
+    /// The factored matrix times the basis, while that grows.
+    weighed: Vec<Vec<f64>>,
     pub stiffness: Vec<f64>,
     pub mass: Vec<f64>,
     pub damping: Vec<f64>,
@@ -41,57 +47,81 @@ pub(super) fn images(shifted: &Shifted, block: &[Vec<f64>], solves: &mut usize) 
     shifted.solved(&columns)
 }
 
-/// Adds vectors to a basis; returns those parts of them that are new.
-pub(super) fn extend(
-    shifted: &Shifted,
-    basis: &mut Vec<Vec<f64>>,
-    more: Vec<Vec<f64>>,
-) -> Vec<Vec<f64>> {
-    let product = |x: &[f64]| shifted.times(x);
-    let images: Vec<Vec<f64>> = basis.iter().map(|x| product(x)).collect();
-    let mut pairs: Vec<(Vec<f64>, Vec<f64>)> =
-        std::mem::take(basis).into_iter().zip(images).collect();
-    let first = pairs.len();
-    for mut x in more {
-        let before = dot(&x, &product(&x)).max(0.0).sqrt();
-        for _ in 0..2 {
-            for (q, aq) in &pairs {
-                let part = dot(aq, &x);
-                x.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
-            }
-        }
-        let left = dot(&x, &product(&x)).max(0.0).sqrt();
-        if left > DEPENDENT * before && pairs.len() < shifted.linear.free() {
-            x.iter_mut().for_each(|v| *v /= left);
-            let image = product(&x);
-            pairs.push((x, image));
-        }
-    }
-    *basis = pairs.into_iter().map(|(x, _)| x).collect();
-    basis[first..].to_vec()
-}
-
 impl Reduced {
-    pub fn new(shifted: &Shifted, basis: Vec<Vec<f64>>, pace: f64) -> Self {
-        let linear = shifted.linear;
-        let r = basis.len();
-        let symmetric = |image: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<f64> {
-            let images: Vec<Vec<f64>> = basis.iter().map(|x| image(x)).collect();
-            (0..r * r)
-                .map(|k| dot(&basis[k / r], &images[k % r]))
-                .collect()
-        };
+    /// Without a displacement.
+    pub fn new(shifted: &Shifted, pace: f64) -> Self {
         Reduced {
-            stiffness: symmetric(&|x| linear.times(&linear.stiffness, x)),
-            mass: symmetric(&|x| linear.times(&linear.mass, x)),
-            damping: symmetric(&|x| linear.damped(x)),
-            friction: projected(&basis, &linear.friction),
-            drag: projected(&basis, &linear.drag),
-            approach: projected(&basis, approach(linear)),
+            basis: Vec::new(),
+            weighed: Vec::new(),
+            stiffness: Vec::new(),
+            mass: Vec::new(),
+            damping: Vec::new(),
+            friction: Vec::new(),
+            drag: Vec::new(),
+            approach: Vec::new(),
             factors: [1.0; 2],
             sigma: shifted.sigma,
             pace,
-            basis,
+        }
+    }
+
+    /// Adds displacements, `damped` by a symmetric matrix, and takes the friction of the state; returns those parts of them that are new.
+    pub fn grow(&mut self, shifted: &Shifted, damped: Image, more: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let linear = shifted.linear;
+        let first = self.basis.len();
+        self.adopt(shifted, more);
+        let new = &self.basis[first..];
+        let images = |of: Image| -> Vec<Vec<f64>> { new.iter().map(|x| of(x)).collect() };
+        let mass = images(&|x| linear.times(&linear.mass, x));
+        let damping = images(damped);
+        let stiffness = match self.sigma > 0.0 {
+            true => images(&|x| linear.times(&linear.stiffness, x)),
+            false => self.weighed[first..].to_vec(),
+        };
+        let basis = &self.basis;
+        let bordered = |old: &[f64], images: &[Vec<f64>]| {
+            bordered(old, [first, basis.len()], &products(basis, images))
+        };
+        self.stiffness = bordered(&self.stiffness, &stiffness);
+        self.mass = bordered(&self.mass, &mass);
+        self.damping = bordered(&self.damping, &damping);
+        let new = new.to_vec();
+        self.take(linear);
+        new
+    }
+
+    /// Adds what is new in vectors to the basis.
+    fn adopt(&mut self, shifted: &Shifted, mut more: Vec<Vec<f64>>) {
+        let first = self.basis.len();
+        let columns = more.len();
+        let mut known = vec![0.0; columns];
+        for _ in 0..2 {
+            let parts = products(&self.weighed, &more);
+            for (k, sum) in sums(&self.basis, &parts, columns).iter().enumerate() {
+                more[k].iter_mut().zip(sum).for_each(|(x, s)| *x -= s);
+                let own = parts.iter().skip(k).step_by(columns);
+                known[k] += own.map(|p| p * p).sum::<f64>();
+            }
+        }
+        for (mut x, mut known) in more.into_iter().zip(known) {
+            for _ in 0..2 {
+                let others = self.basis[first..].iter().zip(&self.weighed[first..]);
+                for (q, weighed) in others {
+                    let part = dot(weighed, &x);
+                    known += part * part;
+                    x.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
+                }
+            }
+            let mut weighed = shifted.times(&x);
+            let left = dot(&x, &weighed).max(0.0);
+            let new = left > DEPENDENT * DEPENDENT * (known + left);
+            if new && self.basis.len() < shifted.linear.free() {
+                let size = left.sqrt();
+                x.iter_mut().for_each(|v| *v /= size);
+                weighed.iter_mut().for_each(|v| *v /= size);
+                self.basis.push(x);
+                self.weighed.push(weighed);
+            }
         }
     }
 
@@ -99,55 +129,34 @@ impl Reduced {
     pub fn take(&mut self, linear: &Linear) {
         self.friction = projected(&self.basis, &linear.friction);
         self.drag = projected(&self.basis, &linear.drag);
-        self.approach = projected(&self.basis, approach(linear));
+        let approach: Vec<&Pair> = linear.drag.iter().filter(|p| p.approach).collect();
+        self.approach = projected(&self.basis, approach);
     }
 
-    /// The model in the space of fewer displacements, which are orthonormal in coordinates.
-    pub fn within(&self, columns: &[Vec<f64>]) -> Self {
-        let r = self.basis.len();
-        let of = |matrix: &[f64]| -> Vec<f64> {
-            let image = |x: &Vec<f64>| -> Vec<f64> {
-                matrix.chunks_exact(r).map(|row| dot(row, x)).collect()
-            };
-            let images: Vec<Vec<f64>> = columns.iter().map(image).collect();
-            let rows = columns.iter();
-            rows.flat_map(|x| images.iter().map(move |y| dot(x, y)))
-                .collect()
-        };
-        let basis = columns.iter().map(|z| {
-            let mut x = vec![0.0; self.basis[0].len()];
-            for (z, q) in z.iter().zip(&self.basis) {
-                x.iter_mut().zip(q).for_each(|(x, q)| *x += z * q);
-            }
-            x
-        });
-        Reduced {
-            basis: basis.collect(),
-            stiffness: of(&self.stiffness),
-            mass: of(&self.mass),
-            damping: of(&self.damping),
-            friction: of(&self.friction),
-            drag: of(&self.drag),
-            approach: of(&self.approach),
-            ..*self
-        }
+    /// Whether nothing damps, nor drives what moves.
+    pub fn undamped(&self) -> bool {
+        let mut all = self.damping.iter().chain(&self.drag);
+        all.all(|c| *c == 0.0)
     }
 }
 
-fn approach(linear: &Linear) -> impl Iterator<Item = &Pair> {
-    linear.drag.iter().filter(|pair| pair.approach)
+/// A symmetric matrix with further rows and columns, of which the last columns are given.
+fn bordered(old: &[f64], [first, all]: [usize; 2], columns: &[f64]) -> Vec<f64> {
+    let new = all - first;
+    let entry = |k: usize| match (k / all, k % all) {
+        (i, j) if j >= first => columns[i * new + j - first],
+        (i, j) if i >= first => columns[j * new + i - first],
+        (i, j) => old[i * first + j],
+    };
+    (0..all * all).map(entry).collect()
 }
 
 /// `Σ left rightᵀ` in a basis.
 fn projected<'a>(basis: &[Vec<f64>], pairs: impl IntoIterator<Item = &'a Pair>) -> Vec<f64> {
-    let r = basis.len();
-    let mut out = vec![0.0; r * r];
-    for pair in pairs {
-        let left: Vec<f64> = basis.iter().map(|x| product(&pair.left, x)).collect();
-        let right: Vec<f64> = basis.iter().map(|x| product(&pair.right, x)).collect();
-        for (row, l) in out.chunks_exact_mut(r).zip(left) {
-            row.iter_mut().zip(&right).for_each(|(o, x)| *o += l * x);
-        }
-    }
-    out
+    let pairs: Vec<&Pair> = pairs.into_iter().collect();
+    let along = |side: fn(&Pair) -> &Sparse| -> Vec<Vec<f64>> {
+        let one = |x: &Vec<f64>| pairs.iter().map(|p| product(side(p), x)).collect();
+        basis.iter().map(one).collect()
+    };
+    products(&along(|p| &p.left), &along(|p| &p.right))
 }

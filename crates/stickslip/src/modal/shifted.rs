@@ -23,6 +23,8 @@ pub(crate) struct Shifted<'a> {
     pub factor: Factor,
     /// `σ ≥ 0` `[1/s]`.
     pub sigma: f64,
+    /// How many matrices were factored until one could be.
+    pub factorisations: usize,
     /// Whether the damping of bodies is in it.
     damped: bool,
 }
@@ -34,7 +36,7 @@ impl<'a> Shifted<'a> {
         let symbolic = Symbolic::analyze(&linear.stiffness, fixed, &[]);
         let symbolic = Arc::new(symbolic.map_err(|e| fault(frame, e.to_string()))?);
         let mut shift = 0.0;
-        for _ in 0..7 {
+        for before in 0..7 {
             let sigma = f64::sqrt(shift);
             let matrix = matrix(linear, sigma, damped);
             match Factor::new(&symbolic, &matrix, &[]) {
@@ -43,6 +45,7 @@ impl<'a> Shifted<'a> {
                         linear,
                         factor,
                         sigma,
+                        factorisations: before + 1,
                         damped,
                     });
                 }

@@ -52,7 +52,7 @@ pub struct ComplexPlan {
     pub map: Option<MapPlan>,
     /// Whether matrices are written.
     pub export: bool,
-    /// Whether it is asked how growth rates change with friction, moduli and densities.
+    /// Whether it is asked how growth rates change with friction, contact stiffness, moduli, densities and damping.
     pub sensitivity: bool,
 }
 
@@ -185,12 +185,14 @@ pub struct MapPlan {
 }
 
 impl MapPlan {
-    /// The factors at which the space of a map has to be good.
-    pub(crate) fn ends(&self) -> Vec<f64> {
-        match self.over {
-            MapOver::Speed => self.range.to_vec(),
-            _ => vec![self.range[1].abs().max(self.range[0].abs())],
-        }
+    /// The factors at which the space of a map has to be good: where friction is most, and between.
+    pub(crate) fn tried(&self) -> Vec<f64> {
+        let [from, to] = self.range;
+        let ends = match self.over {
+            MapOver::Speed => vec![from, to],
+            _ => vec![to.abs().max(from.abs())],
+        };
+        ends.into_iter().chain([0.5 * (from + to)]).collect()
     }
 
     /// All factors.

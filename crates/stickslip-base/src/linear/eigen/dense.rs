@@ -1,7 +1,11 @@
 //! Dense eigenvalues and systems, by faer.
 
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Mat, Side, c64};
+use faer::{Accum, Mat, Par, Side, c64};
+
+/// Entries of long vectors that are multiplied at once, so that they stay in the cache.
+const ROWS: usize = 512;
 
 /// Real and imaginary part.
 pub type Complex = [f64; 2];
@@ -87,6 +91,65 @@ pub fn pencil(n: usize, a: &[Complex], b: &[Complex]) -> Option<Vec<Complex>> {
     Some(values.iter().map(|z| [z.re, z.im]).collect())
 }
 
+/// These entries of several vectors as a matrix, a column for each.
+fn part(vectors: &[Vec<f64>], rows: std::ops::Range<usize>) -> Mat<f64> {
+    let entry = |i: usize, j: usize| vectors[j][rows.start + i];
+    Mat::from_fn(rows.len(), vectors.len(), entry)
+}
+
+/// Parts of the length `n`.
+fn parts(n: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
+    (0..n).step_by(ROWS).map(move |k| k..n.min(k + ROWS))
+}
+
+/// The scalar products of long vectors with others, `XᵀY` row by row.
+///
+/// # Panics
+/// If they are not all of one length.
+pub fn products(x: &[Vec<f64>], y: &[Vec<f64>]) -> Vec<f64> {
+    let length = x.first().map_or(0, Vec::len);
+    let mut all = Mat::zeros(x.len(), y.len());
+    for rows in parts(length) {
+        let [x, y] = [x, y].map(|of| part(of, rows.clone()));
+        matmul(
+            all.as_mut(),
+            Accum::Add,
+            x.transpose(),
+            y.as_ref(),
+            1.0,
+            Par::Seq,
+        );
+    }
+    let entries = (0..x.len() * y.len()).map(|k| all[(k / y.len(), k % y.len())]);
+    entries.collect()
+}
+
+/// Sums of long vectors, `X F` with so many columns of factors `F`, row by row.
+///
+/// # Panics
+/// If vectors are not all of one length, or factors are missing.
+pub fn sums(x: &[Vec<f64>], factors: &[f64], columns: usize) -> Vec<Vec<f64>> {
+    let length = x.first().map_or(0, Vec::len);
+    let factors = Mat::from_fn(x.len(), columns, |i, j| factors[i * columns + j]);
+    let mut out = vec![Vec::with_capacity(length); columns];
+    for rows in parts(length) {
+        let x = part(x, rows.clone());
+        let mut all = Mat::zeros(rows.len(), columns);
+        matmul(
+            all.as_mut(),
+            Accum::Replace,
+            x.as_ref(),
+            factors.as_ref(),
+            1.0,
+            Par::Seq,
+        );
+        for (j, out) in out.iter_mut().enumerate() {
+            out.extend((0..rows.len()).map(|i| all[(i, j)]));
+        }
+    }
+    out
+}
+
 /// A dense LU factor with row exchanges.
 pub struct DenseLu {
     n: usize,
@@ -160,6 +223,30 @@ mod tests {
             }
         }
         assert!(general(1, &[f64::NAN]).is_none());
+    }
+
+    #[test]
+    fn long_vectors_are_multiplied_as_one_by_one() {
+        let n = 2 * super::ROWS + 3;
+        let mut seed = 11;
+        let mut some = |count: usize| -> Vec<Vec<f64>> {
+            let mut one = || (0..n).map(|_| super::super::vectors::noise(&mut seed));
+            (0..count).map(|_| one().collect()).collect()
+        };
+        let (x, y) = (some(3), some(2));
+        let all = products(&x, &y);
+        for (k, found) in all.iter().enumerate() {
+            let one: f64 = x[k / 2].iter().zip(&y[k % 2]).map(|(x, y)| x * y).sum();
+            assert!((found - one).abs() < 1e-12 * n as f64, "{found} {one}");
+        }
+        let sums = sums(&x, &all, 2);
+        for (j, sum) in sums.iter().enumerate() {
+            for i in 0..n {
+                let one: f64 = (0..3).map(|k| x[k][i] * all[2 * k + j]).sum();
+                assert!((sum[i] - one).abs() < 1e-12, "{} {one}", sum[i]);
+            }
+        }
+        assert!(products(&x, &[]).is_empty() && products(&[], &y).is_empty());
     }
 
     #[test]

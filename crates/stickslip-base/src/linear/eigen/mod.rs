@@ -10,5 +10,5 @@ mod lanczos;
 mod vectors;
 
 pub use arnoldi::{Found, Krylov, Nearest, arnoldi};
-pub use dense::{Complex, DenseLu, eigenvalues, general, pencil, symmetric};
+pub use dense::{Complex, DenseLu, eigenvalues, general, pencil, products, sums, symmetric};
 pub use lanczos::{Pencil, RealModes, Wanted, lanczos};
