@@ -640,9 +640,9 @@ fn shapes_of_modes_are_in_the_view() {
 fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
     let folder = Folder::new("charts");
     run(MODES, &folder.0);
-    let written = plot::coupling(&folder.file("modes-3-map.csv"), None, "mu", [600, 400]).unwrap();
+    let pictures = plot::coupling(&folder.file("modes-3-map.csv"), None, "mu", [600, 400]).unwrap();
     let names = ["modes-3-map.frequency.png", "modes-3-map.growth.png"];
-    assert_eq!(written, names.map(|name| folder.file(name)));
+    assert_eq!(pictures, names.map(|name| folder.file(name)));
     let table = folder.file("pad.sweep.csv");
     let text = "run,a.mu,load.p,outcome,MODES.GROWTH,MODES.FREQUENCY,MODES.1.FREQUENCY,MODES.1.GROWTH\n1,0.1,1,done,-1,5,5,-1\n2,0.2,1,done,2,5,5,2\n3,0.1,2,done,3,0,0,3\n4,0.2,2,failed,,,,\n";
     std::fs::write(&table, text).unwrap();

@@ -1009,7 +1009,7 @@ fn contact_damps_the_approach_of_what_slides() {
 /// What sticks has all of its stiffness along the surface: a block on springs `k` up and `κ` along slides and pitches as its two equations say.
 #[test]
 fn points_that_stick_have_stiffness_along_the_surface() {
-    let (k, along) = (2000.0, 3000.0);
+    let (k, along): (f64, f64) = (2000.0, 3000.0);
     let law = format!(
         "friction.coulomb = {{ mu = 0.5 }}, enforcement.penalty = {{ stiffness = {k:?}, tangential-stiffness = {along:?} }}"
     );

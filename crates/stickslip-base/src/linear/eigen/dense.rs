@@ -230,8 +230,12 @@ mod tests {
         let n = 2 * super::ROWS + 3;
         let mut seed = 11;
         let mut some = |count: usize| -> Vec<Vec<f64>> {
-            let mut one = || (0..n).map(|_| super::super::vectors::noise(&mut seed));
-            (0..count).map(|_| one().collect()).collect()
+            let mut one = |_| {
+                (0..n)
+                    .map(|_| super::super::vectors::noise(&mut seed))
+                    .collect()
+            };
+            (0..count).map(&mut one).collect()
         };
         let (x, y) = (some(3), some(2));
         let all = products(&x, &y);
