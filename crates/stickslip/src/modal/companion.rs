@@ -82,11 +82,6 @@ impl Reduced {
         modes(found, self.basis.len())
     }
 
-    /// The same with displacements of all dofs.
-    pub fn modes(&self, asked: Asked) -> Vec<Eigen> {
-        lifted(&self.basis, self.eigen(asked))
-    }
-
     /// Their eigenvalues alone.
     pub fn values(&self, asked: Asked) -> Vec<Complex> {
         let n = 2 * self.basis.len();

@@ -73,12 +73,14 @@ pub(crate) fn modes(
         let mut over = Over::new(&shifted, over, &mut at_speed);
         let tried = plan.map.as_ref().map_or(vec![1.0], MapPlan::tried);
         let before = solves;
-        let reduced = map::space(&mut over, asked, &tried, &mut solves);
+        let known = (found.as_slice(), tried.as_slice());
+        let (reduced, estimate) = map::space(&mut over, asked, known, &mut solves);
         if plan.export {
             out.export = export::matrices(&shifted);
             out.arrays = export::arrays(&shifted, &root, &reduced);
         }
         if let Some(plan) = &plan.map {
+            let reduced = (reduced, &estimate);
             let mut map = map::rows(&mut over, reduced, plan, asked, &mut solves);
             map.solves = solves - before;
             out.notes.extend(map::notes(&map));

@@ -8,7 +8,6 @@
 use std::f64::consts::TAU;
 
 use super::linear::{Linear, fault};
-use super::map::ROUNDS;
 use super::outcome::{ModalOutcome, Response, ResponseRow};
 use super::quadratic::UNSTABLE;
 use super::real::{frequency, lowest};
@@ -23,6 +22,9 @@ use crate::model::modal::HarmonicPlan;
 
 /// Residual in the equations of all dofs that is good enough.
 const GOOD: f64 = 1e-5;
+
+/// Rounds in which what is left open is added, at most.
+const ROUNDS: usize = 5;
 
 /// Modes up to so many times the highest frequency are in the space.
 const BEYOND: f64 = 1.5;

@@ -1,13 +1,15 @@
 //! Growth over friction, speed and load: many factors at the price of few solutions.
 //!
-//! The space is that of the lowest real modes and of the displacements that their friction causes at rest, `A⁻¹ L Rᵀ φ`, which is all that first-order
-//! perturbation of a mode needs; modes alone would leave the local give of the surfaces out, by which normal motion and friction meet. What modes leave open in the
-//! equations of all dofs follows, while it is too much. In that space a factor costs an eigenvalue problem, by the method of Arnoldi where it is large; the modes of some
-//! factors span a smaller one, in which all others are found at a cost that does not count.
+//! The space is that of the modes of the state, of the lowest real modes, and of the displacements that their friction causes at rest, `A⁻¹ L Rᵀ φ`, which is all that
+//! first-order perturbation of a mode needs; modes alone would leave the local give of the surfaces out, by which normal motion and friction meet. What modes leave open
+//! in the equations of all dofs follows, at the factor at which it is most, until it is little at all that are tried: `estimate` tells without a solution. In that space
+//! a factor costs an eigenvalue problem, by the method of Arnoldi where it is large; the modes of some factors span a smaller one, in which all others are found at a
+//! cost that does not count.
 
 use std::f64::consts::TAU;
 
 use super::companion::{Asked, fastest, lifted};
+use super::estimate::Estimate;
 use super::few::Few;
 use super::linear::{Linear, Rub};
 use super::outcome::{FrictionMap, MapRow};
@@ -20,12 +22,13 @@ use crate::math::vector::norm;
 use crate::model::modal::{MapOver, MapPlan};
 
 /// Rounds in which what modes leave open is added, at most.
-pub(super) const ROUNDS: usize = 5;
+const ROUNDS: usize = 40;
 
-/// Residual of modes in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, of which the space knows nothing, have beside it.
+/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, of which the space knows nothing,
+/// have beside it.
 const GOOD: f64 = 1e-6;
 
-/// The residual of unstable modes above which a note says so.
+/// The residual above which a note says so.
 const DOUBTFUL: f64 = 1e-4;
 
 /// How far from a critical factor its slope is looked for, relative to the largest.
@@ -46,9 +49,6 @@ const NEW: f64 = 0.1 * CLOSE;
 
 /// So many states for each displacement of the larger space are few.
 const FEWER: f64 = 1.0;
-
-/// At so many factors unstable modes are held against the equations of all dofs.
-const CHECKS: usize = 5;
 
 /// What changes over a map.
 pub(crate) struct Over<'a> {
@@ -107,35 +107,53 @@ impl<'a> Over<'a> {
     }
 }
 
-/// The space in which modes of least frequency are found at factors between these.
-pub(crate) fn space(over: &mut Over, asked: Asked, tried: &[f64], solves: &mut usize) -> Reduced {
+/// The space in which modes of least frequency are found at factors between these; `found`: those of the state.
+pub(crate) fn space(
+    over: &mut Over,
+    asked: Asked,
+    (found, tried): (&[Eigen], &[f64]),
+    solves: &mut usize,
+) -> (Reduced, Estimate) {
     let shifted = over.shifted;
     let linear = shifted.linear;
     let count = asked.0;
-    let modes = lowest(shifted, (2 * count + 8).min(linear.free()), f64::INFINITY);
+    let modes = lowest(shifted, (count + 8).min(linear.free()), f64::INFINITY);
     *solves += modes.solves;
     let pace = modes.values.get(count / 2).map_or(1.0, |v| v.abs().sqrt());
     let pace = if pace > 0.0 { pace } else { 1.0 };
     let damped = |x: &[f64]| linear.damped(x);
     let mut reduced = Reduced::new(shifted, pace);
-    let block = reduced.grow(shifted, &damped, modes.vectors);
+    let mut block = reduced.grow(shifted, &damped, modes.vectors);
+    let own = found.iter().flat_map(|mode| mode.vector.iter().cloned());
+    block.extend(reduced.grow(shifted, &damped, own.collect()));
     let images = images(shifted, &block, solves);
     reduced.grow(shifted, &damped, images);
-    for &factor in tried {
-        for _ in 0..ROUNDS {
-            over.set(factor, &mut reduced);
-            let modes = reduced.modes(asked);
-            let (open, solved) = residuals(shifted, &modes, over.rub(), solves);
-            let rests = solved.into_iter().enumerate();
-            let rests = rests.filter(|(k, _)| open[k / 2] > GOOD).map(|(_, x)| x);
-            let rests: Vec<Vec<f64>> = rests.collect();
-            if rests.is_empty() {
-                break;
-            }
-            reduced.grow(shifted, &damped, rests);
+    let mut estimate = Estimate::new(shifted, solves);
+    // More displacements leave less open: who was good is not asked again, and who was not is when nothing that is known is worse.
+    let mut known = vec![f64::INFINITY; tried.len()];
+    for _ in 0..ROUNDS {
+        estimate.take(&reduced);
+        let worst = (0..tried.len()).max_by(|a, b| known[*a].total_cmp(&known[*b]));
+        let Some(worst) = worst.filter(|k| known[*k] > GOOD) else {
+            break;
+        };
+        over.set(tried[worst], &mut reduced);
+        let modes = reduced.eigen(asked);
+        let open = estimate.open(&reduced, over.rub(), &modes);
+        known[worst] = largest(&open);
+        let bad = modes.into_iter().zip(open).filter(|(_, open)| *open > GOOD);
+        let bad = lifted(&reduced.basis, bad.map(|(mode, _)| mode).collect());
+        let (_, rests) = residuals(shifted, &bad, over.rub(), solves);
+        if !rests.is_empty() && reduced.grow(shifted, &damped, rests).is_empty() {
+            break;
         }
     }
-    reduced
+    estimate.take(&reduced);
+    (reduced, estimate)
+}
+
+fn largest(all: &[f64]) -> f64 {
+    all.iter().copied().fold(0.0, f64::max)
 }
 
 /// The space of a map, and few states of it in which modes are found, where they are fewer.
@@ -200,14 +218,12 @@ impl Space {
         }
     }
 
-    /// Modes of those that grow.
-    fn unstable(&self, asked: Asked) -> Vec<Eigen> {
-        let mut found = match &self.few {
+    /// The same with vectors in the coordinates of the larger space.
+    fn eigen(&self, asked: Asked) -> Vec<Eigen> {
+        match &self.few {
             Some(few) => few.eigen(&self.whole, asked),
             None => self.whole.eigen(asked),
-        };
-        found.retain(|e| grows(&e.value, UNSTABLE));
-        lifted(&self.whole.basis, found)
+        }
     }
 
     /// The mode that grows fastest, relative to its size.
@@ -219,7 +235,7 @@ impl Space {
 /// A map of the modes of least frequency.
 pub(crate) fn rows(
     over: &mut Over,
-    reduced: Reduced,
+    (reduced, estimate): (Reduced, &Estimate),
     plan: &MapPlan,
     asked: Asked,
     solves: &mut usize,
@@ -233,25 +249,20 @@ pub(crate) fn rows(
         dimension: space.dimension(),
         ..FrictionMap::default()
     };
-    let every = factors.len().div_ceil(CHECKS);
     let mut rates = Vec::new();
-    for (k, &factor) in factors.iter().enumerate() {
+    for &factor in &factors {
         space.set(over, factor);
-        let values = space.values(asked);
-        let told = values.iter().map(|v| [v[1] / TAU, v[0]]);
+        let modes = space.eigen(asked);
+        let values: Vec<Complex> = modes.iter().map(|mode| mode.value).collect();
         map.rows.push(MapRow {
             factor,
             mu: over.mu(),
-            modes: told.collect(),
+            modes: values.iter().map(|v| [v[1] / TAU, v[0]]).collect(),
+            residual: largest(&estimate.open(&space.whole, over.rub(), &modes)),
         });
         rates.push(fastest(&values));
-        let checked = k % every == every / 2 || k + 1 == factors.len();
-        if checked && grows(&rates[k], UNSTABLE) {
-            let unstable = space.unstable(asked);
-            let (open, _) = residuals(over.shifted, &unstable, over.rub(), solves);
-            map.residual = open.into_iter().fold(map.residual, f64::max);
-        }
     }
+    map.residual = worst(over, &mut space, &map.rows, asked, solves);
     for k in 1..factors.len() {
         let [before, now] = [k - 1, k].map(|k| grows(&rates[k], UNSTABLE));
         let ends = match (before, now) {
@@ -271,6 +282,22 @@ pub(crate) fn rows(
         map.undamped = first_lost(over, &mut space, &factors, asked);
     }
     map
+}
+
+/// The largest residual in the equations of all dofs of the modes of the row that is estimated to be worst.
+fn worst(
+    over: &mut Over,
+    space: &mut Space,
+    rows: &[MapRow],
+    asked: Asked,
+    solves: &mut usize,
+) -> f64 {
+    let row = rows.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
+    let Some(row) = row else { return 0.0 };
+    space.set(over, row.factor);
+    let modes = lifted(&space.whole.basis, space.eigen(asked));
+    let (open, _) = residuals(over.shifted, &modes, over.rub(), solves);
+    largest(&open)
 }
 
 /// Whether something grows by more than a part of its size.
@@ -361,7 +388,7 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     }
     if map.residual > DOUBTFUL {
         notes.push(format!(
-            "unstable modes of the map leave the equations of all dofs open by {:.1e}: ask for more modes",
+            "modes of the map leave the equations of all dofs open by {:.1e}: ask for a smaller range",
             map.residual
         ));
     }

@@ -4,7 +4,7 @@
 //! friction adds, as pairs of sparse rows, one for each contact point that slides. `shifted` solves with it: the symmetric part is factored once, friction is
 //! a dense matrix over the sliding points (Woodbury's formula), and only that depends on the coefficient of friction. `real` and `complex` are the two
 //! eigenvalue problems (`quadratic` solves the second). `reduced` is the model in the space of a few real modes, `companion` has its modes and `few` those of many
-//! coefficients, for which `map` asks; `harmonic` finds there the answer to forces at many frequencies.
+//! coefficients, for which `map` asks, and `estimate` says what they leave open; `harmonic` finds in that space the answer to forces at many frequencies.
 //!
 //! At a point that slides with the velocity `v` along `s`, pressure `p`, `k_n = dp/d(-g)` and the law `μ(v, p)` the secondary meets per area
 //!
@@ -16,6 +16,7 @@
 
 pub(crate) mod companion;
 pub(crate) mod complex;
+pub(crate) mod estimate;
 pub(crate) mod export;
 pub(crate) mod few;
 pub(crate) mod harmonic;

@@ -118,7 +118,7 @@ pub struct FrictionMap {
     pub rows: Vec<MapRow>,
     /// Factors at which the largest growth rate comes up through zero, over speed and load down through it as well, with the frequency there.
     pub critical: Vec<[f64; 2]>,
-    /// The largest residual of unstable modes in the equations of motion of all dofs, at some of the factors.
+    /// The largest residual in the equations of motion of all dofs of the modes at that factor at which they are estimated to be worst.
     pub residual: f64,
     /// Critical factor without the damping of bodies, where there is one and with damping the factor is less.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -135,6 +135,9 @@ pub struct MapRow {
     pub mu: f64,
     /// Frequency and growth by mode.
     pub modes: Vec<[f64; 2]>,
+    /// What the worst of them leaves open in the equations of motion of all dofs, estimated: displacements at rest under the forces that are left, relative to those of the
+    /// mode, both weighted by mass.
+    pub residual: f64,
 }
 
 /// Displacements under forces that go with `e^(i ω t)`.
@@ -253,7 +256,12 @@ crate::keep!(ResponseRow {
     values,
     shape
 });
-crate::keep!(MapRow { factor, mu, modes });
+crate::keep!(MapRow {
+    factor,
+    mu,
+    modes,
+    residual
+});
 crate::keep!(Sensitivity {
     mode,
     of,

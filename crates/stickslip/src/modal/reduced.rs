@@ -30,17 +30,23 @@ pub(crate) struct Reduced {
     pub pace: f64,
 }
 
-/// Displacements at rest under the friction of others.
+/// Displacements at rest under the friction of others, or under that of each contact point where these are fewer.
 pub(super) fn images(shifted: &Shifted, block: &[Vec<f64>], solves: &mut usize) -> Vec<Vec<f64>> {
     let linear = shifted.linear;
     let mut columns = Vec::new();
-    for x in block {
-        for pairs in [&linear.friction, &linear.drag] {
-            if !pairs.is_empty() {
-                let mut column = vec![0.0; linear.size()];
-                add_pairs(pairs, 1.0, x, &mut column);
-                columns.push(column);
-            }
+    for pairs in [&linear.friction, &linear.drag] {
+        let mut forces = |of: &mut dyn FnMut(&mut [f64])| {
+            let mut column = vec![0.0; linear.size()];
+            of(&mut column);
+            columns.push(column);
+        };
+        if pairs.len() > block.len() {
+            let each = block.iter();
+            each.for_each(|x| forces(&mut |column| add_pairs(pairs, 1.0, x, column)));
+            continue;
+        }
+        for pair in pairs {
+            forces(&mut |column| pair.left.iter().for_each(|&(dof, v)| column[dof] += v));
         }
     }
     *solves += columns.len();
@@ -127,10 +133,14 @@ impl Reduced {
 
     /// Takes other friction.
     pub fn take(&mut self, linear: &Linear) {
-        self.friction = projected(&self.basis, &linear.friction);
-        self.drag = projected(&self.basis, &linear.drag);
-        let approach: Vec<&Pair> = linear.drag.iter().filter(|p| p.approach).collect();
-        self.approach = projected(&self.basis, approach);
+        let along = |pairs| projected(&self.basis, &self.basis, pairs);
+        let approach = linear.drag.iter().filter(|p| p.approach);
+        let [friction, drag, approach] = [
+            along(linear.friction.iter().collect()),
+            along(linear.drag.iter().collect()),
+            along(approach.collect()),
+        ];
+        (self.friction, self.drag, self.approach) = (friction, drag, approach);
     }
 
     /// Whether nothing damps, nor drives what moves.
@@ -141,7 +151,7 @@ impl Reduced {
 }
 
 /// A symmetric matrix with further rows and columns, of which the last columns are given.
-fn bordered(old: &[f64], [first, all]: [usize; 2], columns: &[f64]) -> Vec<f64> {
+pub(super) fn bordered(old: &[f64], [first, all]: [usize; 2], columns: &[f64]) -> Vec<f64> {
     let new = all - first;
     let entry = |k: usize| match (k / all, k % all) {
         (i, j) if j >= first => columns[i * new + j - first],
@@ -151,12 +161,11 @@ fn bordered(old: &[f64], [first, all]: [usize; 2], columns: &[f64]) -> Vec<f64> 
     (0..all * all).map(entry).collect()
 }
 
-/// `Σ left rightᵀ` in a basis.
-fn projected<'a>(basis: &[Vec<f64>], pairs: impl IntoIterator<Item = &'a Pair>) -> Vec<f64> {
-    let pairs: Vec<&Pair> = pairs.into_iter().collect();
-    let along = |side: fn(&Pair) -> &Sparse| -> Vec<Vec<f64>> {
+/// `Σ left rightᵀ` between vectors and a basis.
+pub(super) fn projected(x: &[Vec<f64>], basis: &[Vec<f64>], pairs: Vec<&Pair>) -> Vec<f64> {
+    let along = |of: &[Vec<f64>], side: fn(&Pair) -> &Sparse| -> Vec<Vec<f64>> {
         let one = |x: &Vec<f64>| pairs.iter().map(|p| product(side(p), x)).collect();
-        basis.iter().map(one).collect()
+        of.iter().map(one).collect()
     };
-    products(&along(|p| &p.left), &along(|p| &p.right))
+    products(&along(x, |p| &p.left), &along(basis, |p| &p.right))
 }

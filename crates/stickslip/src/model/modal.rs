@@ -173,6 +173,9 @@ impl MapOver {
     }
 }
 
+/// So many factors of a map are tried before it is made, at most.
+const TRIED: usize = 15;
+
 /// A map over a factor of something.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapPlan {
@@ -185,14 +188,14 @@ pub struct MapPlan {
 }
 
 impl MapPlan {
-    /// The factors at which the space of a map has to be good: where friction is most, and between.
+    /// The factors at which the space of a map has to be good: some over all of its range.
     pub(crate) fn tried(&self) -> Vec<f64> {
-        let [from, to] = self.range;
-        let ends = match self.over {
-            MapOver::Speed => vec![from, to],
-            _ => vec![to.abs().max(from.abs())],
-        };
-        ends.into_iter().chain([0.5 * (from + to)]).collect()
+        let few = self.points.clamp(2, TRIED);
+        MapPlan {
+            points: few,
+            ..*self
+        }
+        .factors()
     }
 
     /// All factors.

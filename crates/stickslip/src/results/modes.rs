@@ -148,6 +148,7 @@ fn map_table(map: &FrictionMap) -> Table {
     };
     column("factor".into(), &|r| r.factor);
     column("mu".into(), &|r| r.mu);
+    column("residual".into(), &|r| r.residual);
     column("largest-growth".into(), &|r| {
         r.modes.iter().fold(f64::NEG_INFINITY, |m, v| m.max(v[1]))
     });

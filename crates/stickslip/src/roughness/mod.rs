@@ -4,7 +4,7 @@ mod csv;
 mod map;
 mod measured;
 mod model;
-mod random;
+pub(crate) mod random;
 mod sdf;
 mod self_affine;
 mod statistics;

@@ -1,5 +1,5 @@
 /// SplitMix64 ([Steele, Lea and Flood 2014](stickslip_base::references::steele_2014)): a counter, scrambled; the same on every machine.
-pub(super) struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
     /// From 0 to 1, without 1.

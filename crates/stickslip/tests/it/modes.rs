@@ -746,6 +746,8 @@ fn agrees(map: &ModalOutcome, alone: &[(usize, &ModalOutcome)]) {
     let rows = &map.map.as_ref().expect("a map").rows;
     let mut worst_of_all: f64 = 0.0;
     for (row, alone) in alone {
+        // A map keeps the contact state: where an analysis of its own has another, they differ.
+        assert_eq!(alone.points, map.points);
         assert_eq!(rows[*row].modes.len(), alone.modes.len());
         for ([frequency, growth], mode) in rows[*row].modes.iter().zip(&alone.modes) {
             let size = mode.growth.hypot(TAU * mode.frequency);
@@ -801,10 +803,12 @@ fn a_map_over_the_speed_agrees_with_an_analysis_there() {
 /// Fifty coefficients need no factor beside that of one analysis, fewer solutions than it, and few states; and what they say is what analyses with such friction find.
 #[test]
 fn a_map_of_a_pad_in_space_costs_no_more_than_one_analysis() {
+    // Up to 0.69 no point opens.
+    const MU: f64 = 0.28;
     let asked = "count = 20, friction-damping = false";
-    let one = pad_in_space([5.0, 0.5], asked);
+    let one = pad_in_space([5.0, MU], asked);
     let all = pad_in_space(
-        [5.0, 0.5],
+        [5.0, MU],
         &format!("{asked}, map = {{ to = 2.45, points = 50 }}"),
     );
     assert!(one.points[1] > 40, "{:?}", one.points);
@@ -815,20 +819,26 @@ fn a_map_of_a_pad_in_space_costs_no_more_than_one_analysis() {
     );
     assert_eq!(map.rows.len(), 50);
     assert!(map.residual < 1e-5, "{:e}", map.residual);
+    let estimates = map.rows.iter().map(|row| row.residual);
+    let estimate = estimates.fold(0.0, f64::max);
+    assert!(
+        estimate < map.residual && map.residual < 10.0 * estimate,
+        "{estimate:e}"
+    );
     assert_eq!([one.factorisations, all.factorisations], [1, 1]);
     assert_eq!(all.solves, one.solves + map.solves);
     assert!(map.solves <= one.solves, "{} {}", one.solves, map.solves);
-    assert!(map.dimension < 200, "{}", map.dimension);
+    assert!(map.dimension < 250, "{}", map.dimension);
     // Friction changes nothing else: stiffness of contact does not depend on the pressure.
     let others = [2, 33, 49].map(|row| {
-        let mu = 0.5 * map.rows[row].factor;
+        let mu = MU * map.rows[row].factor;
         (row, pad_in_space([5.0, mu], asked))
     });
     let others: Vec<_> = others.iter().map(|(row, of)| (*row, of)).collect();
     agrees(&all, &[(20, &one), others[0], others[1], others[2]]);
     // Where stability is lost an analysis finds it lost.
     let [factor, frequency] = map.critical[0];
-    let [below, above] = [0.999, 1.001].map(|f| pad_in_space([5.0, 0.5 * factor * f], asked));
+    let [below, above] = [0.999, 1.001].map(|f| pad_in_space([5.0, MU * factor * f], asked));
     let (below, above) = (worst(&below), worst(&above));
     assert!(below[0] < 0.0 && above[0] > 0.0, "{below:?} {above:?}");
     near(above[1], TAU * frequency, 1e-3 * above[1]);
