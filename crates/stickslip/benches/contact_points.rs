@@ -163,6 +163,7 @@ fn interface(
         belt: Vec::new(),
         schedule: Schedule::always(),
         frames: Default::default(),
+        turns: false,
         edge_tolerance: 1e-3,
         origin: [0.0; 3],
         initial: Initial::default(),
