@@ -97,13 +97,8 @@ fn build_cells() -> Result<PathBuf, String> {
         false => ("release", "release"),
     };
     let mut build = Command::new(cargo);
-    build.args([
-        "build",
-        "--package",
-        "stickslip-mumps-cells",
-        "--profile",
-        profile,
-    ]);
+    // With all that `cargo test` builds, so that dependencies have the same features, and are built once.
+    build.args(["build", "--lib", "--profile", profile]);
     let status = build.current_dir(root()).status();
     match status.map_err(|e| format!("cargo: {e}"))?.success() {
         true => Ok(target().join(folder).join("libstickslip_mumps_cells.a")),
