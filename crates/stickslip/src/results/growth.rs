@@ -19,6 +19,9 @@ const SPANS: usize = 60;
 /// Most rows of the history for a cycle that a waterfall looks at: several for the highest harmonic.
 const FINE: f64 = 64.0;
 
+/// Part of a span that times lose by rounding.
+const ROUNDED: f64 = 1e-6;
+
 /// Columns of the history over the rows of a step.
 struct Rows {
     time: Vec<f64>,
@@ -196,7 +199,7 @@ pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     let rows = Rows::of(history, growth)?.thinned(1.0 / (FINE * frequency));
     let end = *rows.time.last()?;
     // Half of each is in the next.
-    let fit = (2.0 * end * frequency / CYCLES[0]).floor();
+    let fit = (2.0 * end * frequency / CYCLES[0] + ROUNDED).floor();
     if fit < 3.0 {
         return None;
     }

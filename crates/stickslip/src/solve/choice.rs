@@ -73,15 +73,6 @@ pub(crate) struct Choice {
 impl Scene<'_> {
     /// The cheapest way that fits into memory.
     pub(crate) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
-        // In the plane an ordering costs little, and another one after the first singular matrix as much again.
-        if self.model.dofs.dim == 2 && self.turns_unheld() {
-            return Choice {
-                method: Solution::Sparse,
-                reason:
-                    "contact alone holds an axle: condensed bodies are singular where it lets go"
-                        .into(),
-            };
-        }
         let free = held.iter().filter(|h| !**h).count() as f64;
         let candidates = cost.candidates as f64;
         let [static_, moving] = self.increments_left();
@@ -155,16 +146,6 @@ impl Scene<'_> {
                 list.join(", ")
             ),
         }
-    }
-
-    /// Whether nothing but contact holds an axle in some step at rest that is to come.
-    fn turns_unheld(&self) -> bool {
-        let ahead = self.model.steps[self.frame.step..].iter();
-        let mut at_rest = ahead.filter(|s| s.dynamic.is_none());
-        at_rest.any(|step| {
-            let constraints = self.frame.constraints(self.model, step.end);
-            self.model.frames.any_unheld(&constraints.fixed)
-        })
     }
 
     /// Memory that an increment takes until it is reported `[bytes]`.

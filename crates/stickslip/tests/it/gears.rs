@@ -33,6 +33,9 @@ fn pair(cells: usize, increments: &str) -> String {
         name = "turn"
         supports = ["pinion", "wheel", "one", "two"]
         increments = {{ {increments} }}
+        # Condensed bodies are singular where contact lets go.
+        [solver]
+        method = "sparse"
         [quality]
         gate = "off"
         "#
