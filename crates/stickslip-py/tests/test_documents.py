@@ -8,9 +8,7 @@ import pytest
 
 HERE = Path(__file__).resolve().parents[1]
 BOOK = HERE.parents[1] / "book" / "src"
-# Pages whose results are looked at have tests of their own.
-OWN = {"gears.md", "wear-coefficient.md"}
-PAGES = sorted(p for p in BOOK.rglob("*.md") if "```python\n" in p.read_text() and p.name not in OWN)
+PAGES = sorted(p for p in BOOK.rglob("*.md") if "```python\n" in p.read_text())
 NOTEBOOKS = sorted((HERE / "notebooks").glob("*.ipynb"))
 
 
