@@ -15,7 +15,7 @@ const STREAM: f64 = 1.2e9;
 /// Newton iterations of a quasi-static and of a dynamic increment, and Krylov iterations of each.
 const NEWTON: [f64; 2] = [2.5, 1.5];
 const KRYLOV: f64 = 6.0;
-/// Newton iterations of a quasi-static increment in which bodies turn, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
+/// Newton iterations of a quasi-static increment in which bodies turn on axles, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
 /// `geneva-drive`, 6.5 in `rolling-wheel` and `bentall-johnson`.
 const NEWTON_TURNING: f64 = 6.0;
 
@@ -76,8 +76,10 @@ impl Scene<'_> {
         let free = held.iter().filter(|h| !**h).count() as f64;
         let candidates = cost.candidates as f64;
         let [static_, moving] = self.increments_left();
-        let turns = self.contact.interfaces.iter().any(|i| i.turns);
-        let at_rest = if turns { NEWTON_TURNING } else { NEWTON[0] };
+        let at_rest = match self.model.frames.is_empty() {
+            true => NEWTON[0],
+            false => NEWTON_TURNING,
+        };
         let iterations = static_ * at_rest + moving * NEWTON[1];
         let memory = available_memory().map(|free| free as f64);
         let points: usize = self.contact.interfaces.iter().map(|i| i.points.len()).sum();
