@@ -19,9 +19,6 @@ const SPANS: usize = 60;
 /// Most rows of the history for a cycle that a waterfall looks at: several for the highest harmonic.
 const FINE: f64 = 64.0;
 
-/// Part of a span that times lose by rounding.
-const ROUNDED: f64 = 1e-6;
-
 /// Columns of the history over the rows of a step.
 struct Rows {
     time: Vec<f64>,
@@ -54,11 +51,12 @@ impl Rows {
         })
     }
 
-    /// Rows that are at least so far apart in time.
+    /// Rows that are at least so far apart in time, and the last one, where the step ends.
     fn thinned(mut self, gap: f64) -> Self {
         let mut last = f64::NEG_INFINITY;
+        let end = self.time.last().copied();
         let far = self.time.iter().map(|&t| {
-            let far = t >= last + gap;
+            let far = t >= last + gap || Some(t) == end;
             last = if far { t } else { last };
             far
         });
@@ -199,7 +197,7 @@ pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     let rows = Rows::of(history, growth)?.thinned(1.0 / (FINE * frequency));
     let end = *rows.time.last()?;
     // Half of each is in the next.
-    let fit = (2.0 * end * frequency / CYCLES[0] + ROUNDED).floor();
+    let fit = (2.0 * end * frequency / CYCLES[0]).floor();
     if fit < 3.0 {
         return None;
     }
