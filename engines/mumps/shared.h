@@ -18,6 +18,7 @@
 /* No length of a file that is expected. */
 #define ANY SIZE_MAX
 
+/* ranks.c: what all others stand on. */
 extern int rank, ranks;
 extern const char *folder;
 

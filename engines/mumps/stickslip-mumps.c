@@ -49,32 +49,12 @@ typedef struct {
 static DMUMPS_STRUC_C *bodies[BODIES];
 /* Their Schur complements, where they are spread. */
 static Grid *grids[BODIES];
-int rank, ranks;
-const char *folder;
 static pid_t parent;
 /* Lines of the standard input on their way from the thread that waits for them. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t came = PTHREAD_COND_INITIALIZER;
 static char line[512];
 static int has_line, quitting;
-
-void die(const char *format, ...) {
-    va_list list;
-    fprintf(stderr, "stickslip-mumps, rank %d: ", rank);
-    va_start(list, format);
-    vfprintf(stderr, format, list);
-    va_end(list);
-    fputc('\n', stderr);
-    fflush(stderr);
-    MPI_Abort(MPI_COMM_WORLD, 1);
-    _exit(1);
-}
-
-void *get(size_t count, size_t size) {
-    void *memory = count ? calloc(count, size) : NULL;
-    if (count && !memory) die("no memory for %zu numbers", count);
-    return memory;
-}
 
 static void doze(long *nanoseconds) {
     struct timespec pause = {0, *nanoseconds};
@@ -142,16 +122,6 @@ static void *read_lines(void *unused) {
         _exit(1);
     }
     return NULL;
-}
-
-void answer(const char *format, ...) {
-    va_list list;
-    if (rank != 0) return;
-    va_start(list, format);
-    vprintf(format, list);
-    va_end(list);
-    putchar('\n');
-    if (fflush(stdout)) die("the answer cannot be written");
 }
 
 /* The next command on all ranks. Who waits for one sleeps: between two, stickslip works, maybe on the same processors. */

@@ -116,11 +116,7 @@ impl Simulation {
             let part = (SAFETY / governing).max(SHRINKAGE);
             return self.take_block_back(running, (n * part).floor());
         }
-        let settled = |last: f64| !wears && last + jumps.to_come() <= chosen.error;
-        if !wears
-            && stands_for > 1
-            && verdict.is_some_and(|v| v.all * n > chosen.error && !settled(v.all))
-        {
+        if !wears && jumps.overshot(stands_for, chosen.error) {
             return self.take_block_back(running, 1.0);
         }
         jumps.kept += 1;
@@ -132,7 +128,7 @@ impl Simulation {
         };
         let left = count - after;
         let repeats = verdict.is_some_and(|v| {
-            v.all * left as f64 <= chosen.error * n || !wears && jumps.to_come() <= chosen.error
+            v.all * left as f64 <= chosen.error * n || !wears && jumps.settles(chosen.error)
         });
         if repeats && left as f64 > jumps.wish.max(1.0) {
             jumps.wish = left as f64;

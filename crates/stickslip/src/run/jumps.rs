@@ -35,9 +35,20 @@ impl Jumps {
         self.changes.push(change);
     }
 
+    /// Whether cycles in which nothing wears are as good as equal to the last one.
+    pub(super) fn settles(&self, error: f64) -> bool {
+        self.to_come() <= error
+    }
+
+    /// Whether the one of so many that was computed differs too much from the one before for all of them to be like it, and so will those to come.
+    pub(super) fn overshot(&self, stands_for: usize, error: f64) -> bool {
+        let last = self.changes.last().copied().unwrap_or(0.0);
+        stands_for > 1 && last * stands_for as f64 > error && last + self.to_come() > error
+    }
+
     /// By how much cycles in which nothing wears will come to differ from the last one, however many there are: what friction keeps from one to the next settles, and changes that
     /// fall by the larger of their last two quotients are a geometric series. Infinite as long as they do not fall.
-    pub(super) fn to_come(&self) -> f64 {
+    fn to_come(&self) -> f64 {
         let [before, between, last] = self.changes[..] else {
             return f64::INFINITY;
         };
@@ -69,5 +80,22 @@ mod tests {
             jumps.note_change(0.0);
         }
         assert_eq!(jumps.to_come(), f64::INFINITY, "nothing to go by");
+    }
+
+    #[test]
+    fn a_jump_is_taken_back_if_changes_did_not_fall_as_expected() {
+        let jumps = |changes: &[f64]| Jumps {
+            changes: changes.to_vec(),
+            ..Jumps::default()
+        };
+        let error = 1e-3;
+        assert!(jumps(&[1e-1, 1e-2, 1e-3]).settles(error));
+        assert!(!jumps(&[1e-1, 1e-2, 9e-3]).settles(error));
+        // As expected, larger than expected, and as large but of few cycles.
+        assert!(!jumps(&[1e-2, 1e-3, 1e-4]).overshot(990, error));
+        assert!(jumps(&[1e-2, 1e-3, 9e-4]).overshot(990, error));
+        assert!(!jumps(&[1e-2, 1e-3, 9e-5]).overshot(10, error));
+        assert!(!jumps(&[1e-2, 1e-3, 1e-3]).overshot(1, error));
+        assert!(!jumps(&[0.0; 3]).overshot(990, error));
     }
 }

@@ -114,7 +114,7 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
             if (0.6..2.9).contains(x) {
                 // Places lie a tenth of the pin apart: the half of one that begins and ends a pass.
                 // The pressure on a body is uneven, and what the places of a track lose with it; the volume is not.
-                let within = if even { 5e-3 } else { 0.1 };
+                let within = if even { 5e-3 } else { 0.05 };
                 close(*depth, full, within, &format!("{what} at {x}"));
             }
             if (-0.01..0.51).contains(x) && even {

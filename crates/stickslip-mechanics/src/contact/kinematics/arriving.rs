@@ -60,23 +60,12 @@ pub fn arriving_slip(
 mod tests {
     use super::*;
     use crate::contact::kinematics::rigid_stencil;
+    use crate::contact::kinematics::tests::single;
     use crate::contact::obstacle::{Cylinder, Motion, ObstacleShape, Rotation};
     use crate::math::{rotation, scale};
     use crate::registry::Family;
 
     const UP: Vec3 = [0.0, 0.0, 1.0];
-
-    fn point() -> ContactPoint {
-        ContactPoint {
-            nodes: vec![0],
-            weights: vec![1.0],
-            area: 1.0,
-            stiffness: 1.0,
-            normal: [0.0; 3],
-            size: 1.0,
-            across: Default::default(),
-        }
-    }
 
     fn turning(centre: Vec3, axis: Vec3, angle: f64) -> Motion {
         Motion {
@@ -105,10 +94,18 @@ mod tests {
         let x_before = add(hub, back(&own, scale(-1.0, hub)));
         let mut s = Stencil::default();
         let places = ([0.0; 3], x_before);
-        let feet = rigid_stencil(shape.as_dyn(), poses, &point(), places, [0.0; 3], 2, &mut s);
+        let feet = rigid_stencil(
+            shape.as_dyn(),
+            poses,
+            &single(),
+            places,
+            [0.0; 3],
+            2,
+            &mut s,
+        );
         let feet = feet.expect("a foot");
         let way = s.slip[0];
-        arriving_slip(poses, &point(), places, (&own, &feet, [0.0; 3]), 2, &mut s);
+        arriving_slip(poses, &single(), places, (&own, &feet, [0.0; 3]), 2, &mut s);
         [way, s.slip[0]].map(|slip| slip / (wheel * angle))
     }
 
@@ -147,9 +144,9 @@ mod tests {
                     let mut s = Stencil::default();
                     let places = (x, before);
                     let feet =
-                        rigid_stencil(shape.as_dyn(), poses, &point(), places, belt, 3, &mut s);
+                        rigid_stencil(shape.as_dyn(), poses, &single(), places, belt, 3, &mut s);
                     let feet = feet.expect("a foot");
-                    arriving_slip(poses, &point(), places, (own, &feet, belt), 3, &mut s);
+                    arriving_slip(poses, &single(), places, (own, &feet, belt), 3, &mut s);
                     s
                 };
                 let x = [0.31, -0.22, 0.17];

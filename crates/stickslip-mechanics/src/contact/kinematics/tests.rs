@@ -441,14 +441,9 @@ fn rigid_stencils_agree_with_differences() {
     }
 }
 
-/// Slip over an obstacle in space, and the frame.
-fn slip_over(
-    shape: &ObstacleShape,
-    motion: &Motion,
-    [x, before]: [Vec3; 2],
-    dim: usize,
-) -> (Vec3, Stencil) {
-    let point = ContactPoint {
+/// A contact point that is a node.
+pub(super) fn single() -> ContactPoint {
+    ContactPoint {
         nodes: vec![0],
         weights: vec![1.0],
         area: 1.0,
@@ -456,7 +451,17 @@ fn slip_over(
         normal: [0.0; 3],
         size: 1.0,
         across: Default::default(),
-    };
+    }
+}
+
+/// Slip over an obstacle in space, and the frame.
+fn slip_over(
+    shape: &ObstacleShape,
+    motion: &Motion,
+    [x, before]: [Vec3; 2],
+    dim: usize,
+) -> (Vec3, Stencil) {
+    let point = single();
     let mut s = Stencil::default();
     let poses = (&motion.pose(1.0), &motion.pose(0.0));
     rigid_stencil(
