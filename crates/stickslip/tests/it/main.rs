@@ -28,6 +28,7 @@ mod library;
 mod loops;
 mod loose;
 mod malformed;
+mod maps;
 mod mirrors;
 mod modes;
 mod mortar;
