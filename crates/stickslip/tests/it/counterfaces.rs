@@ -89,9 +89,10 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
         (on(there), 30, "wear-feedback = \"explicit\"", 1.0),
         (on(and_back), 4, "", 2.0),
         (BODY.to_string(), 8, belt, 1.0),
+        (BODY.to_string(), 32, belt, 1.0),
         (
             BODY.to_string(),
-            8,
+            32,
             &format!("{belt}\ndiscretisation.node-to-facet = {{}}"),
             1.0,
         ),
@@ -113,8 +114,12 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
             // The pin begins over [0, 0.5] and ends over [3, 3.5], seen from the track.
             if (0.6..2.9).contains(x) {
                 // Places lie a tenth of the pin apart: the half of one that begins and ends a pass.
-                // The pressure on a body is uneven, and what the places of a track lose with it; the volume is not.
-                let within = if even { 5e-3 } else { 0.05 };
+                // On a body the pressure changes as the pin wears, and is that of the end of an increment: places are off by 8 % with 8 of them, by 1.9, 0.7 and 0.4 % with 16, 32 and 64.
+                let within = match (even, increments) {
+                    (true, _) => 5e-3,
+                    (false, 8) => 0.1,
+                    (false, _) => 0.01,
+                };
                 close(*depth, full, within, &format!("{what} at {x}"));
             }
             if (-0.01..0.51).contains(x) && even {
