@@ -90,5 +90,6 @@ references! {
     jourdan_1998: "F. Jourdan, P. Alart, M. Jean, A Gauss-Seidel like algorithm to solve frictional contact problems, Computer Methods in Applied Mechanics and Engineering 155 (1998) 31-47.",
     acary_2018: "V. Acary, M. Brémond, O. Huber, On solving contact problems with Coulomb friction: formulations and numerical comparisons, in: Advanced Topics in Nonsmooth Dynamics, Springer, 2018, 375-457.",
     rockafellar_1976: "R. T. Rockafellar, Monotone operators and the proximal point algorithm, SIAM Journal on Control and Optimization 14 (1976) 877-898.",
+    fan_yuan_2005: "J.-Y. Fan, Y.-X. Yuan, On the quadratic convergence of the Levenberg-Marquardt method without nonsingularity assumption, Computing 74 (2005) 23-39.",
     golub_van_loan_2013: "G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., Johns Hopkins University Press, 2013.",
 }

@@ -50,6 +50,15 @@ impl System<'_> {
         self.contact.iter().for_each(|force| force.curve(out));
     }
 
+    /// Adds to the tangent of the last evaluation what holds back the step that forces `b` ask for. In motion inertia does.
+    pub(super) fn hold_back(&self, b: &[f64], out: &mut Assembler) {
+        if self.rate.is_none() {
+            self.contact
+                .iter()
+                .for_each(|force| force.hold_back(b, out));
+        }
+    }
+
     /// The state of the last evaluation is the next iterate.
     pub(super) fn settle(&mut self) {
         for force in &mut self.contact {

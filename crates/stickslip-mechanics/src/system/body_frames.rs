@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use super::frame_pose::{FramePose, exponential, product};
 use super::{Dofs, Link};
-use crate::math::{Mat3, Vec3, add, cross, mat_vec, scale, sub, transpose_vec};
+use crate::math::{Mat3, Vec3, add, cross, distance, mat_vec, scale, sub, transpose_vec};
 
 /// A body that is described in a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,10 +101,35 @@ impl BodyFrames {
 
     /// Whether nothing prescribes by how much some frame turns.
     pub fn any_unheld(&self, fixed: &[bool]) -> bool {
-        let hidden = self.all.iter().filter_map(BodyFrame::hidden);
+        let mut all = self.all.iter();
+        all.any(|frame| self.rotation(frame).any(|dof| !fixed[dof]))
+    }
+
+    /// The dofs of the rotation of a frame that a reference point carries.
+    fn rotation(&self, frame: &BodyFrame) -> std::ops::Range<usize> {
         let axes = if self.dofs.dim == 2 { 1 } else { 3 };
-        let mut turns = hidden.flat_map(|h| (0..axes).map(move |k| (h + 1, k)));
-        turns.any(|(h, k)| !fixed[self.dofs.of(h, k)])
+        frame.hidden().map_or(0..0, |h| {
+            let first = self.dofs.of(h + 1, 0);
+            first..first + axes
+        })
+    }
+
+    /// By how much each frame that a reference point carries has to turn, in the numbers of its dofs of rotation, for the farthest of these `points`, at
+    /// their reference places, to go by a `way` `[m]`; with these dofs.
+    pub fn turns_by(
+        &self,
+        points: impl Iterator<Item = (usize, Vec3)> + Clone,
+        way: f64,
+    ) -> Vec<(std::ops::Range<usize>, f64)> {
+        let each = self.all.iter().filter_map(|frame| {
+            let Carrier::Reference { centre, length, .. } = frame.carrier else {
+                return None;
+            };
+            let own = (points.clone()).filter(|(p, _)| frame.points.contains(p));
+            let farthest = own.map(|(_, x)| distance(x, centre)).fold(0.0, f64::max);
+            (farthest > 0.0).then(|| (self.rotation(frame), way * length / farthest))
+        });
+        each.collect()
     }
 
     /// Hidden points of frames that turn freely in space: those that carry rigid bodies.
@@ -360,7 +385,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::math::{distance, identity};
+    use crate::math::identity;
     use crate::system::{Assembler, InSpace};
 
     fn noise(count: usize, seed: f64) -> Vec<f64> {

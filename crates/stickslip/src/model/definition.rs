@@ -322,6 +322,8 @@ pub struct Step {
     pub increments: Increments,
     /// Times that increments must land on.
     pub milestones: Vec<f64>,
+    /// Those of them at which what drives the bodies may change its course: all but times of output.
+    pub corners: Vec<f64>,
     /// Whether increments are of one given length.
     pub fixed: bool,
     /// How motion is integrated; `None` in a quasi-static step.

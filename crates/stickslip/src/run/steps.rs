@@ -523,8 +523,7 @@ impl Simulation {
             self.tell(observers, || Event::Accepted(&advance))?;
         }
         self.go_on(pending, last, observers)?;
-        if self.step().milestones.contains(&trial.to) {
-            // Tables have their corners here.
+        if self.step().corners.contains(&trial.to) {
             self.forget_direction();
         }
         running.attempt = 1;

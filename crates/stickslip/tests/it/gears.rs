@@ -33,13 +33,39 @@ fn pair(cells: usize, increments: &str) -> String {
         name = "turn"
         supports = ["pinion", "wheel", "one", "two"]
         increments = {{ {increments} }}
-        # Condensed bodies are singular where contact lets go.
-        [solver]
-        method = "sparse"
         [quality]
         gate = "off"
         "#
     )
+}
+
+/// Where an iteration has lost contact the moment on the wheel turns it by a facet at most, so that it meets its flank again: no increment is refused or takes long, whether bodies are
+/// condensed or not, and one position is like another.
+#[test]
+fn a_wheel_that_contact_lets_go_comes_back_to_it() {
+    let base = 30.0 * 20.0_f64.to_radians().cos();
+    for method in ["condensed", "sparse"] {
+        let text = pair(24, "fixed = 16") + &format!("[solver]\nmethod = \"{method}\"\n");
+        let record = support::run(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let count = |column| {
+            let rows = record.increments.iter().map(|(_, row)| row.get(column));
+            rows.map(|x| x.expect("a column")).collect::<Vec<_>>()
+        };
+        let [all, one, two] = ["ITRS", "one.UR3", "two.UR3"].map(count);
+        println!(
+            "{method}: {} cut-backs, iterations {all:?}",
+            record.cutbacks
+        );
+        assert_eq!(record.cutbacks, 0, "{method}");
+        assert!(
+            all.iter().sum::<f64>() < 15.0 * all.len() as f64,
+            "{method}: {all:?}"
+        );
+        for (one, two) in one.iter().zip(&two) {
+            let lag = base * (two + one * 20.0 / 30.0);
+            assert!((0.0..0.05).contains(&lag), "{method}: {lag}");
+        }
+    }
 }
 
 /// With coarse flanks one node carries, and while an iteration has lost it the wheel is free: where it fits again seven teeth on, an increment was as good as any.

@@ -227,6 +227,30 @@ fn a_run_with_cutbacks_ends_like_one_without() {
     );
 }
 
+/// Where increments go on as they did, so does the guess of the next one, whether fields are written there or not.
+#[test]
+fn times_of_output_change_no_digit() {
+    for method in ["condensed", "sparse"] {
+        let text = (CASE.replace("[[step]]", "") + DRIVE)
+            .replace("[solver]", &format!("[solver]\nmethod = \"{method}\""))
+            .replace("increments.initial = 1.0", "increments.fixed = 8");
+        let run = |times: &[f64]| {
+            let mut problem = support::problem(&text);
+            problem.output.times = times.to_vec();
+            let record = support::run(&problem).unwrap_or_else(|e| panic!("{e}"));
+            let numbers = record.increments.into_iter().map(|(_, row)| {
+                let columns = ["TIME", "ITRS", "RESIDUAL", "joint.CFS1", "ALLSE"];
+                columns.map(|c| row.get(c).expect("a column").to_bits())
+            });
+            numbers.collect::<Vec<_>>()
+        };
+        let plain = run(&[]);
+        let times: Vec<f64> = plain.iter().map(|row| f64::from_bits(row[0])).collect();
+        assert!(times.len() > 4, "{method}: {times:?}");
+        assert_eq!(run(&times), plain, "{method}");
+    }
+}
+
 const DRIVE: &str = r#"
 [support.hold]
 set = "lower.bottom"

@@ -42,6 +42,10 @@ impl Force for Interface {
         self.cache.in_space.blocks(&mut out.blocks[first..]);
     }
 
+    fn hold_back(&self, b: &[f64], out: &mut Assembler) {
+        self.hold_axles(b, out);
+    }
+
     fn settle(&mut self) {
         if std::mem::take(&mut self.attempt.tentative) {
             if self.unknown() {

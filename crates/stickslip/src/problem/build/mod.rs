@@ -221,6 +221,7 @@ impl Problem {
         let mut interfaces =
             contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
         turning::attach((&frames, &corotations), &mut interfaces)?;
+        turning::refuse_ties((&frames, &corotations), &interfaces, &steps)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;

@@ -224,7 +224,7 @@ impl Timeline {
 
     /// The steps, with the times on which increments land: ends, output times, rows of tables.
     pub fn steps(&self, problem: &Problem) -> Vec<Step> {
-        let mut times: Vec<f64> = problem.output.times.clone();
+        let mut times: Vec<f64> = Vec::new();
         for amplitude in problem.amplitude.values() {
             let rows = self.unroll(&amplitude.table);
             times.extend(rows.iter().map(|row| row[0]));
@@ -265,14 +265,16 @@ impl Timeline {
                         largest: part(inc.largest),
                     },
                 };
-                let mut milestones: Vec<f64> = times
-                    .iter()
-                    .copied()
-                    .filter(|&t| t > start && t < end)
-                    .collect();
+                let within = |times: &[f64]| -> Vec<f64> {
+                    let times = times.iter().copied();
+                    times.filter(|&t| t > start && t < end).collect()
+                };
+                let mut corners = within(&times);
                 let blocks = step.cycles.map_or(1, Cycles::blocks);
-                milestones.extend((1..blocks).map(|n| block_end(start, step.duration, n)));
-                milestones.push(end);
+                corners.extend((1..blocks).map(|n| block_end(start, step.duration, n)));
+                corners.push(end);
+                let mut milestones = within(&problem.output.times);
+                milestones.extend(&corners);
                 Step {
                     name: step
                         .name
@@ -282,6 +284,7 @@ impl Timeline {
                     end,
                     increments,
                     milestones,
+                    corners,
                     fixed: inc.fixed.is_some(),
                     cycles: step.cycles.map(|c| Cycling {
                         period: step.duration,

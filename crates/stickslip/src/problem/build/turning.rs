@@ -11,7 +11,7 @@ use crate::contact::interface::Interface;
 use crate::error::{Diagnostic, Error};
 use crate::math::identity;
 use crate::mesh::Mesh;
-use crate::model::Body;
+use crate::model::{Body, ContactAt, Step};
 use crate::system::{BodyFrame, BodyFrames, Carrier, Corotations, Dofs, Links};
 
 /// The bodies that turn, with the reference points that carry their frames; rigid bodies that turn freely carry their own.
@@ -85,6 +85,38 @@ pub(super) fn attach(
         interface.turns = true;
     }
     Ok(())
+}
+
+/// Refuses implicit motion in which ties hold rigid bodies that turn to elastic ones by the forces at the ends of increments. The arms of points of a rigid body are there,
+/// those of the points of an elastic one half an increment behind, and a tie that is strained along the radius brakes both: a ring on a hub that was brought to 600 rad/s lost an eighth of its spin.
+pub(super) fn refuse_ties(
+    (frames, corotations): (&BodyFrames, &Corotations),
+    interfaces: &[Interface],
+    steps: &[Step],
+) -> Result<(), Error> {
+    let at_ends = |s: &&Step| {
+        let implicit = s.dynamic.as_ref().filter(|_| !s.is_explicit());
+        implicit.is_some_and(|d| d.contact_at == ContactAt::End)
+    };
+    let Some(step) = steps.iter().find(at_ends) else {
+        return Ok(());
+    };
+    let rigid = |n: usize| frames.of_point(n).is_some_and(|f| frames.all()[f].rigid);
+    let elastic = |n: usize| corotations.of_point(n).is_some();
+    let braked = interfaces.iter().find(|i| {
+        let nodes = || i.nodes.iter().copied();
+        i.laws.tied && nodes().any(rigid) && nodes().any(elastic)
+    });
+    let Some(interface) = braked else {
+        return Ok(());
+    };
+    let message = format!(
+        "it ties a rigid body that turns to an elastic one, and by its forces at the ends of increments, as in step `{}`, such a tie brakes both",
+        step.name
+    );
+    let finding = Diagnostic::new(format!("interface.{}.tied", interface.name), message)
+        .help("let the step take them at its stage, by a scheme that damps a little: `dynamic = { scheme.generalised-alpha.rho = 0.8, contact-at = \"stage\" }`");
+    Err(problem_error(vec![finding]))
 }
 
 /// What bodies that turn cannot bear.
