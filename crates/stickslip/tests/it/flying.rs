@@ -596,8 +596,8 @@ fn on_a_hub(dynamic: &str, increments: usize) -> String {
     )
 }
 
-/// What turns on an axle in motion is an elastic body on a rigid hub: the moment on the axle is the rate of angular momentum, and its work the energy of both but for the half of an increment by which the hub lags
-/// behind. By the forces at the ends of increments the tie would brake them, and is refused.
+/// What turns on an axle in motion is an elastic body on a rigid hub: the moment on the axle is the rate of angular momentum, its work the energy of both, and where they are tied they stay together, although
+/// points of contact have no mass and the hub has. By the forces at the ends of increments the tie would brake them, and is refused.
 #[test]
 fn a_ring_on_a_rigid_hub_takes_what_a_torque_gives() {
     let stage = r#"{ scheme.generalised-alpha.rho = 0.8, contact-at = "stage" }"#;
@@ -605,26 +605,17 @@ fn a_ring_on_a_rigid_hub_takes_what_a_torque_gives() {
     let polygon = |r: f64| 8.0 * r * r * (PI / 8.0).sin();
     let mass = 78.0 * (polygon(0.02) - polygon(0.01));
     let hub = mass * (0.02_f64.powi(2) + 0.01_f64.powi(2)) / 2.0;
-    let open = [240, 480].map(|increments| {
-        let record = run(&on_a_hub(stage, increments));
-        let [time, ring, spin, angle] =
-            ["TIME", "ring.L3", "ring.VR3", "axle.UR3"].map(|c| last(&record, c));
-        let (given, there) = (10.0 * time, ring + hub * spin);
-        assert!(angle > 2.0 && spin > 150.0, "it hardly turns");
-        assert!((there / given - 1.0).abs() < 2e-3, "{there} of {given}");
-        let lag = column(&record, "ring.UR3")
-            .last()
-            .copied()
-            .unwrap_or_default()
-            - angle;
-        let turned = spin * 0.03 / increments as f64;
-        assert!(lag.abs() < 0.6 * turned, "the hub lags by {lag}");
-        let [work, kinetic] = ["ALLWK", "ALLKE"].map(|c| last(&record, c));
-        assert!((work / (10.0 * angle) - 1.0).abs() < 1e-3, "{work}");
-        println!("{angle} rad, {spin} rad/s: {there} of {given}, {kinetic} of {work}, lag {lag}");
-        (kinetic / work - 1.0).abs()
-    });
-    assert!(open[0] < 5e-3 && open[1] < 0.6 * open[0], "{open:?}");
+    let record = run(&on_a_hub(stage, 240));
+    let [time, ring, spin, angle] =
+        ["TIME", "ring.L3", "ring.VR3", "axle.UR3"].map(|c| last(&record, c));
+    let (given, there) = (10.0 * time, ring + hub * spin);
+    assert!(angle > 2.0 && spin > 150.0, "it hardly turns");
+    assert!((there / given - 1.0).abs() < 2e-3, "{there} of {given}");
+    let lag = last(&record, "ring.UR3") - angle;
+    assert!(lag.abs() < 1e-5 * angle, "the hub lags by {lag}");
+    let [work, kinetic] = ["ALLWK", "ALLKE"].map(|c| last(&record, c));
+    assert!((work / (10.0 * angle) - 1.0).abs() < 1e-3, "{work}");
+    assert!((kinetic / work - 1.0).abs() < 5e-4, "{kinetic} {work}");
 
     let said = support::complaint(&on_a_hub("{ scheme.generalised-alpha.rho = 0.8 }", 10));
     assert!(

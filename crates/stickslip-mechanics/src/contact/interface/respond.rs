@@ -229,12 +229,13 @@ impl Interface {
         }
     }
 
-    /// In motion friction sees the velocity at the end of the increment.
+    /// In motion friction sees the velocity at the end of the increment. A tie holds places: of points without mass velocities are means over the increment, and a body with mass that went
+    /// as fast at its end would fall behind them.
     fn see_rate(&self, scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
         for row in &mut batch.rated {
             row.clear();
         }
-        let Some(rate) = scene.rate else {
+        let Some(rate) = scene.rate.filter(|_| !self.laws.tied) else {
             return;
         };
         let stencil = &batch.stencil;
