@@ -1,4 +1,7 @@
-"""Problems that several tests use."""
+"""Problems and pages of the book that several tests use."""
+
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -33,6 +36,26 @@ def case():
         "amplitude": {"press": {"table": [[0, 0], [1, 1]]}, "drag": {"table": [[1, 0], [2, 1]]}},
         "step": [{"increments": {"fixed": 2}}, {"increments": {"fixed": 18}}],
     }
+
+
+@pytest.fixture
+def run_page(tmp_path, monkeypatch):
+    """Runs the Python of a how-to of the book among its files, in a folder of its own; returns its names."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(name):
+        page = Path(__file__).resolve().parents[3] / "book" / "src" / "how-to" / name
+        if not page.exists():
+            pytest.skip("the book is not there")
+        text = page.read_text()
+        for file, body in re.findall(r"^```toml\n# file: (\S+)\n(.*?)^```", text, re.M | re.S):
+            (tmp_path / file).write_text(body)
+        names = {}
+        for part in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
+            exec(compile(part, name, "exec"), names)
+        return names
+
+    return run
 
 
 @pytest.fixture

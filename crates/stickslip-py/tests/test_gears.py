@@ -1,23 +1,11 @@
 """Torques, loads and losses of the gears of the book are those of rigid involutes."""
 
-import re
-from pathlib import Path
-
 import pytest
 
-PAGE = Path(__file__).resolve().parents[3] / "book" / "src" / "how-to" / "gears.md"
 
-
-@pytest.mark.skipif(not PAGE.exists(), reason="the book is not there")
-def test_gears_turn_as_their_page_says(tmp_path, monkeypatch):
+def test_gears_turn_as_their_page_says(run_page, tmp_path):
     pytest.importorskip("matplotlib")
-    text = PAGE.read_text()
-    monkeypatch.chdir(tmp_path)
-    for name, body in re.findall(r"^```toml\n# file: (\S+)\n(.*?)^```", text, re.M | re.S):
-        (tmp_path / name).write_text(body)
-    space = {}
-    for part in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
-        exec(compile(part, PAGE.name, "exec"), space)
+    space = run_page("gears.md")
     np, angle, alone, lag = space["np"], space["angle"], space["alone"], space["lag"]
     # A wheel that lags by more than a cell has lost its tooth.
     assert 2 <= alone.sum() <= len(alone) - 2 and 0 < lag.min() and lag.max() < 0.03

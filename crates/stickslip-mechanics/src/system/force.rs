@@ -87,7 +87,7 @@ pub trait Force: Send {
     /// Adds to the tangent of the last evaluation what there is of it beside the gradients of gaps and slips: how these change themselves.
     fn curve(&self, _out: &mut Assembler) {}
 
-    /// Adds to the tangent of the last evaluation what holds a step back where forces `b` by dof, out of balance, would lead farther than what the tangent knows.
+    /// Adds to the tangent of the last evaluation what holds a step back where forces `b` by dof `[N]`, out of balance, would lead farther than what the tangent knows.
     fn hold_back(&self, _b: &[f64], _out: &mut Assembler) {}
 
     /// The state of the last evaluation, a [tentative](Assembler::tentative) one with tangent, is the next iterate: as if it had been evaluated
