@@ -35,6 +35,8 @@
 //!   that it is a stencil like any other; nothing after the kinematics knows of it. What is not a polynomial in space (skewed
 //!   quadrilaterals) is corrected to what is known of its sum (`correct.rs`): that makes patch tests exact. Weights are made anew at every evaluation,
 //!   at the reference configuration once for small sliding. Their change is not in the tangent; it is of the size of pressure over modulus.
+//!   Nodes whose motion is prescribed or follows from that of others (`problem/build/held.rs` marks them), and nodes beyond the edge of the primary of which little is covered, have no multiplier: their
+//!   neighbours take over (`mortar/merge.rs`). What is covered is looked at in the accepted state that an attempt starts from. Where both sides are clamped a point is open (`interface/clamped.rs`).
 //! - *Planes of symmetry.* Where both surfaces end on a plane that supports hold in all steps, a point there is a sum over half of the faces that it has in the whole body.
 //!   `problem/build/mirrors.rs` marks such points (`ContactPoint::across`); normal, slip and turn have no part across the plane, as with the image of what is missing.
 //! - *Search* runs again when a node has moved by a quarter of the margin (the longest facet) since the last time; a

@@ -8,6 +8,7 @@ mod support;
 mod advance;
 mod bad_input;
 mod bending;
+mod clamps;
 mod condensed;
 mod convergence;
 mod counterfaces;

@@ -4,7 +4,7 @@ use super::evaluation::Evaluations;
 use super::search::{FaceSearch, Search};
 use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::FacetPoint;
-use crate::contact::mortar::FaceIntegral;
+use crate::contact::mortar::{FaceIntegral, Merged};
 use crate::contact::pairing::Anchor;
 use crate::math::Vec3;
 use crate::system::{Assembler, InSpace};
@@ -29,6 +29,9 @@ pub struct Cache {
     pub(super) frozen: Vec<Option<(usize, FacetPoint)>>,
     pub(super) search: Search,
     pub(super) faces: FaceSearch,
+    /// Nodes of the faces of a mortar without a multiplier, and the coordinates for which they were found.
+    pub(super) merged: Vec<Merged>,
+    pub(super) merged_at: Vec<Vec3>,
     /// Integrals over the faces of a mortar.
     pub(super) integrals: Vec<FaceIntegral>,
 }

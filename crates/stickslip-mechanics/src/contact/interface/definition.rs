@@ -55,6 +55,8 @@ pub struct Interface {
     pub primary: Primary,
     /// How what is worn off the primary is divided among its nodes; empty where nothing wears.
     pub hollows: Hollows,
+    /// The axes along which each node is prescribed in all steps; empty where nobody has looked.
+    pub clamped: Vec<[bool; 3]>,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
     pub share: f64,
     /// The points are those of the side that the problem calls primary, because its cells are smaller. What is reported of forces, slip and normals

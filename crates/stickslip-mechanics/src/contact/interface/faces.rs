@@ -6,10 +6,12 @@ use super::cache::Cache;
 use super::definition::{Interface, Primary};
 use super::initial::GLUE;
 use crate::contact::kinematics::{Part, of_points};
-use crate::contact::mortar::{FaceIntegral, Scratch, Sides, correct, integrate};
+use crate::contact::mortar::{
+    FACE_NODES, FaceIntegral, Merged, Scratch, Sides, correct, integrate, merged,
+};
 use crate::contact::surface::ContactPoint;
 use crate::contact::symmetry::Across;
-use crate::math::identity;
+use crate::math::{Vec3, identity};
 use crate::system::{Stage, State};
 
 /// Faces integrated by one task.
@@ -57,6 +59,16 @@ impl Interface {
         if frozen && !cache.integrals.is_empty() {
             return;
         }
+        match frozen {
+            true => self.merge(cache, &self.reference),
+            // An attempt asks at one state for all of its iterations. After a restart those of the last attempt are known.
+            false if !cache.before.is_empty() => {
+                let before = std::mem::take(&mut cache.before);
+                self.merge(cache, &before);
+                cache.before = before;
+            }
+            false => {}
+        }
         let turned = if holds_turns { &cache.before } else { &cache.x };
         let reference = &self.reference;
         let (x, turn) = match frozen {
@@ -82,16 +94,19 @@ impl Interface {
         };
         let integrals = &mut cache.integrals;
         integrals.resize_with(mortar.faces.len(), FaceIntegral::default);
+        cache.merged.resize(mortar.faces.len(), Merged::default());
         mortar
             .faces
             .par_chunks(CHUNK)
             .zip(integrals.par_chunks_mut(CHUNK))
             .zip(cache.faces.opposite.par_chunks(CHUNK))
-            .for_each(|((faces, integrals), opposite)| {
+            .zip(cache.merged.par_chunks(CHUNK))
+            .for_each(|(((faces, integrals), opposite), merged)| {
                 let mut scratch = Scratch::default();
-                for ((face, integral), opposite) in faces.iter().zip(integrals).zip(opposite) {
+                let all = faces.iter().zip(integrals).zip(opposite).zip(merged);
+                for (((face, integral), opposite), &merged) in all {
                     if included(&face.points) {
-                        integrate(face, &sides, opposite, &mut scratch, integral);
+                        integrate((face, merged), &sides, opposite, &mut scratch, integral);
                     } else {
                         integral.clear();
                     }
@@ -100,6 +115,63 @@ impl Interface {
         if self.dofs.dim == 3 {
             correct(&sides, &mortar.faces, integrals);
         }
+    }
+
+    /// Finds the nodes without a multiplier, at coordinates `at`: those of the accepted state that an attempt starts from, as what is covered must not change
+    /// from iteration to iteration.
+    fn merge(&self, cache: &mut Cache, at: &[Vec3]) {
+        let (Some(mortar), false) = (&self.mortar, cache.merged_at == at) else {
+            return;
+        };
+        let covered = self.covered(cache, at);
+        cache.merged = merged(&mortar.faces, &covered);
+        cache.merged_at = at.to_vec();
+    }
+
+    /// By point of a mortar the part of its area that has the primary opposite, on the face on which that is most. One where pressure follows from the gap, so that no
+    /// constraint asks for a force, and where the faces around have no edge of the primary near.
+    fn covered(&self, cache: &mut Cache, at: &[Vec3]) -> Vec<f64> {
+        let mut out = vec![1.0; self.points.len()];
+        let compliant = !self.laws.needs_normal_stiffness();
+        let (Some(mortar), Primary::Facets(facets), false) =
+            (&self.mortar, &self.primary, compliant)
+        else {
+            return out;
+        };
+        let ends: Vec<bool> = (facets.iter())
+            .map(|facet| facet.continues.iter().any(|c| !c))
+            .collect();
+        if !ends.contains(&true) {
+            return out;
+        }
+        cache.faces.renew(&mortar.faces, facets, at);
+        let turn = of_points(self.own_nodes(), (at, &self.reference), self.dofs.dim);
+        let sides = Sides {
+            x: at,
+            reference: &self.reference,
+            turn: self.across().turn(turn),
+            facets,
+            compliant,
+        };
+        let faces = mortar.faces.par_iter().zip(&cache.faces.opposite);
+        let found: Vec<Option<[f64; FACE_NODES]>> = faces
+            .map_init(
+                || (Scratch::default(), FaceIntegral::default()),
+                |(scratch, integral), (face, opposite)| {
+                    opposite.iter().any(|&f| ends[f]).then(|| {
+                        integrate((face, Merged::default()), &sides, opposite, scratch, integral);
+                        integral.area
+                    })
+                },
+            )
+            .collect();
+        for (part, around) in out.iter_mut().zip(&mortar.around) {
+            let of = |&(f, a): &(usize, usize)| {
+                found[f].map_or(1.0, |areas| areas[a] / mortar.faces[f].areas[a])
+            };
+            *part = around.iter().map(of).fold(0.0, f64::max);
+        }
+        out
     }
 
     /// What the mean turn of the whole surface does not have, because it ends on planes of symmetry.

@@ -5,6 +5,7 @@ use super::cache::Cache;
 use super::definition::{Interface, Primary};
 use super::directives::Directives;
 use super::evaluation::{Evaluations, Trace};
+use crate::contact::mortar::Merged;
 use crate::math::Vec3;
 
 /// What an interface takes along beside its [`History`](super::History).
@@ -18,6 +19,8 @@ pub struct Memory {
     directives: Directives,
     searched: Vec<Vec3>,
     faces_searched: Vec<Vec3>,
+    /// Nodes of faces without a multiplier at the last evaluation.
+    merged: Vec<Merged>,
     /// Of the last evaluation what the length of an explicit increment follows from.
     last: Vec<Trace>,
     /// Pairs or integrals of the reference configuration were made.
@@ -29,6 +32,7 @@ crate::keep!(Memory {
     directives,
     searched,
     faces_searched,
+    merged,
     last,
     paired
 });
@@ -41,6 +45,7 @@ impl Interface {
             directives: self.directives.clone(),
             searched: self.cache.search.at().to_vec(),
             faces_searched: self.cache.faces.at().to_vec(),
+            merged: self.cache.merged.clone(),
             last: self.cache.last.traces(),
             paired: self.kinematics.as_dyn().frozen()
                 && !(self.cache.frozen.is_empty() && self.cache.integrals.is_empty()),
@@ -55,12 +60,16 @@ impl Interface {
             directives,
             searched,
             faces_searched,
+            merged,
             last,
             paired,
         } = memory;
         self.attempt = attempt;
         self.directives = directives;
-        self.cache = Cache::default();
+        self.cache = Cache {
+            merged,
+            ..Cache::default()
+        };
         let evaluated = !last.is_empty();
         self.cache.last = Evaluations::of_traces(last);
         self.lend(|interface, cache| {

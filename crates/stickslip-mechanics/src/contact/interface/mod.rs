@@ -14,6 +14,7 @@ mod cache;
 mod candidate_range;
 mod candidates;
 mod change;
+mod clamped;
 mod commit;
 mod cone;
 mod curvature;

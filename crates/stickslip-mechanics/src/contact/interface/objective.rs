@@ -160,10 +160,15 @@ fn drum(
         points: nodes.iter().map(|n| n - first).collect(),
         normals: nodes.iter().map(|&n| points[n - first].normal).collect(),
         extents: vec![1.0; nodes.len()],
+        areas: {
+            let x: Vec<Vec3> = nodes.iter().map(|&n| reference[n]).collect();
+            positive_areas(kind, &x, |_| 1.0)
+        },
         area: {
             let x: Vec<Vec3> = nodes.iter().map(|&n| reference[n]).collect();
             positive_areas(kind, &x, |_| 1.0).iter().sum()
         },
+        held: vec![false; nodes.len()],
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
@@ -184,6 +189,7 @@ fn drum(
         primary: Primary::Facets(facets),
         skin,
         hollows,
+        clamped: Vec::new(),
         share: 1.0,
         exchanged: false,
         laws: Laws {

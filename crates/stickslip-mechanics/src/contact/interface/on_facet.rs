@@ -88,6 +88,10 @@ impl Interface {
         batch.sides.extend(self.own_weights(i));
         let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
         batch.sides.extend(theirs);
+        if self.clamped_pair(&batch.sides[met.sides..], foot.normal) {
+            batch.sides.truncate(met.sides);
+            return Evaluation::open(f64::INFINITY);
+        }
         let mut e = self.respond(met, scene, batch);
         e.facet = Some(f);
         e.xi = foot.xi;

@@ -29,6 +29,10 @@ impl Interface {
             batch.sides.truncate(sides);
             return Evaluation::open(f64::INFINITY);
         };
+        if self.clamped_pair(&batch.sides[sides..], sums.normal) {
+            batch.sides.truncate(sides);
+            return Evaluation::open(f64::INFINITY);
+        }
         let carried = || Carried {
             turns: self.turned(i, scene),
             normal: self.history.points[i].normal,

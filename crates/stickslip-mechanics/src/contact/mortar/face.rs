@@ -19,8 +19,12 @@ pub struct Face {
     pub normals: Vec<Vec3>,
     /// Extent out of the plane at each node: thickness or `2πr` `[m]`; one in 3D.
     pub extents: Vec<f64>,
+    /// The part of each node of its area, by the function of positive integral `[m²]`.
+    pub areas: Vec<f64>,
     /// Its area in the reference configuration `[m²]`.
     pub area: f64,
+    /// Whether the motion of each node that contact would change is prescribed in some step, or follows from that of others.
+    pub held: Vec<bool>,
 }
 
 /// The secondary as faces.

@@ -4,6 +4,7 @@ use super::cells::cells;
 use super::face::Face;
 use super::integral::FaceIntegral;
 use super::interval::Interval;
+use super::merge::Merged;
 use super::plane::Plane;
 use super::sides::Sides;
 use super::sum::sum;
@@ -21,9 +22,9 @@ pub struct Scratch {
     samples: Vec<Sample>,
 }
 
-/// Integrates over `face`, of which the facets `candidates` may lie opposite.
+/// Integrates over `face`, of which the facets `candidates` may lie opposite and the nodes `merged` have no multiplier.
 pub fn integrate(
-    face: &Face,
+    (face, merged): (&Face, Merged),
     sides: &Sides,
     candidates: &[usize],
     scratch: &mut Scratch,
@@ -53,7 +54,7 @@ pub fn integrate(
         out.clear();
         return;
     }
-    sum(face, sides, &scratch.samples, out);
+    sum((face, merged), sides, &scratch.samples, out);
 }
 
 /// Adds the quadrature points of a cell that have facets opposite.

@@ -3,6 +3,7 @@
 use super::dual::{Matrix, dual};
 use super::face::{FACE_NODES, Face};
 use super::integral::{Entry, FaceIntegral};
+use super::merge::{Merged, give};
 use super::sides::Sides;
 use super::view::Sample;
 use crate::math::add_scaled;
@@ -12,7 +13,12 @@ use crate::math::add_scaled;
 const FAR: f64 = 0.05;
 
 /// Sums over the quadrature points.
-pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut FaceIntegral) {
+pub(super) fn sum(
+    (face, merged): (&Face, Merged),
+    sides: &Sides,
+    samples: &[Sample],
+    out: &mut FaceIntegral,
+) {
     let n = face.nodes.len();
     let mut m = Matrix::default();
     for s in samples {
@@ -22,7 +28,8 @@ pub(super) fn sum(face: &Face, sides: &Sides, samples: &[Sample], out: &mut Face
             }
         }
     }
-    let functions = functions(&m, n, sides.compliant.then_some(face.area));
+    let mut functions = functions(&m, n, sides.compliant.then_some(face.area));
+    give(face.kind, merged, &mut functions);
     // Nodes of the primary, and where those of each piece are among them.
     let mut places: Vec<[usize; FACE_NODES]> = Vec::with_capacity(out.pieces.len());
     for piece in &out.pieces {

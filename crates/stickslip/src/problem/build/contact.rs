@@ -333,6 +333,7 @@ impl Make<'_> {
             hollows,
             primary: opposite,
             reference,
+            clamped: Vec::new(),
             share,
             exchanged: false,
             laws: chosen(table),

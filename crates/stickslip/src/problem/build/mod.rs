@@ -6,6 +6,7 @@ mod cuts;
 mod faces;
 mod fault;
 mod heat;
+mod held;
 mod initial;
 mod meshes;
 mod mirrors;
@@ -216,10 +217,12 @@ impl Problem {
             (&mesh, space),
             &timeline,
         )?);
+        let mut held_nodes = held::HeldNodes::new(&links, dofs, &supports, &couplings);
         let couplings = Couplings::new(couplings, space.dim());
         let held = mirrors::Held::new(&links, dofs, &supports, space);
         let mut interfaces =
             contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
+        held_nodes.mark(&mut interfaces);
         turning::attach((&frames, &corotations), &mut interfaces)?;
         turning::refuse_ties((&frames, &corotations), &interfaces, &steps)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;

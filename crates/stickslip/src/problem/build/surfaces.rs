@@ -337,6 +337,8 @@ impl Surfaces<'_> {
                 normals: groups.normals(k).to_vec(),
                 extents: x.iter().map(|&x| self.space.extent(x)).collect(),
                 area: areas.iter().sum(),
+                held: vec![false; nodes.len()],
+                areas: areas.clone(),
             };
             for (a, &node) in nodes.iter().enumerate() {
                 let normal = face.normals[a];

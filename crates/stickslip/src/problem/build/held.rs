@@ -1,0 +1,119 @@
+//! Whose motion is a contact point's own: nodes whose displacements are prescribed, or follow from those of others.
+//!
+//! A multiplier of contact changes a motion. Where a support prescribes that of a node, or an equation, a reference point or another tie does, the constraint of the node would act
+//! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
+//! their neighbours take over (`contact/mortar/merge.rs`), and where both sides are clamped nothing is left to be kept apart (`Interface::clamped`).
+
+use std::collections::BTreeSet;
+
+use crate::body::couplings::{Coupling, Tie};
+use crate::contact::interface::Interface;
+use crate::math::{Vec3, dot};
+use crate::model::Support;
+use crate::system::{Course, Dofs, Links};
+
+/// Part of a motion along the normal that is left to a node, below which it has none of its own: of two nodes that are held alike neither can make way for the other.
+const LEAST: f64 = 0.5;
+
+/// Which displacements are not free.
+pub(super) struct HeldNodes<'a> {
+    links: &'a Links,
+    dofs: Dofs,
+    /// By dof: prescribed in some step, or following others.
+    held: Vec<bool>,
+    /// Prescribed in all steps.
+    always: Vec<bool>,
+    /// Points of secondaries of ties so far.
+    tied: BTreeSet<usize>,
+}
+
+impl<'a> HeldNodes<'a> {
+    pub fn new(
+        links: &'a Links,
+        dofs: Dofs,
+        supports: &[Support],
+        couplings: &[Coupling],
+    ) -> Self {
+        let steps = supports.first().map_or(0, |s| s.schedule.pieces.len());
+        let mut held = vec![false; dofs.count()];
+        let mut always = vec![steps > 0; dofs.count()];
+        for step in 0..steps {
+            let mut now = vec![false; dofs.count()];
+            let acting = |s: &&Support| s.schedule.pieces[step].course != Course::Off;
+            for entry in supports.iter().filter(acting).flat_map(|s| &s.entries) {
+                now[entry.dof] = true;
+            }
+            for ((held, always), now) in held.iter_mut().zip(&mut always).zip(now) {
+                *held |= now;
+                *always &= now;
+            }
+        }
+        let equations = couplings
+            .iter()
+            .filter(|c| matches!(c.tie, Tie::Equation { .. }));
+        for row in equations.flat_map(|c| &c.rows) {
+            let mine = |dof: usize| links.of_point(dofs.locate(dof).0).is_none();
+            // One of the terms follows from the others. Points of bodies follow reference points, and of several the first is named as the one that does.
+            let follower = row.terms().find(|&(dof, _)| mine(dof) && !held[dof]);
+            if let Some((dof, _)) = follower {
+                held[dof] = true;
+            }
+        }
+        HeldNodes {
+            links,
+            dofs,
+            held,
+            always,
+            tied: BTreeSet::new(),
+        }
+    }
+
+    /// Whether a point of an elastic body is held along each axis.
+    fn of(&self, point: usize, among: &[bool]) -> [bool; 3] {
+        let free = self.links.of_point(point).is_some();
+        std::array::from_fn(|c| c < self.dofs.dim && !free && among[self.dofs.of(point, c)])
+    }
+
+    /// Marks the nodes of all interfaces: those of ties first, as a node that is tied twice follows once.
+    pub fn mark(&mut self, interfaces: &mut [Interface]) {
+        let (ties, others): (Vec<_>, Vec<_>) = interfaces.iter_mut().partition(|i| i.laws.tied);
+        for interface in ties.into_iter().chain(others) {
+            self.mark_one(interface);
+        }
+    }
+
+    fn mark_one(&mut self, interface: &mut Interface) {
+        let (tied, dim) = (interface.laws.tied, self.dofs.dim);
+        interface.clamped = (interface.nodes.iter())
+            .map(|&n| self.of(n, &self.always))
+            .collect();
+        let Some(mortar) = &mut interface.mortar else {
+            return;
+        };
+        for face in &mut mortar.faces {
+            for (a, held) in face.held.iter_mut().enumerate() {
+                let node = interface.nodes[face.nodes[a]];
+                let mut axes = match self.tied.contains(&node) {
+                    true => [true; 3],
+                    false => self.of(node, &self.held),
+                };
+                let across = interface.points[face.points[a]].across.0;
+                axes = std::array::from_fn(|c| axes[c] && !across[c]);
+                *held = match tied {
+                    true => axes[..dim].contains(&true),
+                    false => left(face.normals[a], axes) <= LEAST,
+                };
+            }
+        }
+        if tied {
+            let own = &interface.nodes[interface.primary_nodes..];
+            self.tied.extend(own);
+        }
+    }
+}
+
+/// How far a unit motion along `normal` is left where these axes are held.
+fn left(normal: Vec3, held: [bool; 3]) -> f64 {
+    let free: Vec3 = std::array::from_fn(|c| if held[c] { 0.0 } else { normal[c] });
+    dot(free, free).sqrt()
+}

@@ -1,0 +1,113 @@
+//! Contact and ties that run into clamps, follow something else, or hang over an edge: what an interface carries is what loads bring, and its pressure is that of meshes
+//! that match.
+
+use crate::support::{self, problem, run};
+
+fn end(text: &str) -> support::Row {
+    let record = run(&problem(text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    record.increments.last().expect("a row").1.clone()
+}
+
+fn value(row: &support::Row, name: &str) -> f64 {
+    row.get(name).unwrap_or_else(|| panic!("no column {name}"))
+}
+
+/// Two leaves one upon the other that are clamped over `clamp` at the same end, a pressure on the upper one.
+fn leaves(solid: bool, cells: [usize; 2], clamp: f64, interface: &str) -> String {
+    let [low, up] = cells;
+    let (space, shape, load) = match solid {
+        true => ("solid", "box", "top"),
+        false => ("plane-strain", "rectangle", "top"),
+    };
+    let body = |z: f64, n: usize| match solid {
+        true => format!("from = [0, 0, {z}], to = [0.1, 0.02, {}], cells = [{n}, 2, 2]", z + 0.01),
+        false => format!("from = [0, {z}], to = [0.1, {}], cells = [{n}, 2]", z + 0.01),
+    };
+    let (held, low_corner, high_corner) = match solid {
+        true => ("x = 0, y = 0, z = 0", "-1, -1, -1", "1, 1"),
+        false => ("x = 0, y = 0", "-1, -1", "1"),
+    };
+    let reach = format!("from = [{low_corner}], to = [{clamp}, {high_corner}]");
+    format!(
+        "format = 1\nmodel.space = \"{space}\"\n\
+         material.m.isotropic = {{ young = 2e11, poisson = 0.3 }}\n\
+         body.low = {{ generate.{shape} = {{ {} }}, material = \"m\" }}\n\
+         body.up = {{ generate.{shape} = {{ {} }}, material = \"m\" }}\n\
+         interface.c = {{ secondary = \"up.bottom\", primary = \"low.top\", {interface} }}\n\
+         set.a = {{ of = \"low\", box = {{ {reach} }} }}\n\
+         set.b = {{ of = \"up\", box = {{ {reach} }} }}\n\
+         support.a = {{ set = \"a\", {held} }}\n\
+         support.b = {{ set = \"b\", {held} }}\n\
+         load.p = {{ set = \"up.{load}\", pressure.value = 1000 }}\n\
+         step = [{{ name = \"press\" }}]\n",
+        body(0.0, low),
+        body(0.01, up)
+    )
+}
+
+/// Contact force and reactions of meshes that do not match are those of meshes that do.
+#[test]
+fn surfaces_that_run_into_a_common_clamp_carry_what_loads_bring() {
+    for (solid, axis) in [(false, 2), (true, 3)] {
+        for interface in [
+            "friction.coulomb = { mu = 0.3 }",
+            "tied = true",
+            "discretisation.node-to-facet = {}",
+        ] {
+            for clamp in [1e-6, 0.0151] {
+                let of = |cells| {
+                    let row = end(&leaves(solid, cells, clamp, interface));
+                    ["a.RF", "b.RF"].map(|name| value(&row, &format!("{name}{axis}")))
+                };
+                let matching = of([20, 20]);
+                for cells in [[20, 18], [20, 19], [20, 21], [8, 7]] {
+                    let found = of(cells);
+                    let load = 1000.0 * 0.1 * if solid { 0.02 } else { 1.0 };
+                    for (found, right) in found.iter().zip(matching) {
+                        assert!(
+                            (found - right).abs() < 0.08 * load,
+                            "solid {solid}, {interface}, clamped to {clamp}, {cells:?}: {found} for {right}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A plate of `cells` cells of equal length over a block that ends under the share `part` of one of them, `beyond` cells before the end of the plate.
+fn overhang(cells: usize, part: f64, beyond: usize) -> String {
+    let h = 0.02 / (cells as f64 + part);
+    let n = cells + beyond + usize::from(part > 0.0);
+    format!(
+        "format = 1\nmodel.space = \"plane-strain\"\n\
+         material.m.isotropic = {{ young = 2e11, poisson = 0.3 }}\n\
+         body.plate = {{ generate.rectangle = {{ from = [0, 0.02], to = [{}, 0.03], cells = [{n}, 8] }}, material = \"m\" }}\n\
+         body.block = {{ generate.rectangle = {{ to = [0.02, 0.02], cells = [{}, 16] }}, material = \"m\" }}\n\
+         interface.c = {{ secondary = \"plate.bottom\", primary = \"block.top\", friction.coulomb = {{ mu = 0.2 }}, roles = \"as-named\" }}\n\
+         support.s = {{ set = \"plate.left\", x = 0 }}\n\
+         support.s2 = {{ set = \"block.left\", x = 0 }}\n\
+         support.b = {{ set = \"block.bottom\", y = 0 }}\n\
+         support.p = {{ set = \"plate.top\", y = -1e-5 }}\n\
+         step = [{{ name = \"press\" }}]\n",
+        h * n as f64,
+        cells + 1
+    )
+}
+
+/// The largest pressure does not grow as the part of a face that has the primary opposite shrinks, and lies at the end of the block.
+#[test]
+fn pressure_is_finite_where_a_face_hangs_over_an_edge() {
+    for (cells, beyond) in [(4, 2), (9, 3)] {
+        let matching = end(&overhang(cells, 0.0, beyond));
+        let right = value(&matching, "c.CPRESSMAX");
+        for part in [0.001, 0.02, 0.2, 0.5, 0.75, 0.85, 0.95] {
+            let row = end(&overhang(cells, part, beyond));
+            let found = value(&row, "c.CPRESSMAX");
+            assert!(
+                found < 1.25 * right && found > 0.65 * right,
+                "{cells} cells and {part} of one: {found:e} for {right:e}"
+            );
+        }
+    }
+}
