@@ -21,3 +21,23 @@ pub struct Slope {
     /// Its derivative.
     pub slope: f64,
 }
+
+/// The larger of two numbers, and no number where one of them is none: [`f64::max`] forgets it, and what is wrong would look right.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    match a.is_nan() || b.is_nan() {
+        true => f64::NAN,
+        false => a.max(b),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::larger;
+
+    #[test]
+    fn what_is_no_number_is_not_forgotten() {
+        assert_eq!(larger(1.0, 2.0), 2.0);
+        assert!(larger(f64::NAN, 2.0).is_nan() && larger(1.0, f64::NAN).is_nan());
+    }
+}

@@ -2,6 +2,7 @@ use std::time::Instant;
 
 use super::statistics::Statistics;
 use super::system::System;
+use crate::math::larger;
 use crate::system::{Assembler, Links, Stage, State, StepFailure};
 
 /// A residual and what it is compared with.
@@ -63,7 +64,7 @@ impl Balance {
         Ok(Balance {
             forces,
             norm: norm.sqrt(),
-            scale: others.max(contact.sqrt()),
+            scale: larger(others, contact.sqrt()),
             floor: (out.rounding + bulk).sqrt(),
         })
     }
@@ -75,6 +76,16 @@ impl Balance {
         } else {
             self.compared(self.norm)
         }
+    }
+
+    /// What is left of the residual, with what `multipliers` miss: not a number where one of them is none.
+    pub fn with(&self, multipliers: f64) -> f64 {
+        larger(self.norm, multipliers)
+    }
+
+    /// Whether both are no more than the force that counts as none. Forces without end balance nothing, whatever they are compared with.
+    pub fn is_met(&self, multipliers: f64, target: f64) -> bool {
+        target.is_finite() && self.norm <= target && multipliers <= target
     }
 
     /// A force relative to those in play.

@@ -68,11 +68,11 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
             return Err(StepFailure::new(Cause::Interrupted, "interrupted"));
         }
         residuals.push(balance.relative());
-        let before = balance.norm.max(out.multiplier_residual);
+        let before = balance.with(out.multiplier_residual);
         let residual = balance.compared(before);
         reported.push(residual);
         let target = balance.target(settings.tolerance);
-        if balance.norm <= target && out.multiplier_residual <= target {
+        if balance.is_met(out.multiplier_residual, target) {
             return Ok(converged(attempt, balance, out, (iteration, round)));
         }
         if iteration == settings.max_iterations || chatters(attempt, &residuals) {

@@ -117,7 +117,7 @@ pub(super) fn take(
         attempt.system.advance(attempt.at, &start, du, length);
         out.tentative = halvings == 0;
         let balance = attempt.evaluate(out, halvings == 0)?;
-        let measure = balance.norm.max(out.multiplier_residual);
+        let measure = balance.with(out.multiplier_residual);
         if measure.is_finite() && best.is_none_or(|(least, _)| measure < least) {
             best = Some((measure, length));
         }

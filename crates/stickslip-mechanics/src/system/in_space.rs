@@ -7,7 +7,7 @@ use super::body_frames::{BodyFrames, Turned};
 use super::frame_pose::FramePose;
 use super::links::columns;
 use super::{Assembler, ContactBlock};
-use crate::math::Vec3;
+use crate::math::{Vec3, larger};
 
 /// Frames at one state, and where the points of the bodies are in it: what is assembled in space is transformed by that.
 #[derive(Debug, Clone, Default)]
@@ -82,7 +82,7 @@ impl InSpace {
     pub fn assemble(&self, spatial: &mut Assembler, out: &mut Assembler) {
         self.forces(&mut spatial.residual, &mut out.residual);
         self.forces(&mut spatial.condensed, &mut out.condensed);
-        out.multiplier_residual = out.multiplier_residual.max(spatial.multiplier_residual);
+        out.multiplier_residual = larger(out.multiplier_residual, spatial.multiplier_residual);
         out.rounding += spatial.rounding;
         out.pairs.append(&mut spatial.pairs);
         for dofs in spatial.couplings.drain(..) {

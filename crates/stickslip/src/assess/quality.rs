@@ -205,6 +205,13 @@ impl View<'_> {
         self.frame.ledger.strain + compliant
     }
 
+    /// The energy that may be nothing but rounding of the strains `[J]`.
+    fn rounded_energy(&self) -> f64 {
+        let displacements = self.frame.state.u.iter();
+        let moved = displacements.fold(0.0_f64, |m, u| m.max(u.abs()));
+        ROUNDED * self.strain_force() * moved
+    }
+
     /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
     pub(crate) fn strain_force(&self) -> f64 {
         let size = self.model.mesh.diameter();
@@ -244,7 +251,11 @@ impl View<'_> {
 
     fn judge_interfaces(&self, limits: &Limits, gate: &mut Gate) {
         let t = self.frame.state.t;
-        let energy = self.elastic_energy();
+        // What rounding stores where a body is carried along is no elastic approach, least of all beside a contact that carries next to nothing.
+        let energy = match self.elastic_energy() {
+            energy if energy > self.rounded_energy() => energy,
+            _ => 0.0,
+        };
         for interface in &self.contact.interfaces {
             let q = interface.quality();
             let r = interface.resultant(&self.frame.state.u);
@@ -311,13 +322,7 @@ impl View<'_> {
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
         let forces = gate.largest(&EQUILIBRIUM, None);
         let least = still_energy(self.model, forces);
-        let moved = self
-            .frame
-            .state
-            .u
-            .iter()
-            .fold(0.0_f64, |m, u| m.max(u.abs()));
-        let least = least.max(ROUNDED * self.strain_force() * moved);
+        let least = least.max(self.rounded_energy());
         let pair = [quality.largest, quality.scale.max(least)];
         let t = self.frame.state.t;
         let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));

@@ -141,7 +141,10 @@ pub(crate) fn space(
         let modes = reduced.eigen(asked);
         let open = estimate.open(&reduced, over.rub(), &modes);
         known[worst] = largest(&open);
-        let bad = modes.into_iter().zip(open).filter(|(_, open)| *open > GOOD);
+        let bad = modes
+            .into_iter()
+            .zip(open)
+            .filter(|(_, open)| open.is_nan() || *open > GOOD);
         let bad = lifted(&reduced.basis, bad.map(|(mode, _)| mode).collect());
         let (_, rests) = residuals(shifted, &bad, over.rub(), solves);
         if !rests.is_empty() && reduced.grow(shifted, &damped, rests).is_empty() {

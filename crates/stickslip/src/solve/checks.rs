@@ -1,5 +1,6 @@
 //! Solutions that are refused although Newton's method has found them.
 
+use crate::math::larger;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::system::{Cause, State, StepFailure};
@@ -46,7 +47,7 @@ impl Recovered<'_> {
         let limit = ((10.0 * tolerance).max(LEFT) * size)
             .max(ROUNDINGS * f64::EPSILON * rounding.sqrt())
             .max(NOTHING * *largest);
-        if left.sqrt() > limit || left.is_nan() {
+        if !(limit.is_finite() && left.sqrt() <= limit) {
             return Err(StepFailure::new(
                 Cause::Interior,
                 format!(
@@ -54,7 +55,9 @@ impl Recovered<'_> {
                     left.sqrt() / size
                 ),
             )
-            .help("set `solver.method = \"sparse\"`"));
+            .help(
+                "where the run takes factors from a folder (`--cache`), remove that first: they may be damaged; else set `solver.method = \"sparse\"`",
+            ));
         }
         // Forces of an attempt that is refused are none.
         *largest = largest.max(size);
@@ -67,8 +70,9 @@ pub(crate) fn check_change(
     model: &Model,
     pairs: impl Iterator<Item = (f64, f64)>,
 ) -> Result<(), StepFailure> {
-    let change = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-    if change > model.largest_change * model.mesh.diameter() {
+    let change = pairs.fold(0.0, |m, (a, b)| larger(m, (a - b).abs()));
+    // A change that is not a number is none that is allowed.
+    if change.is_nan() || change > model.largest_change * model.mesh.diameter() {
         return Err(StepFailure::new(
             Cause::TooFar,
             format!(

@@ -2,6 +2,7 @@
 
 use super::all::{Act, FIRM};
 use super::{Couplings, Row, Tie};
+use crate::math::larger;
 use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
 
 /// How far an equation of nothing but prescribed displacements may be off, relative to their size.
@@ -82,7 +83,7 @@ impl Force for Couplings {
                         // A gap that has just closed is off by far more than what it will bear.
                         let fresh = gap && known == 0.0;
                         let size = if fresh { size / FIRM } else { size };
-                        out.multiplier_residual = out.multiplier_residual.max(size);
+                        out.multiplier_residual = larger(out.multiplier_residual, size);
                         if open {
                             off_now[i] = f64::INFINITY;
                         }

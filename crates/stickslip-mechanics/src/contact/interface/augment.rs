@@ -3,7 +3,7 @@
 use super::definition::Interface;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
-use crate::math::{distance, norm};
+use crate::math::{distance, larger, norm};
 use crate::system::{Augmentation, Stage};
 
 /// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.
@@ -78,11 +78,14 @@ impl Interface {
             let r = &e.response;
             if e.normal_stiffness.is_finite() {
                 let change = (r.traction[0] - m.centre_pressure).abs();
-                worst = worst.max(change / e.normal_stiffness);
+                worst = larger(worst, change / e.normal_stiffness);
             }
             let shear = e.along(&e.frames.before);
             if r.status == Status::Stick && e.tangential_stiffness.is_finite() {
-                worst = worst.max(distance(shear, m.centre_shear) / e.tangential_stiffness);
+                worst = larger(
+                    worst,
+                    distance(shear, m.centre_shear) / e.tangential_stiffness,
+                );
             }
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;

@@ -4,7 +4,7 @@ use super::definition::Interface;
 use super::evaluation::Evaluations;
 use super::scene::Wants;
 use crate::contact::response::Status;
-use crate::math::{add_scaled, scale};
+use crate::math::{add_scaled, larger, scale};
 use crate::system::{
     ActiveSet, Assembler, Augmentation, ContactPair, Culprit, Force, PointAlone, Stage,
     StepFailure, Tally,
@@ -139,8 +139,8 @@ fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
         out.add_residual(dofs, force);
         out.rounding += e.rounding * e.rounding;
         if let Some((rest, _)) = &e.saddle {
-            let worst = rest.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-            out.multiplier_residual = out.multiplier_residual.max(worst * area);
+            let worst = rest.iter().fold(0.0, |m, r| larger(m, r.abs()));
+            out.multiplier_residual = larger(out.multiplier_residual, worst * area);
         }
         if let Some(tangent) = batch.tangent(e) {
             if let Some((_, shift)) = e.saddle {

@@ -192,7 +192,7 @@ impl Interface {
         let (before, accepted) = (&self.history.points[i], self.attempt.accepted_gap);
         match before.status {
             Status::Open => 0.0,
-            _ => before.gap.clamp(-accepted, accepted),
+            _ => before.gap.max(-accepted).min(accepted),
         }
     }
 

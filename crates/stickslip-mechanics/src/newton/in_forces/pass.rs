@@ -38,7 +38,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
         let mut out = assembler(attempt, n);
         let balance = attempt.evaluate(&mut out, true)?;
         let target = balance.target(attempt.settings.tolerance);
-        let residual = balance.norm.max(out.multiplier_residual) / target.max(f64::MIN_POSITIVE);
+        let residual = balance.with(out.multiplier_residual) / target.max(f64::MIN_POSITIVE);
         let mut held = assembler(attempt, n);
         held.reset(true);
         let (places, counts) = places(attempt, &mut held)?;
