@@ -1,6 +1,6 @@
 //! The reference of the problem file, one page a table, from the JSON schema.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use serde_json::{Map, Value};
@@ -281,15 +281,15 @@ fn required(definition: &Value) -> BTreeSet<&str> {
 }
 
 fn bounds(property: &Value) -> String {
-    let signs = BTreeMap::from([
+    let signs = [
         ("exclusiveMinimum", ">"),
         ("minimum", "≥"),
         ("maximum", "≤"),
         ("exclusiveMaximum", "<"),
-    ]);
+    ];
     let mut list: Vec<String> = signs
         .iter()
-        .filter(|(key, _)| property[**key].is_number())
+        .filter(|(key, _)| property[*key].is_number())
         .map(|(key, sign)| format!("{sign} {}", toml(&property[*key])))
         .collect();
     if property["infinite"] == Value::Bool(true) {

@@ -5,6 +5,7 @@ mod beyond;
 mod cards;
 mod changes;
 mod couplings;
+mod damaged;
 mod elements;
 mod generated;
 mod habits;

@@ -51,6 +51,9 @@ impl Reduced {
     /// Eigenvalues of the companion form of largest size with their vectors.
     fn largest(&self, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)> {
         let n = 2 * self.basis.len();
+        if n == 0 {
+            return Vec::new();
+        }
         if n <= LARGE {
             let (values, vectors) = general(n, &self.dense()).unwrap_or_default();
             return values.into_iter().zip(vectors).collect();
@@ -85,6 +88,9 @@ impl Reduced {
     /// Their eigenvalues alone.
     pub fn values(&self, asked: Asked) -> Vec<Complex> {
         let n = 2 * self.basis.len();
+        if n == 0 {
+            return Vec::new();
+        }
         let all: Vec<(Complex, ())> = match n <= LARGE {
             true => {
                 let values = eigenvalues(n, &self.dense()).unwrap_or_default();

@@ -228,6 +228,10 @@ impl Reduced {
     /// Displacements under forces of an angular frequency.
     fn answer(&self, forces: &Pair, omega: f64) -> Pair {
         let r = self.basis.len();
+        if r == 0 {
+            // Forces of no size, and no mode near: nothing moves.
+            return forces.clone().map(|part| vec![0.0; part.len()]);
+        }
         let still = |k: usize| self.stiffness[k] + self.friction[k] - omega * omega * self.mass[k];
         let damped = |k: usize| omega * (self.damping[k] + self.drag[k]);
         let entry = |k: usize| {

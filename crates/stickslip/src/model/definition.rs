@@ -242,14 +242,14 @@ impl Model {
         bodies.chain(self.references.iter().filter_map(|r| r.rigid))
     }
 
-    /// What the reference points tied to a body do, by dof, when it moves without strain: its velocity by place, and how it turns.
+    /// What such reference points do, by dof, as are tied to what moves without strain: its velocity by place, and how it turns.
     pub(crate) fn carried(
         &self,
-        body: usize,
+        tied: impl Fn(&Reference) -> bool,
         velocity: impl Fn(Vec3) -> Vec3,
         turn: Vec3,
     ) -> Vec<(usize, f64)> {
-        let own = self.references.iter().filter(|r| r.body == Some(body));
+        let own = self.references.iter().filter(|r| tied(r));
         let links = own.map(|r| &self.links.all()[r.link]);
         let motions = links.flat_map(|link| {
             let moved = velocity(link.centre);

@@ -1,8 +1,9 @@
 //! Bodies that supports, springs and couplings leave free to move.
 
 use super::contact::Contact;
-use super::definition::Model;
+use super::definition::{Model, Reference};
 use super::scene::Scene;
+use crate::body::couplings::Row;
 use crate::body::{RigidMode, rigid_modes};
 use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
 
@@ -42,17 +43,13 @@ impl Scene<'_> {
             let modes = match body.rigid {
                 None => {
                     let points: Vec<usize> = body.points.clone().collect();
-                    let mut modes = rigid_modes(&model.mesh, &points, model.space);
-                    let places = points.iter().map(|p| model.mesh.points[*p]);
-                    let sum = places.fold([0.0; 3], add);
-                    let centre = scale(1.0 / points.len().max(1) as f64, sum);
-                    for mode in &mut modes {
-                        carry(model, index, centre, mode);
-                    }
+                    let mut modes = carrying(model, &points, &|r| r.body == Some(index));
                     // What has been cut off moves by itself as well.
                     for piece in &body.pieces {
-                        let own = rigid_modes(&model.mesh, piece, model.space).into_iter();
-                        modes.extend(own.map(|m| RigidMode {
+                        let own = carrying(model, piece, &|r| {
+                            r.body == Some(index) && is_tied_to(model, &rows, r, piece)
+                        });
+                        modes.extend(own.into_iter().map(|m| RigidMode {
                             name: format!("{} {BEYOND}", m.name),
                             ..m
                         }));
@@ -143,8 +140,34 @@ impl Scene<'_> {
 
 /// What is said of motions of a part that a pretension has cut off.
 pub(crate) const BEYOND: &str = "beyond the cut";
-/// Adds to a motion of an elastic body what the reference points tied to it do.
-fn carry(model: &Model, body: usize, centre: Vec3, mode: &mut RigidMode) {
+
+/// The motions without strain of these points, with what reference points do that are tied to them, over all dofs.
+fn carrying(model: &Model, points: &[usize], tied: &dyn Fn(&Reference) -> bool) -> Vec<RigidMode> {
+    let mut modes = rigid_modes(&model.mesh, points, model.space);
+    let places = points.iter().map(|p| model.mesh.points[*p]);
+    let sum = places.fold([0.0; 3], add);
+    let centre = scale(1.0 / points.len().max(1) as f64, sum);
+    for mode in &mut modes {
+        carry(model, tied, centre, mode);
+    }
+    modes
+}
+
+/// Whether all that these rows tie to a reference point are such points, which ascend.
+fn is_tied_to(model: &Model, rows: &[&Row], reference: &Reference, points: &[usize]) -> bool {
+    let is_own = |point: usize| model.links.of_hidden(point) == Some(reference.link);
+    let of = |row: &Row| -> Vec<usize> {
+        let terms = row.terms();
+        terms.map(|(dof, _)| model.dofs.locate(dof).0).collect()
+    };
+    let all = rows.iter().map(|row| of(row));
+    let own: Vec<Vec<usize>> = all.filter(|row| row.iter().any(|&p| is_own(p))).collect();
+    let there = |p: &usize| is_own(*p) || points.binary_search(p).is_ok();
+    !own.is_empty() && own.iter().flatten().all(|p| there(p))
+}
+
+/// Adds to a motion of points what the reference points tied to them do.
+fn carry(model: &Model, tied: &dyn Fn(&Reference) -> bool, centre: Vec3, mode: &mut RigidMode) {
     let unit = |name: &str, kind: &str| -> Vec3 {
         let axis = name.strip_prefix(kind);
         ["x", "y", "z"].map(|a| f64::from(u8::from(axis == Some(a))))
@@ -153,7 +176,7 @@ fn carry(model: &Model, body: usize, centre: Vec3, mode: &mut RigidMode) {
     let turn = unit(&mode.name, "rotation about ");
     let velocity = |x: Vec3| add(shift, cross(turn, sub(x, centre)));
     mode.vector.resize(model.dofs.count(), 0.0);
-    for (dof, moved) in model.carried(body, velocity, turn) {
+    for (dof, moved) in model.carried(tied, velocity, turn) {
         mode.vector[dof] = moved;
     }
 }

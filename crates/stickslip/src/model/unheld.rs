@@ -1,6 +1,6 @@
 //! Motions of whole bodies that nothing can hold, however contact comes out: known before a quasi-static step begins.
 
-use super::definition::Model;
+use super::definition::{Model, Reference};
 use super::free_bodies::BEYOND;
 use super::scene::Scene;
 use crate::contact::interface::{Interface, Primary};
@@ -71,7 +71,8 @@ impl Mode {
             Some(&x) => self.velocity(x)[component],
             None if self.hidden == Some(dof) => 1.0,
             None => {
-                let carried = model.carried(self.body, |x| self.velocity(x), self.turn);
+                let own = |r: &Reference| r.body == Some(self.body);
+                let carried = model.carried(own, |x| self.velocity(x), self.turn);
                 let own = carried.into_iter().find(|(d, _)| *d == dof);
                 own.map_or(0.0, |(_, moved)| moved)
             }

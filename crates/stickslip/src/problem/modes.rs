@@ -147,7 +147,7 @@ pub struct FrictionRange {
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub to: f64,
     /// How many factors, ends counted.
-    #[cfg_attr(feature = "schema", schemars(range(min = 2)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 100_000)))]
     pub points: usize,
 }
 

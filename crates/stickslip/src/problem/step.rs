@@ -115,7 +115,7 @@ fn one() -> f64 {
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Increments {
     /// This many equal increments, never cut or grown: one that fails ends the analysis. Excludes the other keys.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 100_000_000)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<usize>,
     /// Size of the first increment `[fraction of the duration]`.

@@ -17,6 +17,9 @@ use super::tree::{self, Table, Value};
 use super::{key, tree::number};
 use crate::error::Diagnostic;
 
+/// Nothing here is counted so far: of increments, modes or cells no machine makes a thousand million. A key may have a smaller limit of its own.
+const MOST_COUNTED: f64 = 1e9;
+
 /// Everything in which `table` departs from `schema`.
 pub(super) fn check(schema: &Json, table: &Table) -> Vec<Diagnostic> {
     let mut walk = Walk {
@@ -140,6 +143,13 @@ impl<'s> Walk<'s> {
                 self.report(span, message, expected.description.map(first_sentence));
                 return;
             }
+        }
+        // Whole numbers that count something; others, as the seed of a random surface, have another format.
+        let counts = expected.own.get("format").and_then(Json::as_str) == Some("uint");
+        if counts && expected.limit("maximum").is_none() && x > MOST_COUNTED {
+            let message = format!("must be at most {MOST_COUNTED}, found {text}");
+            self.report(span, message, expected.description.map(first_sentence));
+            return;
         }
         // A limit may be infinite where its schema says so: TOML can write it, JSON has no word for it.
         let unlimited = x == f64::INFINITY && expected.own.get("infinite").is_some();

@@ -25,7 +25,8 @@ impl Header {
         if !(x > 0.0 && z != 0.0 && z.is_finite() && (y > 0.0 || self.profiles == 1)) {
             return Err(format!("the header has the scales {x:e}, {y:e} and {z:e}"));
         }
-        let wanted = self.points * self.profiles;
+        // So many that their number is none follow in no file.
+        let wanted = (self.points.checked_mul(self.profiles)).unwrap_or(usize::MAX);
         let heights: Vec<f64> = heights.take(wanted).map(|h| h * z).collect();
         if heights.len() < wanted || wanted == 0 {
             return Err(format!(

@@ -34,6 +34,7 @@ mod mirrors;
 mod modes;
 mod mortar;
 mod multigrid;
+mod numbers;
 mod pairing;
 mod pretension;
 mod price;

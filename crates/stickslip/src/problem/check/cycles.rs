@@ -4,7 +4,7 @@ use super::super::{Cycles, Problem};
 use super::findings::Findings;
 use crate::model::Jump;
 
-/// Amplitude tables are written out for all cycles where jumps are chosen.
+/// Amplitude tables are written out for all cycles that may be computed; at a second each so many take twelve days.
 const MOST: usize = 1_000_000;
 
 /// What may not change over cycles, from `span[0]` to `span[1]` in amplitude tables.
@@ -76,6 +76,11 @@ fn jumps(add: &mut impl FnMut(String, &str), Cycles { count, jump }: Cycles) {
         Jump::Fixed(n) => {
             if let Some(message) = pair("", n) {
                 add(message, "");
+            }
+            let computed = count.div_ceil(n.max(1));
+            if computed > MOST {
+                let message = format!("{computed} cycles would be computed: at most {MOST}");
+                add(message, "let one stand for several, by `jump`");
             }
             return;
         }

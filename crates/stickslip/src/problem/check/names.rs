@@ -83,6 +83,20 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 /// Most characters of a name: with what is put before and behind it, it stays a name of a file everywhere.
 const LONGEST: usize = 100;
 
+/// Tables whose names begin names of columns.
+const COLUMNS: [&str; 7] = [
+    "body",
+    "reference",
+    "interface",
+    "support",
+    "coupling",
+    "pretension",
+    "probe",
+];
+
+/// What a spreadsheet takes for the beginning of a formula, which may run programs.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+
 /// Why a text cannot be a name, and what could: names become names of files, of columns and of sets, on all systems.
 fn misspelled(name: &str) -> Option<&'static str> {
     let wrong = |c: char| c.is_control() || r#"/\<>:"|?*"#.contains(c);
@@ -123,7 +137,9 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
     for (table, names) in tables {
         let mut seen: BTreeMap<String, &str> = BTreeMap::new();
         for name in names {
-            if let Some(why) = misspelled(name) {
+            let formula = COLUMNS.contains(&table) && name.starts_with(FORMULA);
+            let why = formula.then_some("it begins with = + - or @, and a spreadsheet takes a column of that name for a formula");
+            if let Some(why) = misspelled(name).or(why) {
                 let article = match table.starts_with(['a', 'e', 'i', 'o', 'u']) {
                     true => "an",
                     false => "a",

@@ -373,7 +373,8 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     initial(findings, table, interface);
     facets(findings, table, interface);
     let at = |key: &'static str| [table, &[key]].concat();
-    let set_valued = normal.as_dyn().pressure(0.0).is_none();
+    // A law is asked for nothing whose parameters make no sense.
+    let set_valued = normal.as_dyn().faults().is_empty() && normal.as_dyn().pressure(0.0).is_none();
     let multipliers = enforcement.as_dyn().multipliers() != Multipliers::None;
     // Two conditions for one gap: each alone would close it, and multipliers cannot share what they do.
     if interface.discretisation().as_dyn().two_sided()

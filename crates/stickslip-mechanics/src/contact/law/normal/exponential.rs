@@ -41,7 +41,7 @@ impl Exponential {
 impl NormalLaw for Exponential {
     fn pressure(&self, gap: f64) -> Option<Slope> {
         let [from, to] = self.curved();
-        let at = gap.clamp(from, to);
+        let at = gap.max(from).min(to);
         let value = self.exponential(at);
         let slope = -self.rate() * value;
         let value = value + slope * (gap - at);
@@ -54,7 +54,7 @@ impl NormalLaw for Exponential {
     fn gap(&self, pressure: f64) -> Slope {
         let [from, to] = self.curved();
         let free = -(pressure / self.p0).ln() / self.rate();
-        let at = free.clamp(from, to);
+        let at = free.max(from).min(to);
         let value = self.exponential(at);
         let slope = -1.0 / (self.rate() * value);
         Slope {
