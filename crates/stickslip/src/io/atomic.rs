@@ -1,7 +1,9 @@
 use std::ffi::OsString;
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
+use super::own;
 use crate::error::Error;
 
 /// Writes a file so that a reader sees either the old one or the whole new one: under a temporary name beside it, then
@@ -14,7 +16,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     name.push(path.file_name().unwrap_or_default());
     name.push(format!(".{}.tmp", std::process::id()));
     let temporary = path.with_file_name(name);
-    let result = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    let written = own::make(&temporary).and_then(|mut file| file.write_all(bytes));
+    let result = written.and_then(|()| fs::rename(&temporary, path));
     result.map_err(|e| {
         // The first error is the one to report.
         let _ = fs::remove_file(&temporary);

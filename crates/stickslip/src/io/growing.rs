@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-use super::write_atomically;
+use super::{own, write_atomically};
 
 /// A file to which whole pieces of text are added. Each is on its way to the disk when it has been added, and another process may read what is there.
 #[derive(Debug)]
@@ -33,7 +33,7 @@ impl Growing {
     /// [`Error::Io`] if it cannot be opened.
     pub fn resume(path: &Path) -> Result<Self, Error> {
         let open = || {
-            let file = File::options().append(true).open(path)?;
+            let file = own::open(path, own::Use::Append)?;
             let length = file.metadata()?.len();
             Ok((file, length))
         };

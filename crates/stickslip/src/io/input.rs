@@ -12,20 +12,32 @@ pub const TEXT: u64 = 1 << 30;
 /// The part of the memory that is free which one file may take: what is made of it needs room as well.
 const PART: u64 = 4;
 
-/// Reads a whole file of at most `limit` bytes that fits into memory. Devices and folders are refused: some of them have no end.
+/// Refuses what is no file: devices, some of which have no end, folders, and pipes, at whose other end there may be nobody.
+///
+/// # Errors
+/// What the system says; that it is no file.
+pub fn check(path: &Path) -> Result<()> {
+    let about = std::fs::metadata(path)?;
+    let what = match () {
+        () if about.is_dir() => "a folder",
+        () if is_device(&about) => "a device",
+        () if !about.is_file() => "a pipe or a socket",
+        () => return Ok(()),
+    };
+    let why = format!("it is {what}, not a file");
+    Err(Error::new(ErrorKind::InvalidInput, why))
+}
+
+/// Reads a whole file of at most `limit` bytes that fits into memory; see [`check`].
 ///
 /// # Errors
 /// What the system says; that it is no file; that it is too large.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    // Before it is opened: the other end of a pipe would be waited for.
+    check(path)?;
     let file = File::open(path)?;
     let about = file.metadata()?;
     let refuse = |why: String| Err(Error::new(ErrorKind::InvalidInput, why));
-    if about.is_dir() {
-        return refuse("it is a folder, not a file".into());
-    }
-    if is_device(&about) {
-        return refuse("it is a device, not a file".into());
-    }
     let free = machine::available_memory();
     let limit = free.map_or(limit, |free| limit.min(free / PART));
     let too_large = |size: &str| {
@@ -36,7 +48,7 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>> {
         return too_large(&machine::bytes(about.len()));
     }
     let mut bytes = Vec::new();
-    // Pipes do not say how long they are.
+    // It may have grown meanwhile.
     file.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit {
         return too_large("no end");
@@ -87,5 +99,19 @@ mod tests {
     fn a_device_is_no_file() {
         let why = read(Path::new("/dev/zero"), u64::MAX).unwrap_err();
         assert_eq!(why.to_string(), "it is a device, not a file");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn nobody_is_waited_for_at_the_other_end_of_a_pipe() {
+        let name = format!("stickslip-pipe-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        if !made.is_ok_and(|status| status.success()) {
+            return;
+        }
+        let why = read(&path, TEXT).unwrap_err().to_string();
+        assert_eq!(why, "it is a pipe or a socket, not a file");
+        std::fs::remove_file(path).unwrap();
     }
 }

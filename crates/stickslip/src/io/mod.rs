@@ -12,6 +12,7 @@ mod growing;
 pub mod input;
 pub mod npy;
 mod numbers;
+pub mod own;
 pub mod pvd;
 mod sets;
 pub mod vtu;

@@ -12,14 +12,14 @@ use super::frd;
 use super::history::Row;
 use super::modes;
 use super::observer::{Event, Observer, Snapshot};
-use super::saved::{self, Positions, Saved, Source};
+use super::saved::{self, Come, Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
 use crate::contact::interface::Sheet;
 use crate::error::Error;
-use crate::io::frd::end_again;
-use crate::io::{csv, pvd, vtu, write_atomically};
+use crate::io::frd::{END, end_again};
+use crate::io::{csv, own, pvd, vtu, write_atomically};
 use crate::system::{Field, Fields, Location};
 
 /// Writes results into a directory as the run goes on; what is there at any time is complete.
@@ -77,7 +77,8 @@ impl ResultFiles {
         let positions = &saved.positions;
         positions.restore(directory)?;
         folder.keep_fields(&positions.fields)?;
-        keep_surfaces(directory, &positions.fields)?;
+        let there = positions.there(directory);
+        keep_surfaces(directory, &there)?;
         let history = directory.join("history.csv");
         let frd = directory.join(&claim.frd.name);
         match positions.frd {
@@ -87,14 +88,14 @@ impl ResultFiles {
         }
         Ok(ResultFiles {
             folder,
-            pvd: pvd::Collection::resume(&directory.join("fields.pvd"), &positions.fields)?,
+            pvd: pvd::Collection::resume(&directory.join("fields.pvd"), &there)?,
             unsaved: None,
             history: match positions.columns {
                 0 => None,
                 columns => Some(csv::History::resume(&history, columns)?),
             },
             cycles: resume_cycles(directory, positions)?,
-            count: positions.fields.len(),
+            count: positions.outputs,
             alike: claim.alike,
             mesh: None,
             writing: None,
@@ -118,9 +119,20 @@ impl ResultFiles {
         for name in growing.chain(frd.map(|_| self.frd.name())) {
             let path = directory.join(name);
             if let Ok(file) = std::fs::File::open(&path) {
-                let length = file.sync_all().and_then(|()| file.metadata());
-                let length = length.map_err(|e| Error::io(&path, e))?.len();
-                lengths.push((name.to_string(), length));
+                // Its last line is written over by what comes next, and is not there where a full disk has taken that.
+                let last = match name == self.frd.name() {
+                    true => END.len() as u64,
+                    false => 0,
+                };
+                let come = || -> std::io::Result<Come> {
+                    file.sync_all()?;
+                    let length = file.metadata()?.len().saturating_sub(last);
+                    Ok(Come {
+                        length,
+                        tail: saved::tail(&file, length)?,
+                    })
+                };
+                lengths.push((name.to_string(), come().map_err(|e| Error::io(&path, e))?));
             }
         }
         let saved = Saved {
@@ -128,6 +140,7 @@ impl ResultFiles {
             snapshot: snapshot.clone(),
             positions: Positions {
                 fields: self.pvd.entries().to_vec(),
+                outputs: self.count,
                 lengths,
                 columns: self.history.as_ref().map_or(0, csv::History::columns),
                 frd,
@@ -185,7 +198,7 @@ impl ResultFiles {
             mesh.write(&path, &fields)?;
             frd.map_or(Ok(()), |frd| frd.write(&fields))?;
             if !tables.is_empty() {
-                std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+                own::make_folder(&folder).map_err(|e| Error::io(&folder, e))?;
             }
             for (interface, table, sheet) in &tables {
                 csv::write(&folder.join(format!("{interface}.csv")), table)?;
@@ -318,12 +331,16 @@ struct Writing {
     thread: JoinHandle<Result<(), Error>>,
 }
 
-/// Nothing is written into a folder that is no longer held.
+/// Nothing is written into a folder that is no longer held, and none says for ever that a run goes on which a fault has ended.
 impl Drop for ResultFiles {
     fn drop(&mut self) {
         if let Some(writing) = self.writing.take() {
             // Whoever wants to know how it went waits for the end of the run.
             let _ = writing.thread.join();
+        }
+        if std::thread::panicking() && self.folder.check().is_ok() {
+            // What has happened is said elsewhere.
+            let _ = self.folder.say_broken();
         }
     }
 }

@@ -11,7 +11,7 @@ use super::modes::is_of_modes;
 use super::saved::{self, Source};
 use super::summary::Status;
 use crate::error::{Error, IoError};
-use crate::io::{meant_by, write_atomically};
+use crate::io::{input, meant_by, own, pvd, write_atomically};
 
 /// What a run takes a folder with.
 #[derive(Debug, Clone, Default)]
@@ -46,9 +46,11 @@ impl Folder {
     /// Makes the folder, takes it, and removes what an earlier run left. From now on its `summary.json` says that a run is going on.
     ///
     /// # Errors
-    /// [`Error::Io`]: what the system says; another run is in it; it holds an input, or files that no run has written, under names of results.
+    /// [`Error::Io`]: what the system says; another run is in it; it holds an input, or files that no run has written, under names of results; a link leads
+    /// out of it.
     pub fn take(directory: &Path, claim: &Claim) -> Result<Folder, Error> {
         fs::create_dir_all(directory).map_err(|e| no_folder(directory, e))?;
+        tables_are_inside(directory)?;
         for input in &claim.inputs {
             spare(directory, input, claim)?;
         }
@@ -135,7 +137,8 @@ impl Folder {
             is_field(name) && unknown(name)
         })?)?;
         let tables = self.directory.join(INTERFACES);
-        let surface = |name: &str| name.ends_with(".vtp") && is_of_interface(name) && unknown(name);
+        let parts = parts(&self.directory);
+        let surface = |name: &str| name.ends_with(".vtp") && is_of(&parts, name) && unknown(name);
         match tables.is_dir() {
             true => remove(&files(&tables, surface)?),
             false => Ok(()),
@@ -158,10 +161,22 @@ impl Folder {
 
     /// What is found in `summary.json` later, if the run is killed.
     fn say_running(&self) -> Result<(), Error> {
+        self.say(Status::Running, "running")
+    }
+
+    /// What is found there where a fault of the program has ended the run.
+    pub fn say_broken(&self) -> Result<(), Error> {
+        self.say(
+            Status::Failed,
+            "the program has a fault: what it has said of it belongs in a report",
+        )
+    }
+
+    fn say(&self, status: Status, outcome: &str) -> Result<(), Error> {
         let holder = lock::Holder::this();
         let text = serde_json::json!({
-            "status": Status::Running,
-            "outcome": "running",
+            "status": status,
+            "outcome": outcome,
             "completed": false,
             "version": env!("CARGO_PKG_VERSION"),
             "process": holder.process,
@@ -183,7 +198,13 @@ impl Folder {
                 "it would be replaced, but there is no summary.json of a run beside it: choose another folder, or remove it".into(),
             ));
         }
-        old.retain(|path| *path != summary);
+        let tables = self.directory.join(INTERFACES);
+        let parts = parts(&self.directory);
+        let own = |path: &PathBuf| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            path.parent() != Some(&tables) || name.is_some_and(|name| is_of(&parts, name))
+        };
+        old.retain(|path| *path != summary && own(path));
         Ok(old)
     }
 }
@@ -210,6 +231,7 @@ impl FolderClaim {
     /// [`Error::Io`]: there is no such folder; another run writes there; what the system says.
     pub fn take(directory: &Path) -> Result<FolderClaim, Error> {
         saved::check_folder(directory)?;
+        tables_are_inside(directory)?;
         Ok(FolderClaim {
             directory: directory.to_path_buf(),
             lock: Some(hold(directory, None)?),
@@ -257,10 +279,49 @@ fn number_of(name: &str) -> Option<&str> {
     whole.then_some(number)
 }
 
+/// The names of what has files in the folder of interfaces: those that the list of surfaces has, and those of the interfaces of the problem, as a run that was
+/// killed early has no list.
+fn parts(directory: &Path) -> BTreeSet<String> {
+    let mut parts: BTreeSet<String> = match directory.join(SURFACES).is_file() {
+        true => pvd::parts(&directory.join(SURFACES)).unwrap_or_default(),
+        false => Vec::new(),
+    }
+    .into_iter()
+    .collect();
+    let problem = input::read_text(&directory.join(PROBLEM)).unwrap_or_default();
+    let problem: toml::Table = problem.parse().unwrap_or_default();
+    let interfaces = problem.get("interface").and_then(toml::Value::as_table);
+    for name in interfaces.into_iter().flat_map(toml::Table::keys) {
+        parts.insert(name.clone());
+        parts.insert(format!("{name}{OPPOSITE}"));
+    }
+    parts
+}
+
+/// Whether a file in the folder of interfaces is that of one of these.
+fn is_of(parts: &BTreeSet<String>, name: &str) -> bool {
+    let stem = match number_of(name) {
+        Some(number) if name.ends_with(".vtp") => {
+            name.strip_suffix(&format!("{number}.vtp")).unwrap_or(name)
+        }
+        _ => name.strip_suffix(".csv").unwrap_or_default(),
+    };
+    parts.contains(stem)
+}
+
+/// Refuses a folder out of which the tables of interfaces would be written.
+fn tables_are_inside(directory: &Path) -> Result<(), Error> {
+    let tables = directory.join(INTERFACES);
+    own::is_own_folder(&tables).map_err(|e| Error::io(&tables, e))
+}
+
 /// Whether a file in the folder of interfaces has the name of a result.
 fn is_of_interface(name: &str) -> bool {
     name.ends_with(".csv") || (name.ends_with(".vtp") && number_of(name).is_some())
 }
+
+/// The problem as it was run.
+const PROBLEM: &str = "problem.toml";
 
 const FILES: &[&str] = &[
     "summary.json",
@@ -269,7 +330,7 @@ const FILES: &[&str] = &[
     "fields.pvd",
     SURFACES,
     "culprits.vtu",
-    "problem.toml",
+    PROBLEM,
     "report.html",
     frd::NAME,
 ];

@@ -1,8 +1,11 @@
 //! One run at a time in a folder: a file that says who is in it, locked as long as that process lives.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+
+use crate::io::input;
+use crate::io::own::{self, Use};
 
 /// Name of the file in the folder.
 pub(crate) const NAME: &str = "run.lock";
@@ -45,7 +48,10 @@ impl Holder {
 
 impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "process {}", self.process)?;
+        match self.process {
+            0 => write!(f, "a process that has not said who it is")?,
+            process => write!(f, "process {process}")?,
+        }
         match self.host.as_str() {
             "" => Ok(()),
             host => write!(f, " on {host}"),
@@ -88,7 +94,7 @@ impl Lock {
     /// Takes what this file stands for.
     pub fn take_file(path: PathBuf, dead: Option<&str>) -> Result<Lock, Refused> {
         loop {
-            let mut file = open(&path)?;
+            let mut file = own::open(&path, Use::ChangeOrMake)?;
             let mut text = String::new();
             // What is no text says nothing.
             let _ = file.read_to_string(&mut text);
@@ -149,7 +155,9 @@ impl Lock {
 
     /// Who is in a folder, if anybody is.
     pub fn holder(directory: &Path) -> Option<Holder> {
-        let mut file = File::open(directory.join(NAME)).ok()?;
+        let path = directory.join(NAME);
+        input::check(&path).ok()?;
+        let mut file = File::open(path).ok()?;
         let mut text = String::new();
         file.read_to_string(&mut text).ok()?;
         let holder = Holder::parse(&text)?;
@@ -171,22 +179,13 @@ impl Drop for Lock {
     }
 }
 
-fn open(path: &Path) -> io::Result<File> {
-    OpenOptions::new()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(path)
-}
-
 /// Whether the file is still the one of this name.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let same =
         |a: std::fs::Metadata, b: std::fs::Metadata| (a.dev(), a.ino()) == (b.dev(), b.ino());
-    match (file.metadata(), std::fs::metadata(path)) {
+    match (file.metadata(), std::fs::symlink_metadata(path)) {
         (Ok(a), Ok(b)) => same(a, b),
         _ => false,
     }

@@ -5,13 +5,14 @@
 //! are kept.
 
 use std::fs::{self, File};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Component, Path, PathBuf};
 
 use super::frd::Reached;
 use super::observer::Snapshot;
 use super::sealed;
 use crate::error::{Error, IoError};
+use crate::io::{input, own};
 
 /// What a run was called with.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -44,12 +45,34 @@ pub struct Lent {
 pub(crate) struct Positions {
     /// Fields written, by time.
     pub fields: Vec<(f64, String)>,
-    /// Lengths of files that grow `[bytes]`.
-    pub lengths: Vec<(String, u64)>,
+    /// How many outputs there were; there are fewer fields where some were removed before the run went on.
+    pub outputs: usize,
+    /// How far files that grow had come.
+    pub lengths: Vec<(String, Come)>,
     /// Columns of the history.
     pub columns: usize,
     /// How far the `.frd` file had come, if there is one.
     pub frd: Option<Reached>,
+}
+
+/// How far a file had come that grows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Come {
+    /// `[bytes]`
+    pub length: u64,
+    /// A digest of the last of it.
+    pub tail: [u64; 2],
+}
+
+/// So much of the end of a file is looked at `[bytes]`: some rows, of which no two are alike, as each has its time.
+const TAIL: u64 = 1 << 16;
+
+/// A digest of the last that a file has before a length.
+pub(super) fn tail(mut file: &File, length: u64) -> std::io::Result<[u64; 2]> {
+    let mut bytes = Vec::new();
+    file.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
+    file.take(length.min(TAIL)).read_to_end(&mut bytes)?;
+    Ok(sealed::digest(&bytes))
 }
 
 /// A checkpoint with all that is needed to go on from it.
@@ -71,8 +94,10 @@ crate::keep!(Source {
     lent
 });
 crate::keep!(Lent { meshes, laws });
+crate::keep!(Come { length, tail });
 crate::keep!(Positions {
     fields,
+    outputs,
     lengths,
     columns,
     frd
@@ -132,7 +157,8 @@ pub(super) fn check_folder(directory: &Path) -> Result<(), Error> {
 /// # Errors
 /// [`Error::Io`] if it cannot be read.
 pub fn digest_of(path: &Path) -> Result<[u64; 2], Error> {
-    let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
+    let bytes = input::check(path).and_then(|()| fs::read(path));
+    let bytes = bytes.map_err(|e| Error::io(path, e))?;
     Ok(sealed::digest(&bytes))
 }
 
@@ -170,7 +196,8 @@ impl Saved {
     /// # Errors
     /// [`Error::Io`] if it cannot be read, is none, of another version, or damaged.
     pub fn read(path: &Path) -> Result<Saved, Error> {
-        let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
+        let bytes = input::check(path).and_then(|()| fs::read(path));
+        let bytes = bytes.map_err(|e| Error::io(path, e))?;
         sealed::unseal(&bytes, "the checkpoint").map_err(|message| fault(path, message))
     }
 
@@ -193,18 +220,33 @@ impl Saved {
         }
         let mut notes = Vec::new();
         let mut first = None;
+        // What goes on although fields are not there any more: who has removed some to save space may have it so, where no earlier checkpoint has all of its own.
+        let mut poorer = None;
         for (n, path) in &all {
             if from.is_some_and(|from| from != *n) {
                 continue;
             }
             let read = Saved::read(path);
             match read.and_then(|saved| saved.positions.check(directory).map(|()| saved)) {
-                Ok(saved) => return Ok((saved, notes)),
+                Ok(saved) => match saved.positions.gone(directory) {
+                    0 => return Ok((saved, notes)),
+                    gone => {
+                        poorer.get_or_insert((saved, gone));
+                    }
+                },
                 Err(e) => {
                     notes.push(format!("{e}; the checkpoint before it is tried"));
                     first.get_or_insert(e);
                 }
             }
+        }
+        if let Some((saved, gone)) = poorer {
+            notes.push(format!(
+                "{}: {gone} of {} files of fields are no longer there; the run goes on, and fields.pvd lists the others",
+                directory.display(),
+                saved.positions.fields.len()
+            ));
+            return Ok((saved, notes));
         }
         Err(first.unwrap_or_else(|| {
             let message = format!(
@@ -266,36 +308,84 @@ impl Saved {
 }
 
 impl Positions {
-    /// Whether the files in a folder have come at least so far.
+    /// Whether the files in a folder have come at least so far, and are up to there what they were.
     fn check(&self, directory: &Path) -> Result<(), Error> {
-        for (name, length) in &self.lengths {
+        for (name, come) in &self.lengths {
+            is_plain(directory, name)?;
             let path = directory.join(name);
-            let there = fs::metadata(&path).map_err(|e| Error::io(&path, e))?.len();
-            if there < *length {
-                return Err(fault(&path, "the file is shorter than at the checkpoint"));
+            let look = || -> std::io::Result<Option<Come>> {
+                let file = own::open(&path, own::Use::Change)?;
+                let length = file.metadata()?.len();
+                if length < come.length {
+                    return Ok(None);
+                }
+                Ok(Some(Come {
+                    length: come.length,
+                    tail: tail(&file, come.length)?,
+                }))
+            };
+            match look().map_err(|e| Error::io(&path, e))? {
+                Some(found) if found == *come => {}
+                Some(_) => return Err(fault(&path, changed(&path))),
+                None => return Err(fault(&path, "the file is shorter than at the checkpoint")),
             }
         }
         for (_, name) in &self.fields {
-            let path = directory.join(name);
-            fs::metadata(&path).map_err(|e| Error::io(&path, e))?;
+            is_plain(directory, name)?;
         }
         Ok(())
     }
 
+    /// How many files of fields are no longer in the folder.
+    fn gone(&self, directory: &Path) -> usize {
+        self.fields.len() - self.there(directory).len()
+    }
+
+    /// The files of fields that are in the folder.
+    pub(super) fn there(&self, directory: &Path) -> Vec<(f64, String)> {
+        let fields = self.fields.iter();
+        let there = fields.filter(|(_, name)| directory.join(name).is_file());
+        there.cloned().collect()
+    }
+
     /// Cuts files back to where they were.
     pub(crate) fn restore(&self, directory: &Path) -> Result<(), Error> {
-        for (name, length) in &self.lengths {
+        for (name, come) in &self.lengths {
             let path = directory.join(name);
-            let file = File::options().write(true).open(&path);
-            let cut = file.and_then(|f| f.set_len(*length));
+            let file = own::open(&path, own::Use::Change);
+            let cut = file.and_then(|f| f.set_len(come.length));
             cut.map_err(|e| Error::io(&path, e))?;
         }
         Ok(())
     }
 }
 
+/// Why a file is not what it was.
+fn changed(path: &Path) -> String {
+    let text = input::read_text(path).unwrap_or_default();
+    let how = match text.contains("\r\n") {
+        true => "its lines end with carriage returns now, as a spreadsheet writes them",
+        false => "what comes next would not fit what is there",
+    };
+    format!(
+        "the file was changed since the run wrote it: {how}; bring back the one that the run wrote, or run again"
+    )
+}
+
+/// Refuses a name that leads out of the folder: a checkpoint may be somebody else's.
+fn is_plain(directory: &Path, name: &str) -> Result<(), Error> {
+    let mut parts = Path::new(name).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(_)), None) => Ok(()),
+        _ => Err(fault(
+            directory,
+            format!("a checkpoint names `{name}`, which is no file of this folder"),
+        )),
+    }
+}
+
 fn put(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
+    let mut file = own::make(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use super::block::{Block, Moment};
 use super::layout::Layout;
 use crate::error::{Error, IoError};
-use crate::io::write_atomically;
+use crate::io::{own, write_atomically};
 
-/// The last line of a file.
-const END: &[u8] = b" 9999\n";
+/// The last line of a file, over which the next output is written.
+pub const END: &[u8] = b" 9999\n";
 
 /// How much there is in a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -107,15 +107,13 @@ impl Results {
     }
 }
 
-/// Ends a file that was cut back to its length at an earlier time: what came later stands where its last line was.
+/// Ends a file that was cut back to the end of an output.
 ///
 /// # Errors
 /// [`Error::Io`] if it cannot be written.
 pub fn end_again(path: &Path) -> Result<(), Error> {
     let end = || {
-        let mut file = File::options().write(true).open(path)?;
-        let last = file.metadata()?.len().saturating_sub(END.len() as u64);
-        file.seek(SeekFrom::Start(last))?;
+        let mut file = own::open(path, own::Use::Append)?;
         file.write_all(END)
     };
     end().map_err(|e| Error::io(path, e))
@@ -123,7 +121,7 @@ pub fn end_again(path: &Path) -> Result<(), Error> {
 
 /// A file, and its length up to the last line if it has that.
 fn open(path: &Path) -> std::io::Result<(File, Option<u64>)> {
-    let mut file = File::options().read(true).write(true).open(path)?;
+    let mut file = own::open(path, own::Use::Change)?;
     let length = file.metadata()?.len().checked_sub(END.len() as u64);
     let Some(length) = length else {
         return Ok((file, None));
