@@ -1,5 +1,6 @@
 //! Errors by phase: the problem file, the mesh, the run, files.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -151,6 +152,28 @@ impl From<RunError> for Error {
     }
 }
 
+/// Text of files, paths and names as it may be printed: what would move the cursor, ring, colour, or turn the order of what is read is written as `\u001b`.
+/// Lines and tabs stay. JSON that has passed is the same JSON.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    let acts = |c: char| match c {
+        '\n' | '\t' => false,
+        // Marks of direction that hold for what follows.
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        c => c.is_control(),
+    };
+    if !text.contains(acts) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        match acts(c) {
+            true => out += &format!("\\u{:04x}", u32::from(c)),
+            false => out.push(c),
+        }
+    }
+    Cow::Owned(out)
+}
+
 fn help_line(f: &mut fmt::Formatter<'_>, help: &Option<String>) -> fmt::Result {
     match help {
         Some(help) => write!(f, "\n  help: {help}"),
@@ -234,3 +257,19 @@ impl std::error::Error for Error {}
 impl std::error::Error for ProblemError {}
 impl std::error::Error for MeshError {}
 impl std::error::Error for RunError {}
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn what_acts_on_a_terminal_is_written_out() {
+        assert_eq!(shown("a\tb\né"), "a\tb\né");
+        assert_eq!(
+            shown("\u{1b}]0;t\u{7}\r\u{9b}1m\u{202e}"),
+            "\\u001b]0;t\\u0007\\u000d\\u009b1m\\u202e"
+        );
+        let json = "{\"a\": \"\u{7f}\"}";
+        assert_eq!(shown(json), "{\"a\": \"\\u007f\"}");
+    }
+}

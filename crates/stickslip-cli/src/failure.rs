@@ -20,6 +20,19 @@ pub const UNSOLVED: u8 = 3;
 /// Stopped by Ctrl-C; results up to there are complete.
 pub const INTERRUPTED: u8 = 130;
 
+/// The program has a fault: what it takes for certain does not hold. This is what the standard library ends with as well.
+pub const DEFECT: u8 = 101;
+
+/// The table of them.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    the input is wrong, or runs of a sweep failed
+  2    a check of `compare` or the quality gate fails; results are kept
+  3    the analysis did not finish
+  101  a fault of this program: please report it, with the input that shows it
+  130  interrupted; the results up to there are complete";
+
 /// What a command ends with.
 pub type Outcome = Result<ExitCode, Failure>;
 

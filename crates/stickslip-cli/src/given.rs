@@ -215,7 +215,9 @@ fn what(file: &Path) -> &'static str {
 /// What a file is that nothing reads, and what to do with it.
 fn foreign(path: &Path) -> Option<(&'static str, &'static str)> {
     let mut head = [0; 8];
-    let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut head));
+    let read = stickslip::io::input::check(path)
+        .and_then(|()| std::fs::File::open(path))
+        .and_then(|mut file| file.read(&mut head));
     let head = &head[..read.unwrap_or(0)];
     let ending = path
         .extension()

@@ -1,12 +1,13 @@
 //! The `stickslip` command: arguments, progress and printing around the `stickslip` library.
 //!
 //! Exit codes: 0 done, 1 the input is wrong or runs of a sweep failed, 2 results fail a check or the quality gate, 3 not converged,
-//! 130 interrupted.
+//! 101 a fault of this program, 130 interrupted.
 //! Results and listings go to standard output, diagnostics to standard error.
 
 mod browser;
 mod closing;
 mod commands;
+mod defect;
 mod failure;
 mod given;
 mod input;
@@ -20,17 +21,19 @@ mod space;
 mod style;
 mod voice;
 
+pub use defect::report_defects;
+
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use failure::INPUT;
+use failure::{EXIT_CODES, INPUT};
 
 /// Frictional contact of elastic bodies, in 2D and 3D.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, arg_required_else_help = true)]
+#[command(name = "stickslip", version, arg_required_else_help = true, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -64,12 +67,24 @@ fn command() -> clap::Command {
 
 /// Runs the command line `arguments`, the first of which is the name of the program. Returns the exit code.
 pub fn main_with<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
+    defect::caught(|| obey(arguments))
+}
+
+fn obey<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(e) => {
             // Help and version are "errors" that go to standard output and succeed. A closed pipe is nobody's fault.
-            let _ = e.print();
-            return ExitCode::from(if e.use_stderr() { INPUT } else { 0 });
+            if !e.use_stderr() {
+                let _ = e.print();
+                return ExitCode::SUCCESS;
+            }
+            let text = e.render();
+            print::err(&match style::coloured() {
+                true => text.ansi().to_string(),
+                false => text.to_string(),
+            });
+            return ExitCode::from(INPUT);
         }
     };
     let outcome = match arguments.command {

@@ -26,5 +26,6 @@ fn main() -> ExitCode {
     unsafe {
         libc::signal(libc::SIGABRT, aborted as *const () as libc::sighandler_t);
     }
+    stickslip_cli::report_defects();
     stickslip_cli::main_with(std::env::args_os())
 }

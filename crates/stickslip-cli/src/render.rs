@@ -1,12 +1,11 @@
 //! Errors on standard error: file, line, the line itself with the place underlined, what to do.
 
-use std::io::Write;
-
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use stickslip::Error;
-use stickslip::error::ProblemError;
+use stickslip::error::{ProblemError, shown};
 
 use crate::failure::Failure;
+use crate::print;
 
 /// Prints why a command failed.
 pub fn failure(failure: &Failure) {
@@ -15,13 +14,12 @@ pub fn failure(failure: &Failure) {
     } else {
         Renderer::plain()
     };
-    // Nobody is left to tell if this fails.
-    let _ = writeln!(std::io::stderr(), "{}", text(failure, &renderer));
+    print::err(&format!("{}\n", text(failure, &renderer)));
 }
 
 /// Why a command failed, without colours.
 pub fn plain(failure: &Failure) -> String {
-    text(failure, &Renderer::plain())
+    shown(&text(failure, &Renderer::plain())).into_owned()
 }
 
 fn text(failure: &Failure, renderer: &Renderer) -> String {

@@ -57,6 +57,34 @@ fn painted(coloured: bool, look: Look, text: &str) -> String {
     }
 }
 
+/// A text in parts: such as give it a colour, if it has some, and all others.
+pub fn parts(text: &str, coloured: bool) -> Vec<(bool, &str)> {
+    let mut out = Vec::new();
+    let (mut from, mut at) = (0, 0);
+    while let Some(begin) = text[at..].find("\x1b[").filter(|_| coloured) {
+        let begin = at + begin;
+        at = begin + 2;
+        let codes = &text[at..];
+        let Some(end) = codes.find('m') else {
+            break;
+        };
+        if !codes[..end].split(';').all(is_look) {
+            continue;
+        }
+        at += end + 1;
+        out.push((false, &text[from..begin]));
+        out.push((true, &text[begin..at]));
+        from = at;
+    }
+    out.push((false, &text[from..]));
+    out
+}
+
+/// Whether a code says no more than how letters look: none, bold, underlined, or of a colour.
+fn is_look(code: &str) -> bool {
+    matches!(code.parse::<u8>(), Ok(0 | 1 | 4 | 30..=37 | 39 | 90..=97))
+}
+
 /// A number with four digits, without zeros that say nothing.
 pub fn figure(x: f64) -> String {
     digits(x, 4)
@@ -142,6 +170,22 @@ mod tests {
         }
         assert_eq!(painted(true, Look::Wrong, "error"), "\x1b[31merror\x1b[0m");
         assert_eq!(painted(false, Look::Wrong, "error"), "error");
+    }
+
+    #[test]
+    fn colours_are_told_from_all_else_that_acts() {
+        let text = "\x1b[1m\x1b[31merror\x1b[0m: a\x1b[8mb\x1b]0;t\x07\x1b[2Jm";
+        let own: Vec<&str> = parts(text, true)
+            .iter()
+            .filter(|(own, _)| *own)
+            .map(|(_, part)| *part)
+            .collect();
+        assert_eq!(own, ["\x1b[1m", "\x1b[31m", "\x1b[0m"]);
+        for coloured in [true, false] {
+            let all: String = parts(text, coloured).iter().map(|(_, p)| *p).collect();
+            assert_eq!(all, text);
+        }
+        assert_eq!(parts(text, false), [(false, text)]);
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! What is said on standard error while an analysis goes on, and a sign of life where nothing has been said for a while.
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
+use stickslip::error::shown;
 use stickslip::newton::Strategy;
 use stickslip::run::{Watch, Work};
 
@@ -38,7 +39,7 @@ impl Listener {
 
 /// Prints a line. A closed standard error is no reason to stop.
 pub fn say(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+    print::err(&format!("{text}\n"));
 }
 
 /// One voice for all who speak: cheap to clone.
@@ -114,8 +115,7 @@ impl Voice {
 impl State {
     fn line(&mut self, text: &str) {
         if self.transient > 0 {
-            let blank = " ".repeat(self.transient);
-            let _ = write!(std::io::stderr(), "\r{blank}\r");
+            print::again(self.transient);
             self.transient = 0;
         }
         say(text);
@@ -123,8 +123,11 @@ impl State {
     }
 
     fn passing(&mut self, text: &str) {
+        let text = shown(text);
         let fill = " ".repeat(self.transient.saturating_sub(text.chars().count()));
-        let _ = write!(std::io::stderr(), "\r{text}{fill}\r");
+        print::again(0);
+        print::err(&format!("{text}{fill}"));
+        print::again(0);
         self.transient = text.chars().count();
         self.said = Instant::now();
     }

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use stickslip::Error;
-use stickslip::error::{ProblemError, line_column};
+use stickslip::error::{ProblemError, line_column, shown};
 use stickslip_deck::DeckError;
 
 /// The exception for an error.
@@ -12,7 +12,7 @@ pub fn raise(py: Python<'_>, error: Error) -> PyErr {
 }
 
 fn exception(py: Python<'_>, error: Error) -> PyResult<PyErr> {
-    let message = error.to_string();
+    let message = shown(&error.to_string()).into_owned();
     let fields = PyDict::new(py);
     let name = match error {
         Error::Problem(e) => {
@@ -56,7 +56,7 @@ pub fn raise_deck(py: Python<'_>, error: &DeckError) -> PyErr {
             entry.set_item("line", (finding.line > 0).then_some(finding.line))?;
             entry.set_item("column", None::<usize>)?;
             list.append(entry)?;
-            lines.push(finding.to_string());
+            lines.push(shown(&finding.to_string()).into_owned());
         }
         let class = py.import("stickslip._errors")?.getattr("ProblemError")?;
         Ok(PyErr::from_value(class.call1((lines.join("\n"), list))?))

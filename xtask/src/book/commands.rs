@@ -10,7 +10,7 @@ pub fn page(binary: &Path) -> Result<String, String> {
         "# The command line\n\n<!-- Generated from `stickslip COMMAND --help` by `cargo xtask book`. -->\n\n",
     );
     page += "Results and listings go to standard output, progress and diagnostics to standard error. Exit codes: 0 done; 1 the input is wrong, or runs of a \
-        sweep failed; 2 a check of `compare` or the quality gate fails, results are kept; 3 the analysis did not finish; 130 interrupted.\n";
+        sweep failed; 2 a check of `compare` or the quality gate fails, results are kept; 3 the analysis did not finish; 101 a fault of this program, which you are asked to report; 130 interrupted.\n";
     sections(&mut page, binary, &[])?;
     Ok(page)
 }

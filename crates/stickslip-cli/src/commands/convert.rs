@@ -1,4 +1,3 @@
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -99,8 +98,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         notes.push(format!("an analysis would refuse this mesh: {}", e.message));
     }
     for note in notes {
-        // Nobody is left to tell if this fails.
-        let _ = writeln!(std::io::stderr(), "note: {note}");
+        print::err(&format!("note: {note}\n"));
     }
     print::out(&summary(output, &mesh))?;
     Ok(ExitCode::SUCCESS)

@@ -17,14 +17,21 @@ pub struct Arguments {
     /// The interface; may be left out if there is only one.
     interface: Option<String>,
     /// Largest pressure of the table, in the unit of stress of the problem.
-    #[arg(long, default_value_t = 1e8)]
+    #[arg(long, default_value_t = 1e8, value_parser = pressure)]
     pressure: f64,
     /// Rows of the table.
-    #[arg(long, default_value_t = 21)]
-    rows: usize,
+    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    rows: u32,
     /// Change a value: path=value.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
+}
+
+fn pressure(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a positive number".into()),
+    }
 }
 
 /// Prints the table.
@@ -51,9 +58,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         interface.slip.as_dyn(),
     );
     let mut text = String::from("gap,pressure,slope,energy,limit,shear_at_slip_speed_1\n");
-    let rows = arguments.rows.max(2);
+    let rows = arguments.rows;
     for i in 0..rows {
-        let p = arguments.pressure * i as f64 / (rows - 1) as f64;
+        let p = arguments.pressure * f64::from(i) / f64::from(rows - 1);
         let gap = if p > 0.0 {
             normal.gap(p).value
         } else {

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::friction::{self, FrictionProblem, Solution, text};
+use stickslip::io::write_atomically;
 
 use crate::failure::{Failure, Outcome, UNSOLVED};
 use crate::given;
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let stem = file.file_stem().unwrap_or_default();
             let path = folder.join(stem).with_extension("csv");
             crate::commands::spare(&path, &arguments.files)?;
-            fs::write(&path, table(problem, &solution)).map_err(|e| Error::io(&path, e))?;
+            write_atomically(&path, table(problem, &solution).as_bytes())?;
         }
     }
     let all = problems.len();

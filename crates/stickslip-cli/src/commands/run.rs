@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::friction::text;
+use stickslip::io::write_atomically;
 use stickslip::newton::condensed::Library;
 use stickslip::results::{
     Claim, FrdPlan, Lent, Observer, ResultFiles, Source, checkpoints, digest_of,
@@ -291,7 +292,7 @@ fn dump(folder: &Path, stem: &str, simulation: &Simulation) -> Result<(), Failur
         "{stem}: an increment that did not converge, after time {:e}\nu = W r + q in the units of the problem; normal component first",
         simulation.view().frame.state.t
     );
-    fs::write(&path, text::write(problem, &remarks)).map_err(|e| Error::io(&path, e))?;
+    write_atomically(&path, text::write(problem, &remarks).as_bytes())?;
     crate::progress::say(&format!(
         "the increment as a friction problem: {}",
         path.display()

@@ -223,21 +223,26 @@ fn files_of_others_are_not_touched() {
 #[test]
 fn what_an_older_run_left_is_gone() {
     let folder = place("older");
+    // Its interface has another name than that of the later run.
+    let older = CASE.replace("interface.base", "interface.gone");
+    std::fs::write(folder.join("older.toml"), older).expect("a file");
     let (code, text) = run(
         &folder,
         &[
             "run",
-            "case.toml",
+            "older.toml",
             "-q",
+            "-o",
+            "case.out",
             "--set",
             "step.0.increments.fixed=5",
         ],
     );
     assert_eq!(code, Some(0), "{text}");
     let out = folder.join("case.out");
+    assert!(out.join("interfaces/gone.csv").exists());
     for (name, text) in [
         ("fields_00099.vtu", "old"),
-        ("interfaces/gone.csv", "old"),
         ("interfaces/gone_00007.vtp", "old"),
         ("report.html", "old"),
         ("notes.txt", "mine"),

@@ -21,4 +21,6 @@ mod progress;
 mod reports;
 mod runs;
 mod shards;
+#[cfg(unix)]
+mod strangers;
 mod sweep;

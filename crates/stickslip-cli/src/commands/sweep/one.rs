@@ -4,6 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+use stickslip::Error;
+use stickslip::io::own;
 use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
 use stickslip::results::{Claim, Observer, ResultFiles, Summary};
@@ -74,7 +76,11 @@ pub fn analyse(
         dead: shared.dead.clone(),
         ..Claim::default()
     };
-    let files = directory.map(|directory| ResultFiles::new(directory, &claim));
+    let files = directory.map(|directory| {
+        // It lies within the folder of the sweep, and what lies there may be a link out of it.
+        own::is_own_folder(directory).map_err(|e| Error::io(directory, e))?;
+        ResultFiles::new(directory, &claim)
+    });
     let mut files = match files.transpose() {
         Ok(files) => files,
         Err(e) => return failed(e.into()),

@@ -4,15 +4,16 @@
 //! written as a whole. What is there counts: a shard that was killed goes on with what is not.
 
 use std::collections::BTreeMap;
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
-use stickslip::io::{drop_leftovers, write_atomically};
+use stickslip::io::{drop_leftovers, own, write_atomically};
 use stickslip::lease::{Asked, Lease, Waiting};
+use stickslip::linear::Digest;
 use stickslip::results::digest_of;
 
 use super::plan::Plan;
@@ -248,20 +249,35 @@ pub struct Done {
     pub processor: String,
 }
 
+/// A digest of a row without its own.
+fn digest(row: &Value) -> String {
+    let mut digest = Digest::default();
+    digest.bytes(row.to_string().as_bytes());
+    let [a, b] = digest.finish();
+    format!("{a:016x}{b:016x}")
+}
+
 impl Done {
     fn to_json(&self, run: usize) -> Value {
         // As text: numbers of JSON know no NaN.
         let last = self.row.last.iter();
         let last: BTreeMap<&String, String> = last.map(|(k, x)| (k, format!("{x:e}"))).collect();
-        json!({
+        let mut value = json!({
             "run": run + 1, "values": self.row.values, "outcome": self.row.outcome, "failed": self.failed, "poor": self.poor,
             "counts": self.row.counts, "names": self.names, "last": last, "effort": self.effort,
             "processor": self.processor,
-        })
+        });
+        value["digest"] = json!(digest(&value));
+        value
     }
 
+    /// The run and what is known of it; `None` of a line that is damaged, were it by one digit.
     fn from_json(line: &str) -> Option<(usize, Done)> {
-        let value: Value = serde_json::from_str(line).ok()?;
+        let mut value: Value = serde_json::from_str(line).ok()?;
+        let said = value.as_object_mut()?.remove("digest")?;
+        if said.as_str()? != digest(&value) {
+            return None;
+        }
         let word = |v: &Value| v.as_str().map(str::to_string);
         let words = |v: &Value| v.as_array()?.iter().map(word).collect::<Option<Vec<_>>>();
         let run = usize::try_from(value["run"].as_u64()?)
@@ -432,7 +448,7 @@ impl Work {
     pub fn push(&mut self, run: usize, done: Done) -> Result<(), Error> {
         let path = self.shard.rows_file();
         let line = format!("{}\n", done.to_json(run));
-        let file = OpenOptions::new().create(true).append(true).open(&path);
+        let file = own::open(&path, own::Use::AppendOrMake);
         let written = file.and_then(|mut file| {
             file.write_all(line.as_bytes())?;
             file.sync_data()
@@ -611,6 +627,11 @@ mod tests {
         let (_, back) = Done::from_json(&unknown.to_json(0).to_string()).unwrap();
         assert!(back.row.last["q"].is_nan() && back.row.counts.is_none());
         assert!(Done::from_json(&line[..line.len() - 1]).is_none());
+        // A digit that was changed is found as well as a line that was cut.
+        for (from, to) in [("e-324", "e-323"), ("\"run\":7", "\"run\":8"), ("q1", "q2")] {
+            assert!(line.contains(from), "{line}");
+            assert!(Done::from_json(&line.replace(from, to)).is_none(), "{from}");
+        }
     }
 
     #[test]

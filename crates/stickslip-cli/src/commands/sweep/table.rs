@@ -1,13 +1,12 @@
 //! The table of a sweep: a row a run, as CSV.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::csv::split;
-use stickslip::io::write_atomically;
+use stickslip::io::{own, write_atomically};
 use stickslip::results::Summary;
 
 /// What is known of a run.
@@ -87,13 +86,13 @@ impl Table {
     pub fn try_file(&self) -> Result<(), Error> {
         let path = &self.path;
         if path.exists() {
-            let file = File::options().append(true).open(path);
+            let file = own::open(path, own::Use::Append);
             return file.map(drop).map_err(|e| Error::io(path, e));
         }
         // A file aside: an empty table, were it for a moment, would be half of one to who looks then.
         let mut aside = path.as_os_str().to_owned();
         aside.push(format!(".{}.tmp", std::process::id()));
-        File::create(&aside)
+        own::make(Path::new(&aside))
             .and_then(|_| std::fs::remove_file(&aside))
             .map_err(|e| Error::io(path, e))
     }
