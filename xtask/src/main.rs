@@ -14,6 +14,7 @@ mod peers;
 mod published;
 mod release;
 mod robustness;
+mod walk;
 mod workspace;
 
 use std::process::ExitCode;
@@ -48,6 +49,9 @@ tasks:
   kill [--kills N] [--seed S] [CASE ...]
                             kill runs of seven cases (statics, implicit, explicit, sweep, deck, multigrid, condensed) at N random times (default 200)
                             and take them up again; fails if one comes to other files than a run that never stopped
+  walk [--damages N] [--seed S]
+                            set every numeric key of the examples to numbers that make no sense, check and begin to run them, and check N damaged
+                            meshes, decks and problem files (default 3000); fails if the binary panics, or if a check does not end
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar
@@ -81,6 +85,7 @@ fn main() -> ExitCode {
         Some((task, what)) if task == "digests" => digests::run(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
         Some((task, what)) if task == "kill" => kill::run(what),
+        Some((task, what)) if task == "walk" => walk::walk(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),
