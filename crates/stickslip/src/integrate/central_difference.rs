@@ -74,7 +74,10 @@ impl Integrator for Explicit {
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
         self.turn(&end, &mut at, (&mut forces, &drift), &mut total);
-        there.outward(&vec![0.0; u.len()], &mut forces);
+        let none = vec![0.0; u.len()];
+        there.outward(&none, &mut forces);
+        let mut acted = self.out.residual.clone();
+        there.outward(&none, &mut acted);
         at.u = u;
         total.finite &= total.kinetic.is_finite();
         model.links.impose(&mut at.v);
@@ -89,6 +92,7 @@ impl Integrator for Explicit {
         Ok(Accepted {
             tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
             forces,
+            contact: acted,
             external,
             flow: Flow {
                 work: total.work,

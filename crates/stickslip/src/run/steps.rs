@@ -210,6 +210,8 @@ impl Simulation {
             return self.begin_rest();
         };
         solver.condenser.drop_at_rest();
+        // What keeps loose bodies in place at rest has no part in motion, where their masses do.
+        solver.floating.forget_all();
         contact.use_springs(false, |energy| frame.ledger.initial += energy);
         self.integration = match dynamic.method {
             Method::Implicit(alphas) => {

@@ -79,6 +79,14 @@ impl Floating {
         self.anchors = None;
     }
 
+    /// Forgets which bodies float, their anchors, and what attempts have said of them; what anchors have taken up stays told.
+    pub fn forget_all(&mut self) {
+        *self = Floating {
+            left: self.left,
+            ..Floating::default()
+        };
+    }
+
     /// Whether bodies are anchored.
     pub fn is_anchored(&self) -> bool {
         self.anchors.is_some()
