@@ -335,7 +335,9 @@ impl Couplings {
         self.all = all;
     }
 
-    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
+    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof: those of the cells that a row moves. A spring to ground, or a mass, at a rigid
+    /// body or a reference point says nothing of how stiff these are: where a row moves nothing else the stiffest counts. Rows that share a weak
+    /// spring would hold no more than that otherwise, and what they join could strain between them.
     pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
         let springs = self.all.iter().map(|c| c.tie.stiffness());
         let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
@@ -344,20 +346,27 @@ impl Couplings {
         let mut hold = std::mem::take(&mut self.hold);
         for (i, _, row) in self.rows() {
             let mut free = false;
-            let mut compliance = 0.0;
+            let (mut compliance, mut stiffest) = (0.0, 0.0_f64);
             for (dof, a) in moved_by(row, links) {
                 if !fixed[dof] && a != 0.0 {
                     free = true;
                     if diagonal[dof] > 0.0 {
-                        compliance += a * a / diagonal[dof];
+                        let carried = links.of_hidden(dof / self.dim).is_some();
+                        match carried {
+                            true => stiffest = stiffest.max(diagonal[dof]),
+                            false => compliance += a * a / diagonal[dof],
+                        }
                     }
                 }
             }
             // What has no stiffness of its own, like a rigid body, follows whatever holds it.
             let norm = row.norm();
-            let stiffness = match compliance > 0.0 {
-                true => 1.0 / compliance,
-                false => typical / (norm * norm),
+            let stiffness = if compliance > 0.0 {
+                1.0 / compliance
+            } else if stiffest > 0.0 {
+                stiffest / (norm * norm)
+            } else {
+                typical / (norm * norm)
             };
             hold[i] = Hold {
                 stiffness: FIRM * stiffness,
