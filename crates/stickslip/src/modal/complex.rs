@@ -47,7 +47,10 @@ pub(crate) fn modes(
             residual,
             ..mode(linear, eigen)
         };
-        mode.shape.iter_mut().for_each(|x| model.links.impose(x));
+        for part in &mut mode.shape {
+            linear.bound.expand(part);
+            model.links.impose(part);
+        }
         out.modes.push(mode);
     }
     let worst = out.modes.iter().fold(0.0, |w: f64, m| w.max(m.residual));

@@ -66,7 +66,10 @@ pub(crate) fn response(
                 let message = format!("nothing resists the forces at the frequency {frequency}");
                 return Err(fault(frame, message));
             }
-            shape.iter_mut().for_each(|x| model.links.impose(x));
+            for part in &mut shape {
+                linear.bound.expand(part);
+                model.links.impose(part);
+            }
             let values = values(model, &shape);
             if !plan.shapes {
                 shape = Pair::default();
@@ -106,6 +109,7 @@ fn forces(model: &Model, linear: &Linear, plan: &HarmonicPlan) -> Pair {
     }
     for part in &mut forces {
         model.links.transfer(part);
+        linear.bound.gather(part);
         let free = part.iter_mut().zip(&linear.fixed);
         free.filter(|(_, fixed)| **fixed)
             .for_each(|(f, _)| *f = 0.0);

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use super::bound::{Bound, Sparse};
 use crate::body::MassKind;
+use crate::body::couplings::{Meets, Row};
 use crate::contact::interface::LinearPoint;
 use crate::contact::response::Status;
 use crate::error::RunError;
@@ -15,14 +17,8 @@ use crate::solve::inertia::Inertia;
 use crate::solve::solver::{Solver, entries};
 use crate::system::{ContactBlock, Links, Stage};
 
-/// By how much stiffer equations between displacements are taken than Newton's method takes them.
-const FIRMER: f64 = 1e3;
-
 /// Part of a step after which what acts in it acts.
 const SOON: f64 = 1e-3;
-
-/// A row over dofs.
-pub(crate) type Sparse = Vec<(usize, f64)>;
 
 /// A matrix of rank one, `left rightᵀ`.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +67,10 @@ pub(crate) struct Linear {
     pub drag: Vec<Pair>,
     /// Dofs that are no unknowns.
     pub fixed: Vec<bool>,
+    /// Those among them that follow others by equations: the matrices are those of the others.
+    pub bound: Bound,
+    /// The masses of all dofs, where some follow others.
+    pub masses: Option<BlockCsr>,
     /// Interfaces that slide all the time.
     pub sliding: Vec<String>,
     /// Points that stick, slide all the time, and slide otherwise.
@@ -89,9 +89,16 @@ impl Linear {
         let step = &model.steps[frame.step];
         let t = step.start + SOON * (step.end - step.start);
         let fixed = frame.constraints(model, t).fixed;
-        (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
-        let mut parts = Parts::default();
-        for (row, stiffness, damping) in contact.couplings.linearise(t, FIRMER) {
+        let (mut parts, mut equations) = (Parts::default(), Vec::new());
+        for (row, meets) in contact.couplings.linearise(t) {
+            let (stiffness, damping) = match meets {
+                Meets::Equation => {
+                    equations.push(moved(row, &model.links));
+                    continue;
+                }
+                Meets::Spring(stiffness) => (stiffness, 0.0),
+                Meets::Dashpot(coefficient) => (0.0, coefficient),
+            };
             let block = ContactBlock {
                 dofs: row.dofs.clone(),
                 rows: row.factors.clone(),
@@ -99,8 +106,9 @@ impl Linear {
             };
             parts.couple(&model.links, block, (stiffness, damping));
         }
+        let bound = Bound::new(equations, &fixed);
         let lines = points(frame, contact, t, step.end - step.start);
-        let mut linear = Linear::empty(model.dofs.dim, fixed);
+        let mut linear = Linear::empty(model.dofs.dim, fixed, bound);
         linear.add_all(model, &lines, &mut parts);
         parts.assemble(model, contact, solver, &mut linear);
         match linear.stiffness.first_not_finite() {
@@ -109,7 +117,8 @@ impl Linear {
         }
     }
 
-    fn empty(dim: usize, fixed: Vec<bool>) -> Self {
+    fn empty(dim: usize, mut fixed: Vec<bool>, bound: Bound) -> Self {
+        bound.dofs().for_each(|dof| fixed[dof] = true);
         Linear {
             stiffness: BlockCsr::empty(dim),
             mass: BlockCsr::empty(dim),
@@ -118,6 +127,8 @@ impl Linear {
             friction: Vec::new(),
             drag: Vec::new(),
             fixed,
+            bound,
+            masses: None,
             sliding: Vec::new(),
             points: [0; 3],
             mu: 0.0,
@@ -158,7 +169,7 @@ impl Linear {
         for (interface, (steady, belt)) in contact.interfaces.iter_mut().zip(before) {
             (interface.directives.steady, interface.belt) = (steady, belt);
         }
-        let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone());
+        let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone(), self.bound.clone());
         linear.add_all(model, &lines, &mut Parts::default());
         linear
     }
@@ -237,9 +248,10 @@ impl Linear {
             for (row, factor) in rows {
                 sum.iter_mut().zip(row).for_each(|(s, r)| *s += factor * r);
             }
-            let entries = block.dofs.iter().copied().zip(sum);
-            let kept = entries.filter(|(dof, v)| !self.fixed[*dof] && *v != 0.0);
-            kept.collect()
+            let entries: Sparse = block.dofs.iter().copied().zip(sum).collect();
+            let mut entries = self.bound.row(&entries);
+            entries.retain(|(dof, v)| !self.fixed[*dof] && *v != 0.0);
+            entries
         };
         let unit = |q: usize| std::array::from_fn(|i| if i == q { 1.0 } else { 0.0 });
         let pair = |left: [f64; 3], right: [f64; 3], approach: bool| Pair {
@@ -260,6 +272,44 @@ impl Linear {
         self.approach.extend(Some(across).filter(acts));
         self.friction.extend(Some(friction).filter(acts));
         self.drag.extend(drags.into_iter().filter(acts));
+    }
+
+    /// Makes the matrices those of the dofs that follow no others.
+    fn leave_out_bound(&mut self) {
+        if self.bound.is_empty() {
+            return;
+        }
+        let damping = self.damping.as_ref();
+        let all: Vec<&BlockCsr> = [&self.stiffness, &self.mass]
+            .into_iter()
+            .chain(damping)
+            .collect();
+        let mut reduced = self.bound.reduce(&all).into_iter();
+        if let (Some(stiffness), Some(mass)) = (reduced.next(), reduced.next()) {
+            self.damping = reduced.next();
+            self.stiffness = stiffness;
+            self.masses = Some(std::mem::replace(&mut self.mass, mass));
+        }
+    }
+
+    /// The masses of all dofs, those that follow others among them.
+    pub fn masses(&self) -> &BlockCsr {
+        self.masses.as_ref().unwrap_or(&self.mass)
+    }
+
+    /// `Tᵀ A T x` of a matrix of all dofs, without the rows of what is no unknown.
+    pub fn times_of_all(&self, matrix: &BlockCsr, x: &[f64]) -> Vec<f64> {
+        let mut moved = x.to_vec();
+        self.bound.expand(&mut moved);
+        let mut out = vec![0.0; x.len()];
+        matrix.mul(&moved, &mut out);
+        self.bound.gather(&mut out);
+        for (o, &fixed) in out.iter_mut().zip(&self.fixed) {
+            if fixed {
+                *o = 0.0;
+            }
+        }
+        out
     }
 
     /// Entries of a vector.
@@ -408,7 +458,17 @@ impl Parts {
                 matrix.add_group(points, dense);
             }
         }
+        linear.leave_out_bound();
     }
+}
+
+/// A row over what moves its dofs.
+fn moved(row: &Row, links: &Links) -> Sparse {
+    let terms = row.terms().flat_map(|(dof, a)| match links.row(dof) {
+        Some(hidden) => hidden.map(|(other, factor)| (other, factor * a)).to_vec(),
+        None => vec![(dof, a)],
+    });
+    terms.collect()
 }
 
 /// A block by dofs as one over all dofs of its points.

@@ -1,7 +1,7 @@
 //! Small vibrations about the state that an analysis has reached: real modes, modes of steady sliding, maps over friction.
 //!
 //! `linear` is the model linearised: a symmetric stiffness of bodies, springs, couplings and closed contacts, the mass, the damping of bodies, and what
-//! friction adds, as pairs of sparse rows, one for each contact point that slides. `shifted` solves with it: the symmetric part is factored once, friction is
+//! friction adds, as pairs of sparse rows, one for each contact point that slides. Displacements that equations between them determine are no unknowns (`bound`). `shifted` solves with it: the symmetric part is factored once, friction is
 //! a dense matrix over the sliding points (Woodbury's formula), and only that depends on the coefficient of friction. `real` and `complex` are the two
 //! eigenvalue problems (`quadratic` solves the second). `reduced` is the model in the space of a few real modes, `companion` has its modes and `few` those of many
 //! coefficients, for which `map` asks, and `estimate` says what they leave open; `harmonic` finds in that space the answer to forces at many frequencies.
@@ -14,6 +14,7 @@
 //!
 //! as `Interface::linearise` reads off the laws themselves. There is no stiffness along the surface. What rotates does so slowly: convective and gyroscopic terms are left out.
 
+pub(crate) mod bound;
 pub(crate) mod companion;
 pub(crate) mod complex;
 pub(crate) mod estimate;

@@ -10,7 +10,7 @@ use crate::system::Motion;
 /// A rigid motion of everything, and what it is called.
 pub(crate) struct Direction {
     pub name: &'static str,
-    /// `M r`.
+    /// `M r`, over the unknowns.
     pub mass: Vec<f64>,
     /// `rᵀ M r`.
     pub total: f64,
@@ -46,11 +46,13 @@ pub(crate) fn directions(model: &Model, linear: &Linear) -> Vec<Direction> {
             }
         }
         let mut mass = vec![0.0; r.len()];
-        linear.mass.mul(&r, &mut mass);
+        linear.masses().mul(&r, &mut mass);
+        let total = dot(&r, &mass);
+        linear.bound.gather(&mut mass);
         Direction {
             name: NAMES[kind],
-            total: dot(&r, &mass),
             mass,
+            total,
         }
     };
     kinds.iter().map(direction).collect()

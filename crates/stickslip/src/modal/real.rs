@@ -64,6 +64,7 @@ pub(crate) fn modes(
         }
         let participation: Vec<f64> = directions.iter().map(|d| dot(&d.mass, &x)).collect();
         let mut shape = x;
+        linear.bound.expand(&mut shape);
         model.links.impose(&mut shape);
         out.modes.push(Mode {
             frequency,

@@ -1,6 +1,7 @@
 //! The model in a space of few displacements: real modes, and what their friction causes at rest.
 
-use super::linear::{Linear, Pair, Sparse, add_pairs, product};
+use super::bound::Sparse;
+use super::linear::{Linear, Pair, add_pairs, product};
 use super::shifted::Shifted;
 use crate::linear::{products, sums};
 use crate::math::vector::dot_in_fours as dot;

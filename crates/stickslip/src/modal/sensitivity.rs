@@ -168,16 +168,16 @@ fn quantities<'a>(model: &'a Model, linear: &'a Linear) -> Vec<Quantity<'a>> {
         }));
     }
     for body in model.elastic() {
-        let mut stiffness: BlockCsr = linear.stiffness.zeros_like();
+        let mut stiffness: BlockCsr = linear.masses().zeros_like();
         body.elastic.stiffness(&mut stiffness);
-        let mut mass = linear.mass.zeros_like();
-        mass.add_scaled_rows(1.0, &linear.mass, body.points.clone());
+        let mut mass = linear.masses().zeros_like();
+        mass.add_scaled_rows(1.0, linear.masses(), body.points.clone());
         let [alpha, beta] = body.rayleigh;
         let [stiffness, mass] = [stiffness, mass].map(Arc::new);
         let times = move |matrix: &Arc<BlockCsr>, factor: f64| {
             let matrix = Arc::clone(matrix);
             move |x: &[f64]| -> Vec<f64> {
-                let product = linear.times(&matrix, x);
+                let product = linear.times_of_all(&matrix, x);
                 product.into_iter().map(|v| factor * v).collect()
             }
         };

@@ -76,6 +76,17 @@ pub(super) enum Act {
     Idle,
 }
 
+/// What small motions meet along a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Meets {
+    /// Its sum stays what it is.
+    Equation,
+    /// A stiffness `[N/m]`.
+    Spring(f64),
+    /// A damping `[N s/m]`.
+    Dashpot(f64),
+}
+
 /// Rows with what they do, and when.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupling {
@@ -239,20 +250,17 @@ impl Couplings {
         })
     }
 
-    /// What small motions about the last accepted state meet at time `t`: rows with their stiffness `[N/m]` and damping `[N s/m]`. Equations, and gaps that are
-    /// closed, are springs `firmer` times as stiff as those by which their multipliers are eliminated.
-    pub fn linearise(&self, t: f64, firmer: f64) -> Vec<(&Row, f64, f64)> {
+    /// What small motions about the last accepted state meet at time `t`, row by row. Gaps that are closed are equations.
+    pub fn linearise(&self, t: f64) -> Vec<(&Row, Meets)> {
         let rows = self.rows().filter_map(|(i, coupling, row)| {
             let gap = matches!(coupling.tie, Tie::Gap { .. });
             if gap && self.memory.forces[i] >= 0.0 {
                 return None;
             }
-            let held = firmer * self.hold[i].stiffness;
             match self.act(i, coupling, t) {
-                Act::Held(_) | Act::Stopped(_) if self.hold[i].idle => None,
-                Act::Held(_) | Act::Stopped(_) => Some((row, held, 0.0)),
-                Act::Sprung(stiffness) => Some((row, stiffness, 0.0)),
-                Act::Damped(coefficient) => Some((row, 0.0, coefficient)),
+                Act::Held(_) | Act::Stopped(_) => Some((row, Meets::Equation)),
+                Act::Sprung(stiffness) => Some((row, Meets::Spring(stiffness))),
+                Act::Damped(coefficient) => Some((row, Meets::Dashpot(coefficient))),
                 Act::Pulled(_) | Act::Idle => None,
             }
         });
