@@ -10,6 +10,7 @@ mod engine;
 mod examples;
 mod fuzz;
 mod kill;
+mod mixes;
 mod peers;
 mod published;
 mod release;
@@ -60,6 +61,10 @@ tasks:
                             means of their own, and print a table, a verdict on each and a summary in Markdown; fails if a result is
                             wrong with exit 0 or if the quality gate fails a result for nothing. Results are kept in DIR; those that
                             are not sound in target/robustness in any case
+  mixes [--seed S] [--from N] [--count N] [--keep DIR] [--binary FILE]
+                            run random mixes of features (default: numbers 1 to 300 of series 1), each of them and a second run or two that must
+                            agree with it: in other units, mirrored, on another mesh, by another way to solve, resumed. Prints a table and a summary
+                            as `robustness` does; results that are not sound are kept in target/mixes
 
 figures:
   slide [N ...]             press-and-slide with N cells an edge (default 11 18), stick and slip
@@ -90,6 +95,7 @@ fn main() -> ExitCode {
         Some((task, what)) if task == "browser" => browser::check(what),
         Some((task, what)) if task == "peers" => peers::compare(what),
         Some((task, what)) if task == "robustness" => robustness::sweep(what),
+        Some((task, what)) if task == "mixes" => mixes::sweep(what),
         _ => Err(USAGE.to_string()),
     };
     match result {

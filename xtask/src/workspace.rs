@@ -17,7 +17,8 @@ pub fn target() -> PathBuf {
     }
 }
 
-/// Builds the release binary `stickslip` and returns its path; where the environment variable `STICKSLIP` names a binary, that one.
+/// Builds the binary `stickslip` in the profile of this program (`cargo xtask` is a release build) and returns its path; where the environment variable `STICKSLIP`
+/// names a binary, that one.
 pub fn stickslip() -> Result<PathBuf, String> {
     if let Some(binary) = std::env::var_os("STICKSLIP") {
         return std::path::absolute(&binary)
@@ -27,7 +28,8 @@ pub fn stickslip() -> Result<PathBuf, String> {
     }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
-        .args(["build", "--release", "--package", "stickslip-cli"])
+        .args(["build", "--package", "stickslip-cli", "--bin", "stickslip"])
+        .args((!cfg!(debug_assertions)).then_some("--release"))
         .current_dir(root())
         .status()
         .map_err(|e| format!("cannot run cargo: {e}"))?;
@@ -35,7 +37,12 @@ pub fn stickslip() -> Result<PathBuf, String> {
         return Err("stickslip does not build".to_string());
     }
     let name = format!("stickslip{}", std::env::consts::EXE_SUFFIX);
-    Ok(target().join("release").join(name))
+    let profile = if cfg!(debug_assertions) {
+        "debug"
+    } else {
+        "release"
+    };
+    Ok(target().join(profile).join(name))
 }
 
 /// What a command that has to succeed prints.

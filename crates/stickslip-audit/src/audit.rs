@@ -9,6 +9,7 @@ use crate::energy;
 use crate::external::External;
 use crate::figure::Report;
 use crate::law::{Rubbing, laws, limit};
+use crate::lone;
 use crate::motion;
 use crate::overlap;
 use crate::results::Results;
@@ -51,6 +52,7 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
     };
     motion::check(&results, &mut report);
     contact::reactions(&results, &pairs, &mut report);
+    lone::check(&results, &pairs, &mut report);
     for pair in &pairs {
         let scale = scale(&results, pair, &strain);
         contact::check(&results, pair, &scale, &mut report);

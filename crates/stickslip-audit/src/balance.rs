@@ -75,6 +75,12 @@ fn at_rest(
             report.note("equilibrium", name, worst / largest, state.t);
             continue;
         }
+        if crate::lone::supported(&results.case, mesh, &points) {
+            report.skip(format!(
+                "reactions of {name}, which is rigid: the fields have none"
+            ));
+            continue;
+        }
         let sum = points.iter().fold([0.0; 3], |s, p| add(s, rest[*p]));
         let gross: f64 = points.iter().map(|p| norm(rest[*p])).sum();
         if results.case.space == crate::case::Space::Ring {

@@ -55,9 +55,20 @@ pub struct Step {
     pub end: f64,
     /// Its keys.
     pub table: Table,
+    /// How long one of its cycles is, if it has some.
+    pub cycle: Option<f64>,
 }
 
 impl Step {
+    /// The time that amplitudes see: in a step with cycles that of the first one.
+    pub fn clock(&self, t: f64) -> f64 {
+        let Some(cycle) = self.cycle else {
+            return t;
+        };
+        let over = ((t - self.start) / cycle * (1.0 - 1e-9)).floor().max(0.0);
+        t - over * cycle
+    }
+
     /// Whether the bodies have inertia.
     pub fn dynamic(&self) -> bool {
         self.table.contains_key("dynamic")
@@ -107,10 +118,18 @@ impl Case {
             .flatten();
         let steps = steps.filter_map(Value::as_table).map(|step| {
             let start = at;
-            at += number(step, "duration").unwrap_or(1.0);
+            let duration = number(step, "duration").unwrap_or(1.0);
+            let cycles = step.get("cycles").and_then(Value::as_table);
+            // Of cycles that are jumped over only those that are computed take time.
+            let computed = cycles.map_or(1.0, |c| {
+                let each = |key: &str| number(c, key).unwrap_or(1.0);
+                (each("count") / each("jump")).ceil()
+            });
+            at += computed * duration;
             Step {
                 start,
                 end: at,
+                cycle: cycles.map(|_| duration),
                 table: step.clone(),
             }
         });
@@ -175,7 +194,7 @@ impl Case {
             };
             let sudden = lingers && step.dynamic();
             value = match (step.lists(kind, name), table) {
-                (true, Some(table)) => self.amplitude(table, t.min(step.end)),
+                (true, Some(table)) => self.amplitude(table, step.clock(t.min(step.end))),
                 (true, None) if sudden => 1.0,
                 (true, None) => before + (1.0 - before) * share,
                 (false, _) if sudden || !lingers => 0.0,

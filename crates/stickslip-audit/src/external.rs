@@ -39,6 +39,9 @@ impl External {
         }
         let couplings: Option<Vec<Coupling>> = loads::couplings(case, mesh).into_iter().collect();
         let couplings = couplings.ok_or("a coupling whose points are not known here")?;
+        if !case.named("temperature").is_empty() {
+            return Err("temperatures, whose strains are not known here".into());
+        }
         if !case.named("pretension").is_empty() {
             return Err("pretensions, whose cuts are not known here".into());
         }

@@ -38,6 +38,24 @@ pub const KINDS: &[Kind] = &[
         "K u less loads, reactions and CFORCE at a node, of the largest nodal force of the run",
     ),
     kind(
+        "body-balance",
+        1e-6,
+        1e-5,
+        "contact forces, reactions, loads and springs on a body at rest that do not cancel, of the largest resultant of the run",
+    ),
+    kind(
+        "body-moment",
+        1e-2,
+        5e-2,
+        "their moment, of the same times the size of the body",
+    ),
+    kind(
+        "beyond-loads",
+        3.0,
+        30.0,
+        "contact force of a body over what its loads, and its supports away from contact surfaces, give",
+    ),
+    kind(
         "rigid-balance",
         1e-6,
         1e-5,

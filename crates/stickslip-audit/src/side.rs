@@ -475,7 +475,8 @@ impl Pair {
             as_meshed: initial == "as-meshed",
             damped: kind(table, "damping").is_some_and(|d| d.0 != "none"),
             belt: table.contains_key("primary-velocity")
-                || table.contains_key("primary-velocity-table"),
+                || table.contains_key("primary-velocity-table")
+                || case.steps.iter().any(|s| s.table.contains_key("steady")),
             exchanged,
         })
     }

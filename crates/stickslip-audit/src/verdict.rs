@@ -13,8 +13,12 @@ pub enum Verdict {
     Rightly,
     /// The quality gate failed a result in which the audit finds nothing.
     FalseAlarm,
+    /// Two runs that must agree do not, and both passed.
+    Disagreement,
     /// No solution was found.
     Failure,
+    /// Ended by a panic, a signal, or with a code that is not in the table of exit codes.
+    Crash,
     /// Refused before it began.
     Refused,
     /// Stopped after the limit of time.
@@ -34,7 +38,8 @@ impl Verdict {
             (Some(2), Ok(report)) if report.doubtful().is_empty() => Verdict::FalseAlarm,
             (Some(2), Ok(_)) => Verdict::Rightly,
             (Some(1), _) => Verdict::Refused,
-            (Some(_), _) => Verdict::Failure,
+            (Some(3), _) => Verdict::Failure,
+            (Some(_), _) => Verdict::Crash,
         }
     }
 
@@ -45,7 +50,9 @@ impl Verdict {
             Verdict::Wrong => "WRONG with exit 0",
             Verdict::Rightly => "gate failed rightly",
             Verdict::FalseAlarm => "FALSE ALARM of the gate",
+            Verdict::Disagreement => "DISAGREES with itself",
             Verdict::Failure => "solver failure",
+            Verdict::Crash => "CRASH",
             Verdict::Refused => "refused",
             Verdict::Late => "late",
             Verdict::Unreadable => "UNREADABLE",
@@ -56,7 +63,11 @@ impl Verdict {
     pub fn broken(self) -> bool {
         matches!(
             self,
-            Verdict::Wrong | Verdict::FalseAlarm | Verdict::Unreadable
+            Verdict::Wrong
+                | Verdict::FalseAlarm
+                | Verdict::Disagreement
+                | Verdict::Unreadable
+                | Verdict::Crash
         )
     }
 }

@@ -1,14 +1,15 @@
 //! `cargo xtask robustness`: random problems and given ones, run one after the other and audited by what they leave behind.
 
-mod entry;
-mod outcome;
-mod summary;
+pub mod entry;
+pub mod outcome;
+pub mod summary;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use stickslip_audit::draw;
+use stickslip_audit::mix::pair;
 use stickslip_audit::verdict::Verdict;
 
 use crate::workspace;
@@ -38,8 +39,7 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
         Some(folder) => folder.clone(),
         None => workspace::target().join("robustness"),
     };
-    println!("| problem | what | dofs | verdict | increments | iterations | cut-backs | s |");
-    println!("|{}", "---|".repeat(8));
+    entry::heads();
     let mut entries = Vec::new();
     if wish.files.is_empty() {
         for number in wish.from..wish.from + wish.count {
@@ -57,7 +57,12 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
                 name,
                 family: draft.family,
                 words: draft.words,
-                outcome: outcome::run(&binary, &file, &place, LIMIT)?,
+                outcome: outcome::run(
+                    &binary,
+                    &pair::run(&file, &place.join("case.out"), "1"),
+                    &place,
+                    LIMIT,
+                )?,
             };
             finish(entry, &place, wish.keep.is_some(), &mut entries);
         }
@@ -70,7 +75,12 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
             name: stem.into_owned(),
             family: "given",
             words: file.display().to_string(),
-            outcome: outcome::run(&binary, file, &place, LIMIT)?,
+            outcome: outcome::run(
+                &binary,
+                &pair::run(file, &place.join("case.out"), "1"),
+                &place,
+                LIMIT,
+            )?,
         };
         finish(entry, &place, true, &mut entries);
     }
@@ -92,19 +102,8 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
 
 /// Prints the row of a problem, and keeps what it left if there is a reason to look at it.
 fn finish(entry: Entry, place: &Path, keep: bool, entries: &mut Vec<Entry>) {
+    entry.print();
     let outcome = &entry.outcome;
-    println!(
-        "| {} | {}: {} | {} | {} | {} | {} | {} | {:.2} |",
-        entry.name,
-        entry.family,
-        entry.words,
-        outcome.dofs,
-        outcome.verdict.words(),
-        outcome.iterations.len(),
-        outcome.total,
-        outcome.cutbacks,
-        outcome.seconds
-    );
     if !keep && outcome.verdict == Verdict::Sound {
         let _ = fs::remove_dir_all(place);
     }

@@ -13,6 +13,10 @@ use stickslip_audit::verdict::Verdict;
 pub struct Outcome {
     /// The judgement.
     pub verdict: Verdict,
+    /// The exit code; none if it was stopped.
+    pub exit: Option<i32>,
+    /// How many things the audit does not know how to judge.
+    pub skipped: usize,
     /// Wall time `[s]`.
     pub seconds: f64,
     /// Newton iterations of each accepted increment.
@@ -29,19 +33,22 @@ pub struct Outcome {
     pub lines: Vec<String>,
 }
 
-/// Runs a problem file on one thread, for so long at most, with results in `case.out` of a folder, and audits them.
-pub fn run(binary: &Path, file: &Path, folder: &Path, limit: Duration) -> Result<Outcome, String> {
+/// Runs the binary with words that leave results in `case.out` of a folder, for so long at most, and audits them.
+pub fn run(
+    binary: &Path,
+    words: &[String],
+    folder: &Path,
+    limit: Duration,
+) -> Result<Outcome, String> {
     let say = |e: std::io::Error| format!("{}: {e}", folder.display());
     let out = folder.join("case.out");
-    // What an earlier run left must not pass for the result of this one.
-    let _ = fs::remove_dir_all(&out);
+    // What an earlier run left must not pass for the result of this one; what is gone on with is its result.
+    if words.first().is_some_and(|word| word == "run") {
+        let _ = fs::remove_dir_all(&out);
+    }
     let log = folder.join("log.txt");
     let mut child = Command::new(binary)
-        .arg("run")
-        .arg(file)
-        // Laws over speed are audited between one increment and the next.
-        .args(["--threads", "1", "--quiet", "--set", "output.every=1", "-o"])
-        .arg(&out)
+        .args(words)
         .stdout(Stdio::null())
         .stderr(File::create(&log).map_err(say)?)
         .spawn()
@@ -64,7 +71,7 @@ pub fn run(binary: &Path, file: &Path, folder: &Path, limit: Duration) -> Result
     let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
     let history = fs::read_to_string(out.join("history.csv")).unwrap_or_default();
     // Without a code it was ended by a signal.
-    let exit = status.map(|s| s.code().unwrap_or(3));
+    let exit = status.map(|s| s.code().unwrap_or(-1));
     let report = match exit {
         Some(0 | 2) => audit(&out),
         _ => Err(String::new()),
@@ -86,8 +93,12 @@ pub fn run(binary: &Path, file: &Path, folder: &Path, limit: Duration) -> Result
         _ => lines.push(sentence(&summary, &said)),
     }
     let count = |key: &str| summary.pointer(key).and_then(Value::as_u64).unwrap_or(0);
+    // What the audit leaves out, that it be counted.
+    let skipped = report.map_or(0, |report| report.skipped.len());
     Ok(Outcome {
         verdict,
+        exit,
+        skipped,
         seconds,
         iterations: column(&history, "ITRS"),
         total: count("/iterations"),
@@ -130,11 +141,11 @@ fn failed(summary: &Value) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong, in one line: the first finding, or else the first line of error.
+/// What is wrong, in one line: the last finding, or else the first line of error.
 fn sentence(summary: &Value, said: &str) -> String {
-    let finding = summary
-        .pointer("/findings/0/message")
-        .and_then(Value::as_str);
+    // Those before the last are notes on what was read.
+    let findings = summary["findings"].as_array();
+    let finding = findings.and_then(|f| f.last()?["message"].as_str());
     let lines: Vec<&str> = said.lines().filter(|l| !l.trim().is_empty()).collect();
     let error = lines.iter().find(|l| l.trim_start().starts_with("error"));
     let line = finding.or(error.copied()).or(lines.first().copied());

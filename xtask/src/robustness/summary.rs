@@ -6,11 +6,13 @@ use stickslip_audit::verdict::Verdict;
 
 use super::entry::Entry;
 
-const VERDICTS: [Verdict; 8] = [
+const VERDICTS: [Verdict; 10] = [
     Verdict::Sound,
     Verdict::Wrong,
     Verdict::Rightly,
     Verdict::FalseAlarm,
+    Verdict::Disagreement,
+    Verdict::Crash,
     Verdict::Failure,
     Verdict::Refused,
     Verdict::Late,
@@ -45,7 +47,7 @@ pub fn print(entries: &[Entry]) {
     println!();
     for entry in entries
         .iter()
-        .filter(|e| e.outcome.verdict != Verdict::Sound)
+        .filter(|e| e.outcome.verdict != Verdict::Sound || !e.outcome.lines.is_empty())
     {
         println!(
             "- {}, {}: {}",
@@ -94,5 +96,9 @@ fn effort(entries: &[Entry]) {
     }
     println!("| iterations in all | {} |", sum(|e| e.outcome.total));
     println!("| cut-backs | {} |", sum(|e| e.outcome.cutbacks));
+    println!(
+        "| things that the audit leaves out | {} |",
+        entries.iter().map(|e| e.outcome.skipped).sum::<usize>()
+    );
     println!("| wall time of the runs, one thread | {seconds:.1} s |");
 }

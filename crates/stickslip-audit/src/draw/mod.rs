@@ -14,7 +14,7 @@ mod sprung;
 mod stack;
 
 pub use draft::Draft;
-pub use random::Random;
+pub use random::{Random, digits};
 
 /// The families, of which one problem after the other is drawn.
 pub const FAMILIES: [&str; 6] = [
