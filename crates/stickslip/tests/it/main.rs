@@ -46,6 +46,7 @@ mod restep;
 mod rigid;
 mod roughness;
 mod schema;
+mod solvable;
 mod spinning;
 mod starts;
 mod stops;

@@ -1,4 +1,5 @@
 use super::Row;
+use super::elimination::Elimination;
 use super::pretension::{Drawn, Part, Pretension};
 use crate::system::{Links, Schedule};
 
@@ -107,7 +108,7 @@ pub struct Coupling {
 /// All couplings of a model, as one force.
 ///
 /// An equation has a multiplier `λ`, the force that acts along its row. It is an unknown of Newton's method, eliminated row by row with a stiffness
-/// `ω` much above that of the bodies: `λ` goes on by `ω (g + B du)`, `g` what the equation is off. At the solution `g` is zero whatever `ω`, and equations
+/// `ω` much above that of the bodies and of contact: `λ` goes on by `ω (g + B du)`, `g` what the equation is off. At the solution `g` is zero whatever `ω`, and equations
 /// that repeat others do no harm. That is the method of multipliers with an update in every iteration, where the constraints are linear. A gap is
 /// an equation where `λ + ω g < 0`, and where not `λ` goes to zero.
 #[derive(Debug, Clone, Default)]
@@ -121,6 +122,7 @@ pub struct Couplings {
     /// What rows of pretensions are for, by row; of others the first.
     parts: Vec<Part>,
     pub(super) iterate: Iterate,
+    pub(super) elimination: Elimination,
     /// What counts.
     pub memory: CouplingsMemory,
     pub(super) explicit: bool,
@@ -164,10 +166,6 @@ pub(super) struct Iterate {
     pub off_now: Vec<f64>,
 }
 
-/// Stiffness by which multipliers are eliminated, relative to that of the bodies at the points of a row. Every iteration leaves about its inverse of
-/// what an equation is off; what rounding of displacements leaves of forces grows with it.
-pub(super) const FIRM: f64 = 1e2;
-
 impl Couplings {
     /// Couplings of the points of a space of this dimension.
     pub fn new(all: Vec<Coupling>, dim: usize) -> Self {
@@ -199,6 +197,7 @@ impl Couplings {
                 now: none.clone(),
                 off_now: none.clone(),
             },
+            elimination: Elimination::default(),
             memory: CouplingsMemory {
                 multipliers: none.clone(),
                 forces: none,
@@ -341,47 +340,6 @@ impl Couplings {
             }
         }
         self.all = all;
-    }
-
-    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof: those of the cells that a row moves. A spring to ground, or a mass, at a rigid
-    /// body or a reference point says nothing of how stiff these are: where a row moves nothing else the stiffest counts. Rows that share a weak
-    /// spring would hold no more than that otherwise, and what they join could strain between them.
-    pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
-        let springs = self.all.iter().map(|c| c.tie.stiffness());
-        let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
-        // Where nothing has a stiffness any will do.
-        let typical = if typical > 0.0 { typical } else { 1.0 };
-        let mut hold = std::mem::take(&mut self.hold);
-        for (i, _, row) in self.rows() {
-            let mut free = false;
-            let (mut compliance, mut stiffest) = (0.0, 0.0_f64);
-            for (dof, a) in moved_by(row, links) {
-                if !fixed[dof] && a != 0.0 {
-                    free = true;
-                    if diagonal[dof] > 0.0 {
-                        let carried = links.of_hidden(dof / self.dim).is_some();
-                        match carried {
-                            true => stiffest = stiffest.max(diagonal[dof]),
-                            false => compliance += a * a / diagonal[dof],
-                        }
-                    }
-                }
-            }
-            // What has no stiffness of its own, like a rigid body, follows whatever holds it.
-            let norm = row.norm();
-            let stiffness = if compliance > 0.0 {
-                1.0 / compliance
-            } else if stiffest > 0.0 {
-                stiffest / (norm * norm)
-            } else {
-                typical / (norm * norm)
-            };
-            hold[i] = Hold {
-                stiffness: FIRM * stiffness,
-                idle: !free,
-            };
-        }
-        self.hold = hold;
     }
 
     /// Begins motion at velocities `v`: the forces that dashpots have there.

@@ -1,6 +1,7 @@
 //! Couplings as a force.
 
-use super::all::{Act, FIRM};
+use super::all::Act;
+use super::elimination::FIRM;
 use super::{Couplings, Row, Tie};
 use crate::math::larger;
 use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
@@ -13,9 +14,13 @@ impl Force for Couplings {
         self.iterate.now.clone_from(&self.memory.multipliers);
         self.iterate.last.clone_from(&self.memory.multipliers);
         self.iterate.off.fill(0.0);
+        self.fit_alone();
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
+        if out.wants_tangent && !self.explicit {
+            self.fit_beside(&out.blocks);
+        }
         let mut off_now = std::mem::take(&mut self.iterate.off_now);
         let mut now = std::mem::take(&mut self.iterate.now);
         let mut scratch = Scratch::default();
@@ -63,7 +68,11 @@ impl Force for Couplings {
                         }
                         continue;
                     }
-                    let pull = hold.stiffness * off;
+                    let stiffness = match self.explicit {
+                        true => hold.stiffness,
+                        false => self.eliminated_by(i),
+                    };
+                    let pull = stiffness * off;
                     let known = match self.explicit {
                         true => self.memory.multipliers[i],
                         false => now[i],
@@ -72,7 +81,7 @@ impl Force for Couplings {
                     if self.explicit {
                         match open {
                             true => (0.0, 0.0),
-                            false => (known + pull, hold.stiffness),
+                            false => (known + pull, stiffness),
                         }
                     } else {
                         // The multiplier of a gap that is open goes to zero.
@@ -82,12 +91,13 @@ impl Force for Couplings {
                         let size = norm * pull.abs();
                         // A gap that has just closed is off by far more than what it will bear.
                         let fresh = gap && known == 0.0;
-                        let size = if fresh { size / FIRM } else { size };
+                        let bodies = hold.stiffness / (FIRM * stiffness);
+                        let size = if fresh { size * bodies } else { size };
                         out.multiplier_residual = larger(out.multiplier_residual, size);
                         if open {
                             off_now[i] = f64::INFINITY;
                         }
-                        (known, if open { 0.0 } else { hold.stiffness })
+                        (known, if open { 0.0 } else { stiffness })
                     }
                 }
             };
@@ -121,7 +131,7 @@ impl Force for Couplings {
             }
             let (last, off) = (self.iterate.last[i], self.iterate.off[i]);
             now[i] = match off.is_finite() {
-                true => last + step * self.hold[i].stiffness * (off + row.sum(du)),
+                true => last + step * self.eliminated_by(i) * (off + row.sum(du)),
                 false => (1.0 - step) * last,
             };
         }

@@ -430,7 +430,7 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
     let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
     prescribed
         .or(signs.filter(|_| told))
-        .or_else(|| check::suspects(view.model).into_iter().next())
+        .or_else(|| check::suspects(view.model, dynamic).into_iter().next())
         .or(to_and_fro)
         .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
 }

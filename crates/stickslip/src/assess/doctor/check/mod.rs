@@ -89,9 +89,10 @@ pub(super) fn opposed(view: &View) -> Option<Finding> {
     found.next()
 }
 
-/// Mistakes that may be why the iteration does not converge: sizes and numbers of single bodies that are those of no body, strains that are not small.
-pub(super) fn suspects(model: &Model) -> Vec<Finding> {
-    let mut out = units::impossible(model);
+/// Mistakes that may be why the iteration does not converge: sizes and numbers of single bodies that are those of no body, strains that are not small. Densities
+/// are among them where bodies are `moving` or have weight.
+pub(super) fn suspects(model: &Model, moving: bool) -> Vec<Finding> {
+    let mut out = units::impossible(model, moving);
     out.extend(strains::check(model));
     out
 }

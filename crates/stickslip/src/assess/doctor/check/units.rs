@@ -64,12 +64,12 @@ pub(super) fn check(model: &Model) -> Vec<Finding> {
     out.extend(moduli(model, &all));
     out.extend(densities(model, &all));
     out.extend(thickness(model, &all));
-    out.extend(impossible(model));
+    out.extend(impossible(model, true));
     out
 }
 
-/// Bodies of impossible sizes or numbers.
-pub(super) fn impossible(model: &Model) -> Vec<Finding> {
+/// Bodies of impossible sizes or numbers; densities of bodies that are `moving` or have weight.
+pub(super) fn impossible(model: &Model, moving: bool) -> Vec<Finding> {
     let all = numbers(model);
     let mut out: Vec<Finding> = sizes(model, &all).into_iter().collect();
     // One finding for several bodies of the same material would say the same thing again.
@@ -78,10 +78,25 @@ pub(super) fn impossible(model: &Model) -> Vec<Finding> {
         let key = (numbers.modulus.to_bits(), numbers.density.to_bits());
         if !told.contains(&key) {
             told.push(key);
-            out.extend(alone(model, numbers));
+            let heavy = moving || weighs(model, numbers.body);
+            out.extend(alone(model, numbers, heavy));
         }
     }
     out
+}
+
+/// Whether a load acts on all points of a body, as weight does.
+fn weighs(model: &Model, body: &Body) -> bool {
+    model.loads.iter().any(|load| {
+        let points = load
+            .entries
+            .iter()
+            .map(|(dof, _)| model.dofs.locate(*dof).0);
+        let mut points: Vec<usize> = points.filter(|p| body.points.contains(p)).collect();
+        points.sort_unstable();
+        points.dedup();
+        points.len() == body.points.len()
+    })
 }
 
 fn numbers(model: &Model) -> Vec<Numbers<'_>> {
@@ -197,8 +212,8 @@ fn sizes(model: &Model, all: &[Numbers]) -> Option<Finding> {
     )
 }
 
-/// One body whose numbers do not go together.
-fn alone(model: &Model, n: &Numbers) -> Option<Finding> {
+/// One body whose numbers do not go together; its density where it is `heavy`.
+fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     let name = &n.body.name;
     let within = |x: f64, [low, high]: [f64; 2]| x >= low && x <= high;
     let plausible = |[stress, _]: &[f64; 2]| within(stress * n.modulus, MODULI);
@@ -216,7 +231,7 @@ fn alone(model: &Model, n: &Numbers) -> Option<Finding> {
             format!("modulus {:.3e}", n.modulus),
         ));
     }
-    if n.density > 0.0 {
+    if heavy && n.density > 0.0 {
         let speed = (n.modulus / n.density).sqrt();
         let mut systems = SYSTEMS.iter().filter(|s| plausible(s));
         if !systems.any(|[stress, length]| {

@@ -1,0 +1,86 @@
+//! The stiffness by which multipliers are eliminated.
+
+use super::Couplings;
+use super::all::{Hold, moved_by};
+use super::elimination::{Elimination, FIRM, Held, add_diagonal, compliance};
+use crate::system::{ContactBlock, Links};
+
+impl Couplings {
+    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
+    pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
+        let springs = self.all.iter().map(|c| c.tie.stiffness());
+        let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
+        // Where nothing has a stiffness any will do.
+        let typical = if typical > 0.0 { typical } else { 1.0 };
+        let mut hold = std::mem::take(&mut self.hold);
+        let mut elimination = std::mem::take(&mut self.elimination);
+        elimination.held.clear();
+        for (i, _, row) in self.rows() {
+            let free = moved_by(row, links).into_iter();
+            let free = free.filter(|(dof, a)| !fixed[*dof] && *a != 0.0);
+            let held: Vec<Held> = free
+                .map(|(dof, a)| Held {
+                    dof,
+                    squared: a * a,
+                    bulk: diagonal[dof],
+                })
+                .collect();
+            // What has no stiffness of its own, like a rigid body, follows whatever holds it.
+            let norm = row.norm();
+            let compliance = compliance(&held, |h| h.bulk);
+            let stiffness = match compliance > 0.0 {
+                true => 1.0 / compliance,
+                false => typical / (norm * norm),
+            };
+            hold[i] = Hold {
+                stiffness: FIRM * stiffness,
+                idle: held.is_empty(),
+            };
+            elimination.held.push(held);
+        }
+        elimination.links = (!links.is_empty()).then(|| links.clone());
+        elimination.stiffness.clear();
+        self.elimination = elimination;
+        self.hold = hold;
+    }
+
+    /// Chooses them anew beside contact with these tangents. A row between points that contact holds far more firmly than the bodies do has to be firmer
+    /// than contact: what the row says of them contact says as well, and each takes over from the other by the ratio of their stiffnesses.
+    pub(super) fn fit_beside(&mut self, blocks: &[ContactBlock]) {
+        let mut elimination = std::mem::take(&mut self.elimination);
+        let Elimination {
+            stiffness,
+            held,
+            links,
+            contact,
+        } = &mut elimination;
+        stiffness.clear();
+        stiffness.extend(self.hold.iter().map(|hold| hold.stiffness));
+        if held.len() == stiffness.len() && !blocks.is_empty() {
+            contact.clear();
+            for block in blocks {
+                let moved = links.as_ref().and_then(|links| links.transform(block));
+                add_diagonal(moved.as_ref().unwrap_or(block), contact);
+            }
+            let beside = |dof: usize| contact.get(dof).copied().unwrap_or(0.0);
+            for (stiffness, held) in stiffness.iter_mut().zip(held) {
+                if held.iter().any(|h| beside(h.dof) > 0.0) {
+                    let all = compliance(held, |h| h.bulk + beside(h.dof));
+                    *stiffness = stiffness.max(FIRM / all);
+                }
+            }
+        }
+        self.elimination = elimination;
+    }
+
+    /// Forgets contact: nothing of an attempt shows in the next one.
+    pub(super) fn fit_alone(&mut self) {
+        self.elimination.stiffness.clear();
+    }
+
+    /// Stiffness by which the multiplier of a row is eliminated `[N/m]`.
+    pub(super) fn eliminated_by(&self, i: usize) -> f64 {
+        let beside = self.elimination.stiffness.get(i);
+        beside.copied().unwrap_or(self.hold[i].stiffness)
+    }
+}
