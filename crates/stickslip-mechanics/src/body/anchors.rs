@@ -42,6 +42,8 @@ struct Group {
     start: Vec<Vec3>,
     at: Vec<Vec3>,
     now: Vec<Vec3>,
+    /// By how much supports carry the points on from the start in the increment; empty where they do not.
+    ahead: Vec<Vec3>,
 }
 
 /// What an anchor is made of.
@@ -129,6 +131,7 @@ impl Anchors {
             start: here.clone(),
             at: here.clone(),
             now: here,
+            ahead: Vec::new(),
         });
     }
 
@@ -137,20 +140,27 @@ impl Anchors {
         self.groups.iter().flat_map(|g| g.points.iter().copied())
     }
 
-    /// How far each body has moved since its anchors were laid, as the largest displacement of an anchored point over what it may move
+    /// Lets the anchors of the `k`-th body begin the increment where supports carry its points.
+    pub fn begin_ahead(&mut self, k: usize, ahead: impl Fn(usize) -> Vec3) {
+        let g = &mut self.groups[k];
+        g.ahead = g.points.iter().map(|&p| ahead(p)).collect();
+    }
+
+    /// How far each body has moved since its anchors were laid, what supports carry it apart, as the largest displacement of an anchored point over what it may move
     /// in one round.
     pub fn travel(&self) -> f64 {
         let moved = self.groups.iter().flat_map(|g| {
-            let pairs = g.start.iter().zip(&g.now);
-            pairs.map(|(&a, &b)| distance(a, b) / g.max_step)
+            let pairs = g.first_place().into_iter().zip(&g.now);
+            pairs.map(|(a, &b)| distance(a, b) / g.max_step)
         });
         moved.fold(0.0, f64::max)
     }
 
-    /// Points of the `k`-th body and how far they have moved since their anchors were laid.
+    /// Points of the `k`-th body and how far they have moved since their anchors were laid, what supports carry them apart.
     pub fn moved(&self, k: usize) -> Vec<(usize, Vec3)> {
         let g = &self.groups[k];
-        let moved = g.start.iter().zip(&g.now).map(|(&a, &b)| sub(b, a));
+        let moved = g.first_place().into_iter().zip(&g.now);
+        let moved = moved.map(|(a, &b)| sub(b, a));
         g.points.iter().copied().zip(moved).collect()
     }
 
@@ -160,6 +170,7 @@ impl Anchors {
         for g in &mut self.groups {
             g.start.clone_from(&g.now);
             g.at.clone_from(&g.now);
+            g.ahead.clear();
         }
     }
 
@@ -179,6 +190,19 @@ impl Anchors {
 }
 
 impl Group {
+    /// Where the anchors begin.
+    fn first_place(&self) -> Vec<Vec3> {
+        let ahead = self
+            .ahead
+            .iter()
+            .copied()
+            .chain(std::iter::repeat([0.0; 3]));
+        let start = self.start.iter().zip(ahead);
+        start
+            .map(|(&start, ahead)| add_scaled(start, 1.0, ahead))
+            .collect()
+    }
+
     /// Force in the springs relative to that on the body; where that is not known, to the `other` forces of contact. Where there are none either, the
     /// springs hold what nothing moves.
     fn carried(&self, others: f64) -> f64 {
@@ -277,8 +301,8 @@ impl Force for Anchors {
         self.near = false;
         for g in &mut self.groups {
             g.stiffness = g.first;
-            g.at.clone_from(&g.start);
-            g.now.clone_from(&g.start);
+            g.at = g.first_place();
+            g.now.clone_from(&g.at);
         }
     }
 
@@ -423,5 +447,6 @@ crate::keep!(Group {
     max_step,
     start,
     at,
-    now
+    now,
+    ahead
 });

@@ -33,6 +33,7 @@ impl Integrator for QuasiStatic {
         let external = frame.external(model, trial.to);
         let constraints = frame.constraints(model, trial.to);
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);
+        solver.carry_anchors((model, frame), &constraints, trial);
         if solver.condenser.at_rest().is_some() {
             return solver.attempt_condensed(model, contact, (external, constraints), trial);
         }

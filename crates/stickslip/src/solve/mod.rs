@@ -11,7 +11,8 @@
 //! - *Anchors* (`body/anchors.rs`). Where a system is singular all the same, or a body has been moved, points of the body are held by weak springs. They
 //!   are one more contact force, so that both bulks solve with them. After each equilibrium the anchors move to where the points have come
 //!   (`augment`), and get weaker as there is less force left: the proximal point method. It ends when Newton has nothing left to do after a move; then the springs
-//!   carry nothing. A motion that nothing resists and nothing drives stays where it is.
+//!   carry nothing. A motion that nothing resists and nothing drives stays where it is. Where supports carry the body in an increment, its anchors begin where they
+//!   carry it (`carried.rs`): the springs are for the other motions.
 //! - A long way with the anchors is made without strain as well: the rigid part of it changes the last state, and the increment is computed once more.
 //!   A body that does not come to rest in a hundred rounds is reported like one that nothing holds.
 //! - *Release* (`released.rs`). Where the load of a body goes, every place without contact is one of equilibrium, and Newton's method would end in one
@@ -22,6 +23,7 @@
 
 pub(crate) mod accepted;
 mod by_cells;
+mod carried;
 mod cell_by_cell;
 pub(crate) mod checks;
 pub(crate) mod choice;

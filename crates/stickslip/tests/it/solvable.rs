@@ -63,3 +63,35 @@ step = [{ increments.fixed = 1 }]
     assert!(iterations(&record)[0] <= 6, "{:?}", iterations(&record));
     assert_eq!(record.cutbacks, 0);
 }
+
+/// A block that a support drags to and fro on a plane under pressure, all of which slides: it comes along however long the increments are, and rests on the plane.
+#[test]
+fn a_block_that_is_rubbed_to_and_fro_comes_along_in_increments_of_any_length() {
+    for increments in [4, 8, 12, 16] {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.upper = {{ generate.rectangle = {{ to = [0.31, 0.155], cells = [4, 3], element = "tri3" }}, material = "m" }}
+material.m.isotropic = {{ young = 2741, poisson = 0.3 }}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.joint = {{ secondary = "upper.bottom", primary = "floor", friction.coulomb.mu = 0.4 }}
+load.press = {{ set = "upper.top", pressure.value = 0.473 }}
+support.drive = {{ set = "upper.top", x = 0.234, amplitude = "go" }}
+amplitude.go.table = [[0, 0], [1, 0], [2, 1], [4, -1]]
+step = [{{ increments.fixed = 1 }}, {{ increments.fixed = 2 }}, {{ duration = 2, increments.fixed = {increments} }}]
+"#
+        );
+        let record = record(&text);
+        assert_eq!(record.cutbacks, 0, "{increments}");
+        let (_, last) = record.increments.last().expect("increments");
+        let load = 0.473 * 0.31;
+        let normal = last.get("joint.CFN2").expect("a normal force");
+        let shear = last.get("joint.CFS1").expect("a shear force").abs();
+        assert!((normal / load - 1.0).abs() < 1e-6, "{increments}: {normal}");
+        assert!(
+            (shear / (0.4 * load) - 1.0).abs() < 1e-6,
+            "{increments}: {shear}"
+        );
+    }
+}
