@@ -95,3 +95,24 @@ step = [{{ increments.fixed = 1 }}, {{ increments.fixed = 2 }}, {{ duration = 2,
         );
     }
 }
+
+/// A block pressed on another through a law that begins with no stiffness at all, friction by springs: the first friction problem finds nothing that touches, as its law
+/// is hardly touched where it begins, and is not the last one.
+#[test]
+fn a_soft_law_with_friction_by_springs_is_pressed() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { from = [0, -0.08], to = [0.126, 0], cells = [2, 1] }, material = "a" }
+body.upper = { generate.rectangle = { from = [0, 0], to = [0.12, 0.066], cells = [8, 4] }, material = "b" }
+material.a.isotropic = { young = 2e10, poisson = 0.42 }
+material.b.isotropic = { young = 2e10, poisson = 0.34 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", normal.power-law = { c = 6.3e16, m = 2.08 }, friction.coulomb.mu = 0.28, enforcement.penalty = {}, discretisation.node-to-facet = {} }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.top = { set = "upper.top", x = 0, y = -1.8e-5 }
+step = [{}]
+"#;
+    let record = record(text);
+    assert!(record.increments.len() < 30, "{}", record.increments.len());
+    assert!(record.cutbacks <= 2, "{}", record.cutbacks);
+}
