@@ -158,27 +158,30 @@ impl Make<'_> {
         Ok(initial)
     }
 
-    /// What the points may touch.
+    /// What the points may touch, and the points of the mesh that both sides have: the tips of a slit.
     fn opposite(
         &self,
         primary: &(&str, String),
         facets: &[FacetRef],
         numbering: &mut Numbering,
-    ) -> Result<Primary, Error> {
+    ) -> Result<(Primary, Vec<usize>), Error> {
         let (surfaces, table) = (self.surfaces, self.table);
         let origin = surfaces.origin();
         Ok(match self.problem.obstacle.get(primary.0) {
-            Some(obstacle) => Primary::Rigid(
-                obstacle.shape.moved(scale(-1.0, origin)),
-                obstacle
-                    .motion
-                    .clone()
-                    .unwrap_or_default()
-                    .moved(scale(-1.0, origin)),
-            ),
+            Some(obstacle) => {
+                let rigid = Primary::Rigid(
+                    obstacle.shape.moved(scale(-1.0, origin)),
+                    obstacle
+                        .motion
+                        .clone()
+                        .unwrap_or_default()
+                        .moved(scale(-1.0, origin)),
+                );
+                (rigid, Vec::new())
+            }
             None => {
                 let theirs = self.sets.facets(primary.0, &primary.1)?;
-                surfaces.disjoint(&primary.1, facets, &theirs)?;
+                let tips = surfaces.tips(&primary.1, facets, &theirs)?;
                 surfaces.simple(&primary.1, &theirs)?;
                 let mut theirs = surfaces.facets(&theirs, numbering);
                 if table.kinematics.as_dyn().triangles()
@@ -187,7 +190,7 @@ impl Make<'_> {
                     theirs = triangulate(theirs);
                 }
                 connect(&mut theirs);
-                Primary::Facets(theirs)
+                (Primary::Facets(theirs), tips)
             }
         })
     }
@@ -196,7 +199,7 @@ impl Make<'_> {
     fn points(
         &self,
         facets: &[FacetRef],
-        opposite: &Primary,
+        (opposite, tips): (&Primary, &[usize]),
         only: Option<&[usize]>,
         numbering: &mut Numbering,
     ) -> (Vec<ContactPoint>, Option<Mortar>) {
@@ -213,12 +216,13 @@ impl Make<'_> {
         let (points, mortar) = match weighted {
             Some(angle) => {
                 let (points, mortar) =
-                    surfaces.mortar(facets, modulus, angle.to_radians(), numbering);
+                    surfaces.mortar((facets, tips), modulus, angle.to_radians(), numbering);
                 (points, Some(mortar))
             }
             None => {
                 let obstacle = matches!(opposite, Primary::Rigid(..));
-                let points = surfaces.points(facets, (modulus, obstacle, yields(table)), numbering);
+                let given = (facets, tips);
+                let points = surfaces.points(given, (modulus, obstacle, yields(table)), numbering);
                 (points, None)
             }
         };
@@ -286,9 +290,10 @@ impl Make<'_> {
         }
         let mut numbering = Numbering::default();
         let origin = surfaces.origin();
-        let opposite = self.opposite(primary, &facets, &mut numbering)?;
+        let (opposite, tips) = self.opposite(primary, &facets, &mut numbering)?;
         let primary_nodes = numbering.nodes.len();
-        let (points, mortar) = self.points(&facets, &opposite, only.as_deref(), &mut numbering);
+        let (points, mortar) =
+            self.points(&facets, (&opposite, &tips), only.as_deref(), &mut numbering);
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(
                 secondary.1.clone(),

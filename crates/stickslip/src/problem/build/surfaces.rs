@@ -10,7 +10,7 @@ use crate::contact::facet_point::evaluate;
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::error::{Diagnostic, Error};
-use crate::math::{Vec3, add_scaled, cross, norm, normalize, sub};
+use crate::math::{Vec3, add_scaled, cross, dot, norm, normalize, sub};
 use crate::mesh::{FacetRef, Mesh};
 use crate::model::Body;
 use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
@@ -70,6 +70,10 @@ pub(super) struct Surfaces<'a> {
     pub(super) space: Space,
     pub(super) bodies: &'a [Body],
 }
+
+/// Cosine of the angle by which the faces of a slit look at each other where it ends, and sine of that by which meshes may have them enter each other there.
+const LOOKING: f64 = 0.5;
+const ENTERING: f64 = 0.1;
 
 /// What a facet adds to its contact points.
 pub(super) struct Beneath {
@@ -163,7 +167,7 @@ impl Surfaces<'_> {
     /// node on an `obstacle`, and quadrature points on facets.
     pub(super) fn points(
         &self,
-        facets: &[FacetRef],
+        (facets, without): (&[FacetRef], &[usize]),
         (primary, obstacle, yields): (f64, bool, bool),
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
@@ -175,7 +179,7 @@ impl Surfaces<'_> {
                 _ => false,
             }
         });
-        let mut out = self.nodal_points(&plain, primary, numbering);
+        let mut out = self.nodal_points((&plain, without), primary, numbering);
         out.extend(match obstacle {
             true => self.mean_points(&curved, primary, numbering),
             false => self.quadrature_points(&curved, (primary, yields), numbering),
@@ -241,9 +245,10 @@ impl Surfaces<'_> {
         out
     }
 
+    /// One point a node, but for those that have none: their share of the area goes to their neighbours.
     pub(super) fn nodal_points(
         &self,
-        facets: &[FacetRef],
+        (facets, without): (&[FacetRef], &[usize]),
         primary: f64,
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
@@ -261,7 +266,9 @@ impl Surfaces<'_> {
                 s.3 += b.measure * b.height;
             }
         }
-        tributary_areas(self.mesh, facets, self.space)
+        let mut areas = tributary_areas(self.mesh, facets, self.space);
+        self.hand_on(facets, without, &mut areas);
+        areas
             .into_iter()
             .map(|(n, area)| {
                 let (normal, measure, stiffness, height) = sums[&n];
@@ -276,6 +283,28 @@ impl Surfaces<'_> {
                 }
             })
             .collect()
+    }
+
+    /// Takes points of the mesh out of a list of areas, and gives the area of each to the others of the facets around it, in equal parts.
+    fn hand_on(&self, facets: &[FacetRef], without: &[usize], areas: &mut Vec<(usize, f64)>) {
+        let left_out = |n: &usize| without.binary_search(n).is_ok();
+        for &tip in without {
+            let Some(at) = areas.iter().position(|(n, _)| *n == tip) else {
+                continue;
+            };
+            let around = facets.iter().map(|&f| self.mesh.facet_points(f).1);
+            let around = around.filter(|nodes| nodes.contains(&tip));
+            let mut heirs: Vec<usize> = around.flatten().filter(|n| !left_out(n)).collect();
+            heirs.sort_unstable();
+            heirs.dedup();
+            let (_, area) = areas.remove(at);
+            let part = area / heirs.len() as f64;
+            for (n, area) in areas.iter_mut() {
+                if heirs.binary_search(n).is_ok() {
+                    *area += part;
+                }
+            }
+        }
     }
 
     pub(super) fn quadrature_points(
@@ -307,10 +336,11 @@ impl Surfaces<'_> {
         out
     }
 
-    /// One contact point a node and smooth part of the surface, and the faces that they are weighted over.
+    /// One contact point a node and smooth part of the surface, and the faces that they are weighted over. Points of the mesh `without` one have no
+    /// multiplier of their own: on each face their dual function goes to the nearest node that has one.
     pub(super) fn mortar(
         &self,
-        facets: &[FacetRef],
+        (facets, without): (&[FacetRef], &[usize]),
         primary: f64,
         angle: f64,
         numbering: &mut Numbering,
@@ -340,25 +370,28 @@ impl Surfaces<'_> {
                 held: vec![false; nodes.len()],
                 areas: areas.clone(),
             };
-            for (a, &node) in nodes.iter().enumerate() {
-                let normal = face.normals[a];
-                let at = *known.entry((node, groups.group(k))).or_insert_with(|| {
-                    points.push(ContactPoint {
-                        nodes: vec![face.nodes[a]],
-                        weights: vec![1.0],
-                        area: 0.0,
-                        stiffness: 0.0,
-                        normal,
-                        size: 0.0,
-                        across: Default::default(),
+            for (a, area) in areas.iter().enumerate() {
+                let own = heir(nodes, &x, without, a);
+                let normal = face.normals[own];
+                let at = *known
+                    .entry((nodes[own], groups.group(k)))
+                    .or_insert_with(|| {
+                        points.push(ContactPoint {
+                            nodes: vec![face.nodes[own]],
+                            weights: vec![1.0],
+                            area: 0.0,
+                            stiffness: 0.0,
+                            normal,
+                            size: 0.0,
+                            across: Default::default(),
+                        });
+                        points.len() - 1
                     });
-                    points.len() - 1
-                });
                 face.points.push(at);
                 let point = &mut points[at];
-                point.area += areas[a];
-                point.stiffness += areas[a] * stiffness;
-                point.size += areas[a] * b.height;
+                point.area += area;
+                point.stiffness += area * stiffness;
+                point.size += area * b.height;
             }
             faces.push(face);
         }
@@ -407,22 +440,27 @@ impl Surfaces<'_> {
         ]))
     }
 
-    /// The two sides have no point in common.
-    pub(super) fn disjoint(
+    /// The points that the two sides have in common: the tips of a slit, if any.
+    ///
+    /// # Errors
+    /// If they have others in common.
+    pub(super) fn tips(
         &self,
         key: &str,
         secondary: &[FacetRef],
         primary: &[FacetRef],
-    ) -> Result<(), Error> {
+    ) -> Result<Vec<usize>, Error> {
         let ours = self.mesh.points_of_facets(secondary);
         let theirs = self.mesh.points_of_facets(primary);
-        let shared: Vec<String> = ours
+        let mut shared = ours;
+        shared.retain(|p| theirs.binary_search(p).is_ok());
+        let others: Vec<String> = shared
             .iter()
-            .filter(|p| theirs.binary_search(p).is_ok())
+            .filter(|&&p| !self.is_tip(p, &shared, (secondary, primary)))
             .map(|&p| self.mesh.point_ids[p].to_string())
             .collect();
-        let nodes = match shared.as_slice() {
-            [] => return Ok(()),
+        let nodes = match others.as_slice() {
+            [] => return Ok(shared),
             [one] => format!("node {one}"),
             some if some.len() <= 5 => format!("nodes {}", some.join(", ")),
             many => format!("nodes {}, … {} in all", many[..5].join(", "), many.len()),
@@ -432,7 +470,53 @@ impl Surfaces<'_> {
                 key,
                 format!("primary and secondary share points ({nodes})"),
             )
-            .help("the two surfaces must belong to different bodies or be apart; duplicate the nodes of a conforming interface"),
+            .help("the two surfaces must belong to different bodies or be apart; duplicate the nodes of a conforming interface. Only the tips of a slit, where its faces meet, may belong to both"),
         ]))
     }
+
+    /// Whether a point that two surfaces share is one at which a slit ends: on both sides faces begin there that have points of their own, and
+    /// they look at each other.
+    fn is_tip(
+        &self,
+        point: usize,
+        shared: &[usize],
+        (secondary, primary): (&[FacetRef], &[FacetRef]),
+    ) -> bool {
+        let at = self.mesh.points[point];
+        // The faces around it: their mean normal, and the way to their middle.
+        let side = |facets: &[FacetRef]| -> Option<(Vec3, Vec3)> {
+            let (mut normal, mut way) = ([0.0; 3], [0.0; 3]);
+            for &facet in facets {
+                let (_, nodes) = self.mesh.facet_points(facet);
+                if !nodes.contains(&point) {
+                    continue;
+                }
+                if nodes.iter().all(|n| shared.binary_search(n).is_ok()) {
+                    return None;
+                }
+                normal = add_scaled(normal, 1.0, self.beneath(facet).normal);
+                for &n in &nodes {
+                    way = add_scaled(way, 1.0, sub(self.mesh.points[n], at));
+                }
+            }
+            Some((normalize(normal)?, normalize(way)?))
+        };
+        let (Some((n, to)), Some((m, too))) = (side(secondary), side(primary)) else {
+            return false;
+        };
+        dot(n, m) < -LOOKING && dot(to, m) > -ENTERING && dot(too, n) > -ENTERING
+    }
+}
+
+/// The node of a face whose contact point a node belongs to: its own, or that of the nearest one that has any.
+fn heir(nodes: &[usize], x: &[Vec3], without: &[usize], a: usize) -> usize {
+    let has = |k: &usize| without.binary_search(&nodes[*k]).is_err();
+    if has(&a) {
+        return a;
+    }
+    let others = (0..nodes.len()).filter(has);
+    let away = |k: usize| norm(sub(x[k], x[a]));
+    others
+        .min_by(|&j, &k| away(j).total_cmp(&away(k)))
+        .unwrap_or(a)
 }
