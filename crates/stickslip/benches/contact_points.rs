@@ -155,6 +155,8 @@ fn interface(
         points,
         mortar: None,
         hollows: Default::default(),
+        walls: Default::default(),
+        clamped: Vec::new(),
         share: 1.0,
         exchanged: false,
         primary: Primary::Facets(facets),

@@ -5,7 +5,7 @@
 //! | surface | `surface.rs`, `crossing.rs` | points of the secondary with their areas, facets of the primary; whether they run through themselves |
 //! | obstacle | `obstacle/` | rigid shapes and their motion |
 //! | symmetry | `symmetry.rs` | components that points on planes of symmetry do not have |
-//! | search | `search.rs` | which facets a point may meet |
+//! | search | `search.rs`, `walls.rs` | which facets a point may meet, and how deep behind them |
 //! | projection | `projection.rs`, `facet_point.rs`, `bounds.rs` | the projection of a point on a facet, and what follows from a place of it; where it lies and looks, which rules most facets out |
 //! | pairing | `pairing/` | which facet a point belongs to |
 //! | mortar | `mortar/` | integrals over what two surfaces have in common: gaps weighted over faces |
@@ -41,6 +41,8 @@
 //!   `problem/build/mirrors.rs` marks such points (`ContactPoint::across`); normal, slip and turn have no part across the plane, as with the image of what is missing.
 //! - *Search* runs again when a node has moved by a quarter of the margin (the longest facet) since the last time; a
 //!   candidate list is complete as long as it is used.
+//! - *Walls.* A point is behind a facet down to half of the thickness of the body there, where its other face belongs to the same surface. What is deeper lies
+//!   beyond the other face: the top of a block that stands on a wall is no partner of the bottom of that wall.
 //! - *Pairing* takes the nearest facet; between equally near ones the one the point was on. Beyond an edge where the
 //!   surface goes on a facet is extended, so that a point in a re-entrant corner is not lost; beyond an outer edge the
 //!   point is free.
@@ -74,3 +76,4 @@ pub mod response;
 pub mod search;
 pub mod surface;
 pub mod symmetry;
+pub mod walls;

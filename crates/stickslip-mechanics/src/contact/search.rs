@@ -67,6 +67,26 @@ impl Box3 {
             .sum()
     }
 
+    /// Whether a ray meets the box.
+    fn is_met(&self, from: Vec3, along: Vec3) -> bool {
+        let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
+        for i in 0..3 {
+            // Facets that are flat along an axis have no extent there.
+            let room = ROOM * (self.high[i].abs() + self.low[i].abs());
+            let (low, high) = (self.low[i] - room, self.high[i] + room);
+            if along[i] == 0.0 {
+                if from[i] < low || from[i] > high {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = ((low - from[i]) / along[i], (high - from[i]) / along[i]);
+            enters = enters.max(a.min(b));
+            leaves = leaves.min(a.max(b));
+        }
+        enters <= leaves
+    }
+
     fn centre(&self, axis: usize) -> f64 {
         0.5 * (self.low[axis] + self.high[axis])
     }
@@ -101,6 +121,9 @@ pub struct Tree {
 }
 
 const LEAF: usize = 4;
+
+/// Room around a box for a ray that touches it, relative to its coordinates: rounding.
+const ROOM: f64 = 1e-12;
 
 /// More nodes than any walk through a tree has before it: two for each level, which halves its items.
 const STACK: usize = 2 * usize::BITS as usize;
@@ -223,6 +246,33 @@ impl Tree {
                     items
                         .iter()
                         .filter(|&&item| self.boxes[item].distance2(point) <= reach),
+                );
+            }
+        }
+        out.sort_unstable();
+    }
+
+    /// All facets whose boxes a ray meets; sorted by index.
+    pub fn along(&self, from: Vec3, direction: Vec3, out: &mut Vec<usize>) {
+        out.clear();
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut stack = Stack::new();
+        while let Some(i) = stack.pop() {
+            let node = &self.nodes[i];
+            if !node.bounds.is_met(from, direction) {
+                continue;
+            }
+            if node.count == 0 {
+                stack.push(i + 1);
+                stack.push(node.index);
+            } else {
+                let items = &self.items[node.index..node.index + node.count];
+                out.extend(
+                    items
+                        .iter()
+                        .filter(|&&item| self.boxes[item].is_met(from, direction)),
                 );
             }
         }

@@ -116,3 +116,36 @@ step = [{}]
     assert!(record.increments.len() < 30, "{}", record.increments.len());
     assert!(record.cutbacks <= 2, "{}", record.cutbacks);
 }
+
+/// Both faces of a thin wall are the primary, and both ends of a block above it the secondary: the top of the block looks the way that the bottom of the wall could
+/// be entered, and lies far beyond it.
+#[test]
+fn a_block_meets_the_face_of_a_thin_wall_that_it_stands_on() {
+    let text = |faces: &str, rest: &str| {
+        format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+material.m.isotropic = {{ young = 1e9, poisson = 0.3 }}
+body.wall = {{ generate.rectangle = {{ from = [0, -0.001], to = [0.1, 0], cells = [20, 1] }}, material = "m", formulation = "incompatible-modes" }}
+body.block = {{ generate.rectangle = {{ from = [0.03, 0.0005], to = [0.06, 0.0305], cells = [6, 4] }}, material = "m" }}
+{faces}
+interface.c = {{ secondary = "cube", primary = "skin"{rest} }}
+support.l = {{ set = "wall.left", x = 0, y = 0 }}
+support.r = {{ set = "wall.right", x = 0, y = 0 }}
+support.down = {{ set = "block.top", x = 0, y = -0.0007 }}
+step = [{{}}]
+"#
+        )
+    };
+    let both = "set.skin = { union = [\"wall.top\", \"wall.bottom\"] }\nset.cube = { union = [\"block.top\", \"block.bottom\"] }";
+    let one = "set.skin = { union = [\"wall.top\"] }\nset.cube = { union = [\"block.bottom\"] }";
+    for rest in ["", ", discretisation.node-to-facet = {}"] {
+        let [both, one] = [both, one].map(|faces| {
+            let record = record(&text(faces, rest));
+            let (_, last) = record.increments.last().expect("increments");
+            last.get("c.CFN2").expect("a normal force")
+        });
+        assert!((both / one - 1.0).abs() < 1e-6, "{rest}: {both} for {one}");
+    }
+}

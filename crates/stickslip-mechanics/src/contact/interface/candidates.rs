@@ -59,7 +59,7 @@ impl Interface {
     pub(super) fn closest(
         &self,
         i: usize,
-        (x, bounds): (&[Vec3], &[Bounds]),
+        (x, before, bounds): (&[Vec3], &[Vec3], &[Bounds]),
         search: &Search,
         previous: Previous,
     ) -> Result<(usize, FacetPoint), f64> {
@@ -74,6 +74,11 @@ impl Interface {
             position: self.points[i].position(x),
             outward: turned.unwrap_or(self.points[i].normal),
             edge_tolerance: self.edge_tolerance,
+            walls: self.walls.of(self.facets(), &self.reference),
+            before: match before.is_empty() {
+                true => (before, [0.0; 3]),
+                false => (before, self.points[i].position(before)),
+            },
         };
         choice.closest(previous)
     }
@@ -87,7 +92,7 @@ impl Interface {
         let mut bounds = Vec::new();
         self.enclose(x, &mut bounds);
         (0..self.points.len())
-            .map(|i| self.closest(i, (x, &bounds), search, Previous::default()))
+            .map(|i| self.closest(i, (x, &[], &bounds), search, Previous::default()))
             .collect()
     }
 

@@ -13,6 +13,7 @@ use crate::contact::mortar::Mortar;
 use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
+use crate::contact::walls::Walls;
 use crate::math::{Vec3, add, sub};
 use crate::system::{BodyFrames, Dofs, FramePose, Schedule};
 
@@ -57,6 +58,8 @@ pub struct Interface {
     pub hollows: Hollows,
     /// The axes along which each node is prescribed in all steps; empty where nobody has looked.
     pub clamped: Vec<[bool; 3]>,
+    /// How thick the primary is behind its facets.
+    pub walls: Walls,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
     pub share: f64,
     /// The points are those of the side that the problem calls primary, because its cells are smaller. What is reported of forces, slip and normals

@@ -11,7 +11,7 @@ use crate::contact::mortar::{
 };
 use crate::contact::surface::ContactPoint;
 use crate::contact::symmetry::Across;
-use crate::math::{Vec3, identity};
+use crate::math::{Mat3, Vec3, identity};
 use crate::system::{Stage, State};
 
 /// Faces integrated by one task.
@@ -71,20 +71,22 @@ impl Interface {
         }
         let turned = if holds_turns { &cache.before } else { &cache.x };
         let reference = &self.reference;
-        let (x, turn) = match frozen {
-            true => (reference, identity()),
+        let (x, before, turn): (&[Vec3], &[Vec3], Mat3) = match frozen {
+            true => (reference, &[], identity()),
             false => {
                 let at = (turned.as_slice(), reference.as_slice());
                 let turn = of_points(self.own_nodes(), at, self.dofs.dim);
-                (&cache.x, self.across().turn(turn))
+                (&cache.x, &cache.before, self.across().turn(turn))
             }
         };
         cache.faces.renew(&mortar.faces, facets, x);
         let sides = Sides {
             x,
+            before,
             reference,
             turn,
             facets,
+            walls: self.walls.of(facets, reference),
             compliant: !self.laws.needs_normal_stiffness(),
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
@@ -148,9 +150,11 @@ impl Interface {
         let turn = of_points(self.own_nodes(), (at, &self.reference), self.dofs.dim);
         let sides = Sides {
             x: at,
+            before: &[],
             reference: &self.reference,
             turn: self.across().turn(turn),
             facets,
+            walls: self.walls.of(facets, &self.reference),
             compliant,
         };
         let faces = mortar.faces.par_iter().zip(&cache.faces.opposite);

@@ -190,6 +190,7 @@ fn drum(
         skin,
         hollows,
         clamped: Vec::new(),
+        walls: Default::default(),
         share: 1.0,
         exchanged: false,
         laws: Laws {

@@ -166,7 +166,8 @@ impl Interface {
             });
             let held = self.attempt.flips[i].goes_to_and_fro();
             let previous = Previous { facet, near, held };
-            self.closest(i, (&cache.x, &cache.bounds), &cache.search, previous)
+            let places = (&*cache.x, &*cache.before, &*cache.bounds);
+            self.closest(i, places, &cache.search, previous)
         };
         match found {
             // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays

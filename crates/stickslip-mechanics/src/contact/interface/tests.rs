@@ -89,6 +89,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         skin: Vec::new(),
         primary: Primary::Facets(facets),
         hollows: Default::default(),
+        walls: Default::default(),
         share: 1.0,
         exchanged: false,
         laws: Laws {
@@ -187,8 +188,8 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                         facet: previous,
                         ..Previous::default()
                     };
-                    let quick = interface.closest(i, (&x, &bounds), &search, previous);
-                    let full = interface.closest(i, (&x, &without), &search, previous);
+                    let quick = interface.closest(i, (&x, &[], &bounds), &search, previous);
+                    let full = interface.closest(i, (&x, &[], &without), &search, previous);
                     found += usize::from(full.is_ok());
                     assert_eq!(place(quick), place(full), "{kind}, point {i}");
                 }

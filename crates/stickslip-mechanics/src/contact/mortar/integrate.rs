@@ -8,9 +8,10 @@ use super::merge::Merged;
 use super::plane::Plane;
 use super::sides::Sides;
 use super::sum::sum;
-use super::view::{Sample, View, gather, looks_back};
+use super::view::{Sample, View, Wall, gather, looks_back};
 use super::window::Window;
 use crate::contact::projection::Patch;
+use crate::contact::walls::depth_behind;
 use crate::math::Vec3;
 
 /// Part of a face below which what lies opposite is left out.
@@ -70,6 +71,11 @@ fn meet<W: Window>(
         let facet = &sides.facets[f];
         let x = gather(&facet.nodes, sides.x);
         let x = &x[..facet.nodes.len()];
+        let wall = Wall {
+            depth: depth_behind(sides.walls, f),
+            nodes: &facet.nodes,
+            before: sides.before,
+        };
         let mut known = None;
         for other in cells(facet.kind, &facet.nodes, sides.reference) {
             let Some(part) = window.common(x, other) else {
@@ -83,7 +89,8 @@ fn meet<W: Window>(
             let centre = facet.kind.centre();
             let mut start = [centre[0], centre[1]];
             window.places(&part, facet.kind, &mut |xi, w| {
-                view.sample((xi, w), (piece, &patch), &mut start, &mut scratch.samples);
+                let met = (piece, &patch, &wall);
+                view.sample((xi, w), met, &mut start, &mut scratch.samples);
             });
         }
     }

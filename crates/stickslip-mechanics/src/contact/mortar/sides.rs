@@ -9,12 +9,16 @@ use crate::math::{Mat3, Vec3, mat_vec};
 pub struct Sides<'a> {
     /// Coordinates of all nodes now.
     pub x: &'a [Vec3],
+    /// At the last accepted state; empty where it is not asked for.
+    pub before: &'a [Vec3],
     /// In the reference configuration, which areas are taken from.
     pub reference: &'a [Vec3],
     /// How the secondary as a whole has turned since then.
     pub turn: Mat3,
     /// The primary.
     pub facets: &'a [Facet],
+    /// How deep behind each facet a place may lie and meet it `[m]`; empty where any depth will do.
+    pub walls: &'a [f64],
     /// Whether pressure follows from the gap by a law, so that no gap may be taken from beyond the edge of what lies opposite.
     pub compliant: bool,
 }

@@ -121,6 +121,15 @@ fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2],
     None
 }
 
+/// What lies behind a facet.
+pub(super) struct Wall<'a> {
+    /// Depth down to which it may be met `[m]`.
+    pub depth: f64,
+    /// Its nodes, and the coordinates of all nodes at the last accepted state; empty where they are not known.
+    pub nodes: &'a [usize],
+    pub before: &'a [Vec3],
+}
+
 /// The face as its nodes see it now.
 pub(super) struct View<'a> {
     pub face: &'a Face,
@@ -130,6 +139,24 @@ pub(super) struct View<'a> {
 }
 
 impl View<'_> {
+    /// Whether a place has come behind a facet with normal `m` since the last accepted state: it was not beyond the wall then.
+    fn enters(
+        &self,
+        (wall, m): (&Wall, Vec3),
+        n: &[f64; FACE_NODES],
+        opposite: &[f64; FACE_NODES],
+    ) -> bool {
+        if wall.before.is_empty() {
+            return false;
+        }
+        let at = |nodes: &[usize], n: &[f64; FACE_NODES]| {
+            let terms = nodes.iter().zip(n);
+            terms.fold([0.0; 3], |s, (&k, &n)| add_scaled(s, n, wall.before[k]))
+        };
+        let (own, there) = (at(&self.face.nodes, n), at(wall.nodes, opposite));
+        dot(sub(own, there), m) >= -wall.depth
+    }
+
     /// Unit normal at a place with these shape functions.
     fn normal(&self, n: &[f64; FACE_NODES]) -> Vec3 {
         let mut sum = [0.0; 3];
@@ -139,11 +166,11 @@ impl View<'_> {
         normalize(sum).unwrap_or(sum)
     }
 
-    /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there.
+    /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there, and it is not beyond the `wall` behind it.
     pub fn sample(
         &self,
         (xi, w): (Point, f64),
-        (piece, facet): (usize, &Patch),
+        (piece, facet, wall): (usize, &Patch, &Wall),
         start: &mut Point,
         out: &mut Vec<Sample>,
     ) {
@@ -167,7 +194,9 @@ impl View<'_> {
             return;
         };
         let facing = -dot(normal, m);
-        if facing < LEAST_FACING {
+        let opposite = shapes(facet.kind, *start).0;
+        let beyond = gap * facing < -wall.depth && !self.enters((wall, m), &n, &opposite);
+        if facing < LEAST_FACING || beyond {
             return;
         }
         let mut positives = n;
@@ -177,7 +206,7 @@ impl View<'_> {
             n,
             positive: positives,
             piece,
-            opposite: shapes(facet.kind, *start).0,
+            opposite,
             place: *start,
             gap,
             direction: m.map(|m| m / facing),

@@ -4,6 +4,7 @@ use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
 use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::surface::Facet;
+use crate::contact::walls::depth_behind;
 use crate::math::{Vec3, add, cross, dot, norm, scale, sub};
 
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
@@ -47,6 +48,10 @@ pub struct Choice<'a> {
     pub outward: Vec3,
     /// How far a point may lie beyond an outer edge, relative to the facet.
     pub edge_tolerance: f64,
+    /// How deep behind each facet a point may lie and meet it `[m]`; empty where any depth will do.
+    pub walls: &'a [f64],
+    /// Coordinates of all nodes at the last accepted state, and the place of the point then; no coordinates where they are not known.
+    pub before: (&'a [Vec3], Vec3),
 }
 
 /// The facet on which a point was, and where.
@@ -167,6 +172,22 @@ impl Choice<'_> {
         self.height(p) < 0.0
     }
 
+    /// Whether the point is behind a facet because it lies beyond the body there: it is deeper than the wall allows, and was so at the last accepted state.
+    fn beyond_wall(&self, f: usize, p: &Foot) -> bool {
+        let depth = depth_behind(self.walls, f);
+        if self.height(p) >= -depth {
+            return false;
+        }
+        let (before, position) = self.before;
+        if before.is_empty() {
+            return true;
+        }
+        let facet = &self.facets[f];
+        let mut nodes = [[0.0; 3]; FACET_NODES];
+        let then = evaluate(facet.kind, facet.gather(before, &mut nodes), p.xi);
+        dot(sub(position, then.x), p.normal) < -depth
+    }
+
     fn box_distance2(&self, f: usize) -> f64 {
         self.bounds[f].space.distance2(self.position)
     }
@@ -195,7 +216,7 @@ impl Choice<'_> {
             Some(xi) => patch.project_near(position, xi)?,
             None => patch.project(position)?,
         };
-        if dot(p.normal, self.outward) >= 0.0 {
+        if dot(p.normal, self.outward) >= 0.0 || self.beyond_wall(f, &p) {
             return None;
         }
         let size = facet_size(facet, &p);
@@ -284,6 +305,8 @@ mod tests {
             position,
             outward: [0.0, -1.0, 0.0],
             edge_tolerance: 1e-3,
+            walls: &[],
+            before: (&[], position),
         };
         let previous = Previous {
             facet: Some(previous),

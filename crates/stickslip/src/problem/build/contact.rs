@@ -18,6 +18,7 @@ use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::mortar::Mortar;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
+use crate::contact::walls::Walls;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, norm, scale, sub};
 use crate::mesh::{FacetRef, Mesh};
@@ -336,6 +337,7 @@ impl Make<'_> {
             points,
             mortar,
             hollows,
+            walls: Walls::default(),
             primary: opposite,
             reference,
             clamped: Vec::new(),
