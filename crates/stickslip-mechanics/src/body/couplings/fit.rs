@@ -6,7 +6,9 @@ use super::elimination::{Elimination, FIRM, Held, add_diagonal, compliance};
 use crate::system::{ContactBlock, Links};
 
 impl Couplings {
-    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof.
+    /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof: those of the cells that a row moves. A spring to ground, or a mass, at a rigid
+    /// body or a reference point says nothing of how stiff these are: where a row moves nothing else the stiffest counts. Rows that share a weak
+    /// spring would hold no more than that otherwise, and what they join could strain between them.
     pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
         let springs = self.all.iter().map(|c| c.tie.stiffness());
         let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
@@ -18,25 +20,32 @@ impl Couplings {
         for (i, _, row) in self.rows() {
             let free = moved_by(row, links).into_iter();
             let free = free.filter(|(dof, a)| !fixed[*dof] && *a != 0.0);
-            let held: Vec<Held> = free
+            let (carried, cells): (Vec<Held>, Vec<Held>) = free
                 .map(|(dof, a)| Held {
                     dof,
                     squared: a * a,
                     bulk: diagonal[dof],
                 })
-                .collect();
+                .partition(|h| links.of_hidden(h.dof / self.dim).is_some());
             // What has no stiffness of its own, like a rigid body, follows whatever holds it.
             let norm = row.norm();
-            let compliance = compliance(&held, |h| h.bulk);
-            let stiffness = match compliance > 0.0 {
-                true => 1.0 / compliance,
-                false => typical / (norm * norm),
+            let compliance = compliance(&cells, |h| h.bulk);
+            let stiffest = carried.iter().map(|h| h.bulk).fold(0.0, f64::max);
+            let stiffness = if compliance > 0.0 {
+                1.0 / compliance
+            } else if stiffest > 0.0 {
+                stiffest / (norm * norm)
+            } else {
+                typical / (norm * norm)
             };
             hold[i] = Hold {
                 stiffness: FIRM * stiffness,
-                idle: held.is_empty(),
+                idle: cells.is_empty() && carried.is_empty(),
             };
-            elimination.held.push(held);
+            elimination.held.push(match compliance > 0.0 {
+                true => cells,
+                false => cells.into_iter().chain(carried).collect(),
+            });
         }
         elimination.links = (!links.is_empty()).then(|| links.clone());
         elimination.stiffness.clear();
