@@ -39,6 +39,9 @@ fn with_results(name: &str) -> PathBuf {
         "-q",
         "--set",
         "output.frd=text",
+        // Interiors of several increments would be waited for together.
+        "--set",
+        "solver.method=sparse",
         "--set",
         "output.checkpoint.increments=1",
         "--set",
@@ -169,14 +172,14 @@ fn a_run_goes_on_without_fields_that_were_removed() {
     let (code, said) = run(&folder, &["resume", "case.out", "--from", "1", "-q"]);
     assert_eq!(code, Some(0), "{said}");
     assert!(
-        said.contains("1 of 2 files of fields are no longer there"),
+        said.contains("1 of 1 files of fields are no longer there"),
         "{said}"
     );
     let listed = read(&out.join("fields.pvd"));
     assert!(!listed.contains("fields_00000"), "{listed}");
-    for name in ["fields_00001.vtu", "fields_00002.vtu"] {
-        assert!(listed.contains(name) && out.join(name).exists(), "{listed}");
-    }
+    // Numbers go on where they were.
+    let next = "fields_00001.vtu";
+    assert!(listed.contains(next) && out.join(next).exists(), "{listed}");
 }
 
 #[test]
@@ -186,14 +189,15 @@ fn tables_of_others_stay_where_interfaces_have_theirs() {
     for name in ["notes.csv", "base-copy.csv", "mine_00001.vtp"] {
         write(&tables.join(name), "mine");
     }
-    assert!(tables.join("base_00000.vtp").exists());
-    let (code, said) = run(&folder, &["run", "case.toml", "-q"]);
+    assert!(tables.join("base_00001.vtp").exists());
+    let fewer = ["run", "case.toml", "-q", "--set", "output.every=0"];
+    let (code, said) = run(&folder, &fewer);
     assert_eq!(code, Some(0), "{said}");
     for name in ["notes.csv", "base-copy.csv", "mine_00001.vtp"] {
         assert_eq!(read(&tables.join(name)), "mine", "{name}");
     }
     // What the run before had written and this one does not is gone.
-    assert!(!tables.join("base_00000.vtp").exists());
+    assert!(!tables.join("base_00001.vtp").exists());
     assert!(tables.join("base.csv").exists());
 }
 
