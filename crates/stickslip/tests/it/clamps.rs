@@ -20,8 +20,14 @@ fn leaves(solid: bool, cells: [usize; 2], clamp: f64, interface: &str) -> String
         false => ("plane-strain", "rectangle", "top"),
     };
     let body = |z: f64, n: usize| match solid {
-        true => format!("from = [0, 0, {z}], to = [0.1, 0.02, {}], cells = [{n}, 2, 2]", z + 0.01),
-        false => format!("from = [0, {z}], to = [0.1, {}], cells = [{n}, 2]", z + 0.01),
+        true => format!(
+            "from = [0, 0, {z}], to = [0.1, 0.02, {}], cells = [{n}, 2, 2]",
+            z + 0.01
+        ),
+        false => format!(
+            "from = [0, {z}], to = [0.1, {}], cells = [{n}, 2]",
+            z + 0.01
+        ),
     };
     let (held, low_corner, high_corner) = match solid {
         true => ("x = 0, y = 0, z = 0", "-1, -1, -1", "1, 1"),

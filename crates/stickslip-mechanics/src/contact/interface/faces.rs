@@ -163,7 +163,13 @@ impl Interface {
                 || (Scratch::default(), FaceIntegral::default()),
                 |(scratch, integral), (face, opposite)| {
                     opposite.iter().any(|&f| ends[f]).then(|| {
-                        integrate((face, Merged::default()), &sides, opposite, scratch, integral);
+                        integrate(
+                            (face, Merged::default()),
+                            &sides,
+                            opposite,
+                            scratch,
+                            integral,
+                        );
                         integral.area
                     })
                 },

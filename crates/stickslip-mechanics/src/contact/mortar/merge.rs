@@ -31,7 +31,8 @@ pub fn merged(faces: &[Face], covered: &[f64]) -> Vec<Merged> {
         let most = parts.iter().copied().fold(0.0, f64::max);
         let small = |p: &f64| *p < COVERED * most;
         let bits = parts.iter().enumerate();
-        bits.filter(|(_, p)| small(p)).fold(0, |m, (a, _)| m | 1 << a)
+        bits.filter(|(_, p)| small(p))
+            .fold(0, |m, (a, _)| m | 1 << a)
     };
     faces.iter().map(of).collect()
 }

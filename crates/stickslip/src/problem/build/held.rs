@@ -1,6 +1,6 @@
 //! Whose motion is a contact point's own: nodes whose displacements are prescribed, or follow from those of others.
 //!
-//! A multiplier of contact changes a motion. Where a support prescribes that of a node, or an equation, a reference point or another tie does, the constraint of the node would act
+//! A multiplier of contact changes a motion. Where a support prescribes that of a node, or a reference point or another tie does, the constraint of the node would act
 //! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
 //! their neighbours take over (`contact/mortar/merge.rs`), and where both sides are clamped nothing is left to be kept apart (`Interface::clamped`).
 
@@ -28,12 +28,7 @@ pub(super) struct HeldNodes<'a> {
 }
 
 impl<'a> HeldNodes<'a> {
-    pub fn new(
-        links: &'a Links,
-        dofs: Dofs,
-        supports: &[Support],
-        couplings: &[Coupling],
-    ) -> Self {
+    pub fn new(links: &'a Links, dofs: Dofs, supports: &[Support], couplings: &[Coupling]) -> Self {
         let steps = supports.first().map_or(0, |s| s.schedule.pieces.len());
         let mut held = vec![false; dofs.count()];
         let mut always = vec![steps > 0; dofs.count()];
@@ -48,15 +43,19 @@ impl<'a> HeldNodes<'a> {
                 *always &= now;
             }
         }
-        let equations = couplings
+        // Points of bodies follow the reference point that the last term of a row is of. Equations between points of surfaces are no such case: what each carries
+        // is their sum's to share, which the elimination of their forces does (`couplings/fit.rs`).
+        let followers = couplings
             .iter()
-            .filter(|c| matches!(c.tie, Tie::Equation { .. }));
-        for row in equations.flat_map(|c| &c.rows) {
+            .filter(|c| c.referred && matches!(c.tie, Tie::Equation { .. }));
+        for row in followers.flat_map(|c| &c.rows) {
             let mine = |dof: usize| links.of_point(dofs.locate(dof).0).is_none();
-            // One of the terms follows from the others. Points of bodies follow reference points, and of several the first is named as the one that does.
-            let follower = row.terms().find(|&(dof, _)| mine(dof) && !held[dof]);
-            if let Some((dof, _)) = follower {
-                held[dof] = true;
+            let bodies: Vec<usize> = (row.terms().map(|(dof, _)| dof))
+                .filter(|&dof| mine(dof))
+                .collect();
+            // A reference point that follows the mean of many holds none of them.
+            if let [follower] = bodies[..] {
+                held[follower] = true;
             }
         }
         HeldNodes {
