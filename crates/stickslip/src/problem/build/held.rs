@@ -49,7 +49,10 @@ impl<'a> HeldNodes<'a> {
             .iter()
             .filter(|c| c.referred && matches!(c.tie, Tie::Equation { .. }));
         for row in followers.flat_map(|c| &c.rows) {
-            let mine = |dof: usize| links.of_point(dofs.locate(dof).0).is_none();
+            let mine = |dof: usize| {
+                let (point, _) = dofs.locate(dof);
+                links.of_point(point).is_none() && links.of_hidden(point).is_none()
+            };
             let bodies: Vec<usize> = (row.terms().map(|(dof, _)| dof))
                 .filter(|&dof| mine(dof))
                 .collect();
