@@ -55,10 +55,11 @@ fn leaves(solid: bool, cells: [usize; 2], clamp: f64, interface: &str) -> String
 #[test]
 fn surfaces_that_run_into_a_common_clamp_carry_what_loads_bring() {
     for (solid, axis) in [(false, 2), (true, 3)] {
-        for interface in [
-            "friction.coulomb = { mu = 0.3 }",
-            "tied = true",
-            "discretisation.node-to-facet = {}",
+        // Points against facets pass on a constant pressure to 5 to 20 % only.
+        for (interface, within) in [
+            ("friction.coulomb = { mu = 0.3 }", 0.08),
+            ("tied = true", 0.08),
+            ("discretisation.node-to-facet = {}", 0.13),
         ] {
             // Over a length that ends at nodes of both meshes: otherwise one leaf is clamped to another place than the other.
             let at_end: &[[usize; 2]] = &[[20, 18], [20, 19], [20, 21], [8, 7]];
@@ -74,7 +75,7 @@ fn surfaces_that_run_into_a_common_clamp_carry_what_loads_bring() {
                     let load = 1000.0 * 0.1 * if solid { 0.02 } else { 1.0 };
                     for (found, right) in found.iter().zip(matching) {
                         assert!(
-                            (found - right).abs() < 0.08 * load,
+                            (found - right).abs() < within * load,
                             "solid {solid}, {interface}, clamped to {clamp}, {cells:?}: {found} for {right}"
                         );
                     }
