@@ -56,7 +56,18 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
     for pair in &pairs {
         let scale = scale(&results, pair, &strain);
         contact::check(&results, pair, &scale, &mut report);
-        overlap::check(&results, pair, &scale, bulk.as_ref().ok(), &mut report);
+        let table = case.of("interface", &pair.name);
+        let changed = |key: &&str| table.is_some_and(|t| t.contains_key(*key));
+        match ["roughness", "wear", "worn"]
+            .iter()
+            .find(|key| changed(key))
+        {
+            Some(key) => report.skip(format!(
+                "where the surfaces of {} are, with `{key}`",
+                pair.name
+            )),
+            None => overlap::check(&results, pair, &scale, bulk.as_ref().ok(), &mut report),
+        }
         coarse(&results, pair, &mut report);
     }
     Ok(report)

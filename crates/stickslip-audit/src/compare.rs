@@ -124,7 +124,8 @@ pub fn difference(a: &Trace, b: &Trace, moving: bool) -> (f64, String) {
         let Some(others) = b.frequencies.get(file) else {
             continue;
         };
-        let highest = most(&mut values.iter().chain(others));
+        // Below a thousandth of what a wave takes for the length of a body a frequency is that of a motion that nothing resists.
+        let highest = most(&mut values.iter().chain(others)).max(1e-3);
         if values.len() != others.len() {
             note(
                 1.0,

@@ -110,6 +110,12 @@ impl Body {
         let density = kind
             .and_then(|m| crate::case::number(m, "density"))
             .unwrap_or(0.0);
+        for (mass, table) in case.named("mass") {
+            let set = text_of(table, "set").and_then(|set| mesh.set(case, set));
+            if set.is_none_or(|set| set.iter().any(|p| body.points.contains(p))) {
+                body.unknown = Some(format!("mass {mass} is heavy"));
+            }
+        }
         for (load, table) in case.named("load") {
             let Some(set) = text_of(table, "set") else {
                 continue;

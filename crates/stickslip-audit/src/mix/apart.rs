@@ -3,6 +3,17 @@
 /// Pairs of features, with the reason.
 pub const APART: &[(&str, &str, &str)] = &[
     (
+        "stop-across",
+        "rigid-lower",
+        "The corner is one of a rigid body that is held.",
+    ),
+    (
+        "stop-across",
+        "rigid-upper",
+        "The corner is one of a rigid body.",
+    ),
+    ("stop-across", "floor", "There is no lower corner."),
+    (
         "clamp",
         "displaced",
         "A clamp holds points that the support on the top moves.",

@@ -153,7 +153,7 @@ fn lower(s: &mut Sheet, r: &mut Random) {
 fn upper(s: &mut Sheet, r: &mut Random) {
     let left = if s.half { 0.0 } else { -0.5 };
     let height = r.between(0.3, 0.6);
-    let mut young = r.spread(0.05, 20.0);
+    let mut young = r.spread(0.5, 20.0);
     if r.chance(0.2) {
         young = r.spread(1.0, 1e3);
     }

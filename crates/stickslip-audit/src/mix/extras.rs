@@ -40,7 +40,7 @@ pub const FEATURES: &[Feature] = &[
             across(s)
         ));
     }),
-    row("", "stop-across", 0.7, &["elastic"], |s, r| {
+    row("", "stop-across", 0.7, &["loose"], |s, r| {
         let gap = s.length(r.between(0.0, 0.002));
         s.table(format!(
             "coupling.across.gap = {{ {}, clearance = {gap} }}",

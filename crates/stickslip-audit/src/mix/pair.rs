@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Mix;
+use super::mixture::Mix;
 use super::relation::{Again, Agreement, Relation};
 use super::view::View;
 use crate::compare::{difference, trace};

@@ -177,6 +177,7 @@ pub const RELATIONS: &[Relation] = &[
             "side-body",
             "orthotropic",
             "tied-foot",
+            "bolt",
             "turning",
             "simplices",
             "explicit",

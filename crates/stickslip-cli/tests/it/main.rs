@@ -16,6 +16,7 @@ mod engine;
 #[cfg(unix)]
 mod faults;
 mod given;
+mod mixes;
 mod new;
 mod progress;
 mod reports;
