@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::onset::{AFTER, initial_contact};
+use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::Interface;
 use crate::error::{Error, RunError};
@@ -273,6 +273,9 @@ impl Explicit {
         couplings.use_springs(true);
         let most = (soon, explicit.frequency);
         couplings.fit_springs(most, &explicit.inverse, &model.links);
+        // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
+        let alone = explicit.stable_alone().min(step.increments.largest);
+        look_at_contact(model, frame, contact, soon, alone);
         let stable = explicit.stable_increment(model, frame, contact);
         let dt = stable.min(step.increments.largest);
         let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));

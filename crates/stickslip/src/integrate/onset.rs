@@ -311,6 +311,27 @@ pub(crate) fn initial_contact(
     Ok(forces)
 }
 
+/// Lets the interfaces see where they stand at the start of an explicit step: the stiffness and viscosity of what is in contact bound its increments.
+pub(crate) fn look_at_contact(
+    model: &Model,
+    frame: &Frame,
+    contact: &mut Contact,
+    t: f64,
+    dt: f64,
+) {
+    let (before, at) = at_start(model, frame, t, dt);
+    let stage = Stage {
+        from: &before,
+        at: &at,
+        dt,
+        rate: None,
+    };
+    let frames = enter_here(model, contact, &frame.state.u);
+    let interfaces = contact.interfaces.iter_mut();
+    interfaces.for_each(|i| i.look(&stage));
+    leave(model, contact, frames);
+}
+
 /// Whether points with mass touch where the laws alone do not tell the forces: a multiplier presses them, or they are those of a rigid body and
 /// may stick.
 fn forces_are_sought(model: &Model, contact: &Contact, inertia: &Inertia, t: f64) -> bool {

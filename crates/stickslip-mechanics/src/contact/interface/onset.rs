@@ -41,7 +41,20 @@ impl Interface {
             }
         }
         self.cache.trial = evaluations;
-        Ok(self.initial_energy())
+        let stored = self.initial_energy();
+        if self.history.springs {
+            // How stiff and viscous what touches is bounds explicit increments from the first on.
+            std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
+        }
+        Ok(stored)
+    }
+
+    /// Takes what laws say at `stage.at` for the last evaluation: how stiff and viscous they are there bounds explicit increments.
+    pub fn look(&mut self, stage: &Stage) {
+        self.cache.last = match self.schedule.active(stage.at.t) {
+            true => self.evaluate_initial(stage),
+            false => Evaluations::default(),
+        };
     }
 
     /// What laws say before anything is solved.
