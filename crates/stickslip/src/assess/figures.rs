@@ -37,7 +37,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 17] = [
+pub(crate) static ALL: [&Kind; 18] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -45,6 +45,7 @@ pub(crate) static ALL: [&Kind; 17] = [
     &FALSE_SLIP,
     &COMPLEMENTARITY,
     &OSCILLATION,
+    &EXPLICIT_WEAR,
     &EXCESS_SHEAR,
     &FRICTION_LAW,
     &ACTION_REACTION,
@@ -119,6 +120,15 @@ pub(crate) static OSCILLATION: Kind = Kind {
     model: TRACE,
     what: "this part of the pressure goes up and down from point to point",
     help: "choose the finer or softer surface as secondary, or match the meshes; forces may be right where pressures are not",
+};
+
+// A way is what it is, however small the forces.
+pub(crate) static EXPLICIT_WEAR: Kind = Kind {
+    name: "explicit-wear",
+    own: 0.0,
+    model: 0.0,
+    what: "an increment slides by this multiple of the way up to which explicit wear is stable, and beyond that pressure and depth swing from point to point",
+    help: "`wear-feedback = \"implicit\"`, the default, has no such limit; otherwise shorter increments, or jumps over fewer cycles",
 };
 
 pub(crate) static EXCESS_SHEAR: Kind = Kind {

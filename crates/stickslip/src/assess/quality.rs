@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use super::doctor::{Finding, Peak, Watch};
+use super::doctor::{Finding, Peak, Watch, longest_way};
 use super::figures::{
-    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, FALSE_SLIP,
-    FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, Track,
-    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_WEAR,
+    FALSE_SLIP, FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH,
+    PENETRATION_TO_SIZE, Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
@@ -291,6 +291,10 @@ impl View<'_> {
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
             let uneven = [q.oscillation * r.total, r.total];
             note(&OSCILLATION, uneven, limits.oscillation);
+            if let Some(limit) = longest_way(self.model, interface) {
+                let way = [interface.slid(), limit];
+                note(&EXPLICIT_WEAR, way, limits.explicit_wear);
+            }
             let excess = [q.excess_shear * q.limit, q.limit];
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
             let wrong = [q.friction_law * q.limit, q.limit];

@@ -52,6 +52,10 @@ pub struct Limits {
     /// 1 for a checkerboard of zero and twice the mean.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub oscillation: f64,
+    /// Way that an increment slides, times the cycles that it stands for, over the longest up to which explicit wear is stable, `4 Δx / (π k E*)`; of interfaces with
+    /// `wear-feedback = "explicit"`. The limit is that of a half-plane: bodies that are softer at their surface bear more.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub explicit_wear: f64,
     /// Shear beyond the limit of friction, over the largest limit of the interface.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub excess_shear: f64,
@@ -106,6 +110,7 @@ impl Default for Limits {
             unseen_to_size: 0.02,
             unseen_to_approach: 0.15,
             oscillation: 0.25,
+            explicit_wear: 1.0,
             excess_shear: 1e-3,
             friction_law: 1e-3,
             action_reaction: 1e-9,

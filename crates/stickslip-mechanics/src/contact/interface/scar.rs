@@ -90,4 +90,11 @@ impl Interface {
         let limit = 4.0 * finest / (std::f64::consts::PI * rate * modulus);
         (limit.is_finite() && self.laws.wears_away()).then_some(limit)
     }
+
+    /// The longest way `[m]` that a point which presses has slid over the last increment, times the cycles that it stands for: what [`Interface::explicit_limit`] is a limit of.
+    pub fn slid(&self) -> f64 {
+        let pressed = (self.cache.last.points.iter()).filter(|e| e.response.traction[0] > 0.0);
+        let ways = pressed.map(|e| self.rubbed(&e.response, e.frames.before, e.moved));
+        ways.fold(0.0, f64::max) * (1.0 + self.directives.skipped)
+    }
 }

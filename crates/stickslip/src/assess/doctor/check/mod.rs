@@ -24,6 +24,7 @@ mod unused;
 mod wear;
 
 pub(super) use meshes::disconnected;
+pub(crate) use wear::longest_way;
 
 use super::finding::Finding;
 use super::unjoined::Unjoined;

@@ -9,12 +9,17 @@ use crate::contact::law::wear::Feedback;
 use crate::model::cycling::Jump;
 use crate::model::definition::Model;
 
-pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {
+/// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where wear is explicit.
+pub(crate) fn longest_way(model: &Model, interface: &Interface) -> Option<f64> {
     if interface.laws.feedback != Feedback::Explicit {
         return None;
     }
     let shear = friction_coefficient(interface).unwrap_or(0.0);
-    let limit = interface.explicit_limit(modulus(view.model, interface)?, shear)?;
+    interface.explicit_limit(modulus(model, interface)?, shear)
+}
+
+pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {
+    let limit = longest_way(view.model, interface)?;
     let name = &interface.name;
     let jumps = view
         .model
