@@ -33,8 +33,8 @@ pub enum Jump {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct ChosenJump {
-    /// Largest error of the worn volume at the end of the step that jumps may make, relative to that volume and summed over the surfaces without sign
-    /// `[-]`. A cycle that stands for too many is taken back.
+    /// Largest error that jumps may make, beside cycles that are all computed: of the worn volume relative to itself, summed over the places of a surface without sign, and of the
+    /// depth at every place relative to the greatest `[-]`. A cycle that stands for too many is taken back.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub error: f64,
     /// How many cycles the first stands for. Default: 1.

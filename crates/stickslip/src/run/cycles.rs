@@ -1,16 +1,17 @@
 //! Jumps over cycles that are chosen by the error they make.
 //!
-//! A cycle that stands for `N` wears as much as that, by the backward Euler rule: what it wears off opens its own gap. With the amounts `w` that a cycle wears off, place
-//! by place, in this one and in the one before, that is off by `N |Δw| / 2`, summed over places. It may be a part, the error that is asked for, of the mean of two things: what the block wears off,
-//! `N Σ w`, and what has been worn off in the step so far, `V`, by the share `N` of all cycles. Summed over the step that is no more than the error times what is worn off in all, as
-//! wear makes differences of depth smaller and not larger.
+//! A cycle that stands for `N` wears as much as that, by the backward Euler rule: what it wears off opens its own gap. Where something wears a jump is made twice from one state, by one cycle
+//! and by two that stand for half of its cycles each. The two are kept, and how they differ from the one is what they are off by ([`jump_error`](super::jump_error)). With all jumps before that may be a part,
+//! the error that is asked for, of the volume and of the greatest depth that have been worn off so far, on each surface; where it is more the jump is taken back. So the last jump is judged like all
+//! others, and times of output in between are as good as the end. Where so few cycles are allowed that computing each costs no more, each is computed, and nothing is off.
 //!
 //! Where nothing wears, what friction keeps settles within some cycles, and cycles change ever less: once all that is to come, as a geometric series, is no more than the error, one stands for all that are
-//! left, and is taken back if it shows that they have changed by more. Where that cannot be seen, and with wear, they are as good as equal if the last change, over and over again, comes to no more than the error.
+//! left, and is taken back if it shows that they have changed by more. Where that cannot be seen, they are as good as equal if the last change, over and over again, comes to no more than the error.
 //!
 //! A block begins with a checkpoint. What it finds is reported when it is over; where it stands for too many it is taken back to that checkpoint, and nobody is told.
 
-use super::jumps::Jumps;
+use super::jump_error::Place;
+use super::jumps::{Amounts, Halved, Jumps};
 use super::position::Increments;
 use super::simulation::Simulation;
 use super::trying::Trying;
@@ -28,12 +29,10 @@ const AFTER_FAILURE: f64 = 0.25;
 /// Part of a cycle that is rounding.
 const ON_TIME: f64 = 1e-9;
 
-/// How a block went: the largest error, over that which is allowed, of interfaces that wear and of all.
-#[derive(Clone, Copy, Default)]
-struct Verdict {
-    wearing: f64,
-    all: f64,
-}
+/// Fewest cycles of a jump: as a whole and in two halves it costs three.
+const FEWEST: usize = 4;
+/// Cycles that a jump may always be tried with, however short the one before.
+const TRIED: f64 = 8.0;
 
 impl Simulation {
     fn chosen(&self) -> Option<(ChosenJump, f64, usize)> {
@@ -65,7 +64,10 @@ impl Simulation {
         let jumps = &mut running.jumps;
         jumps.start = taken;
         if jumps.kept == 0 && jumps.rejected == 0 {
-            jumps.wish = chosen.first as f64;
+            jumps.wish = match self.wears() && chosen.first > 1 {
+                true => 2.0 * chosen.first as f64,
+                false => chosen.first as f64,
+            };
         }
         let step = self.step();
         // Equal jumps to the next time of output.
@@ -73,19 +75,42 @@ impl Simulation {
         let due = times.map(|t| ((t - step.start) / period - ON_TIME).ceil().max(0.0) as usize);
         let target = due.filter(|&n| n > before).min().unwrap_or(count);
         let left = target.min(count) - before;
-        let wish = jumps.wish.min(chosen.largest.unwrap_or(count) as f64);
-        let parts = (left as f64 / wish.max(1.0)).ceil().max(1.0) as usize;
-        let block = Block {
-            before,
-            stands_for: left.div_ceil(parts),
+        let largest = chosen.largest.unwrap_or(count) as f64;
+        let stands_for = match (&jumps.trial, self.wears()) {
+            (Some(trial), _) if trial.whole.is_some() => trial.halves()[0],
+            (_, false) => equal(left, jumps.wish.min(largest)),
+            (_, true) => {
+                let n = equal(left, jumps.wish.min(2.0 * largest));
+                let single = n < FEWEST;
+                jumps.trial = (!single).then(|| Halved {
+                    cycles: n,
+                    ..Halved::default()
+                });
+                if single { 1 } else { n }
+            }
         };
-        let at = running.stepper.leap(step.start + block.begins(period));
+        self.set_block(&mut running, (before, stands_for), period);
+        self.trying = Some(Trying::from(start));
+        running
+    }
+
+    /// Lets a block begin.
+    fn set_block(
+        &mut self,
+        running: &mut Increments,
+        (before, stands_for): (usize, usize),
+        period: f64,
+    ) {
+        let block = Block { before, stands_for };
+        let at = (running.stepper).leap(self.step().start + block.begins(period));
         self.frame.block = block;
         self.frame.state.t = at;
         self.solver.condenser.pass_time(at);
         self.forget_direction();
-        self.trying = Some(Trying::from(start));
-        running
+    }
+
+    fn wears(&self) -> bool {
+        self.contact.interfaces.iter().any(|i| i.wears())
     }
 
     /// Judges the block that ends with an increment at a time, if one does: keeps it, or takes it back.
@@ -104,37 +129,33 @@ impl Simulation {
             return Ok(());
         }
         self.flush(observers)?;
-        let verdict = self.judge_block(&mut running.jumps, count);
+        if self.wears() {
+            return self.end_wearing_block(running, (chosen, period, count), observers);
+        }
+        let change = self.judge_block(&mut running.jumps);
         let n = stands_for as f64;
-        let wears = self.contact.interfaces.iter().any(|i| i.wears());
         let jumps = &mut running.jumps;
-        if let Some(verdict) = verdict {
-            jumps.note_change(verdict.all);
+        if let Some(change) = change {
+            jumps.note_change(change);
         }
-        let governing = verdict.map_or(0.0, |v| v.wearing) / chosen.error;
-        if governing > 1.0 && stands_for > 1 {
-            let part = (SAFETY / governing).max(SHRINKAGE);
-            return self.take_block_back(running, (n * part).floor());
-        }
-        if !wears && jumps.overshot(stands_for, chosen.error) {
+        if jumps.overshot(stands_for, chosen.error) {
             return self.take_block_back(running, 1.0);
         }
         jumps.kept += 1;
-        jumps.wish = match verdict {
+        jumps.wish = match change {
             // The first has nothing to be compared with.
             None => n,
-            Some(_) if !wears => 1.0,
-            Some(_) => n * (SAFETY / governing.max(1e-12)).clamp(SHRINKAGE, GROWTH),
+            Some(_) => 1.0,
         };
         let left = count - after;
-        let repeats = verdict.is_some_and(|v| {
-            v.all * left as f64 <= chosen.error * n || !wears && jumps.settles(chosen.error)
+        let repeats = change.is_some_and(|change| {
+            change * left as f64 <= chosen.error * n || jumps.settles(chosen.error)
         });
         if repeats && left as f64 > jumps.wish.max(1.0) {
             jumps.wish = left as f64;
             if chosen.largest.is_none_or(|most| most >= left) {
                 self.solver.log.notes.push(format!(
-                    "step `{}`: what a cycle dissipates and wears off stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
+                    "step `{}`: what a cycle dissipates stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
                     self.step().name
                 ));
             }
@@ -146,44 +167,148 @@ impl Simulation {
         self.release_block(observers)
     }
 
-    /// What a block took, beside the one before; `None` of the first.
-    fn judge_block(&self, jumps: &mut Jumps, count: usize) -> Option<Verdict> {
-        let n = self.frame.block.stands_for as f64;
-        let taken = self.taken();
-        let known = !jumps.rates.is_empty();
-        let mut verdict = Verdict::default();
-        let (mut rates, mut totals) = (Vec::new(), Vec::new());
-        for (i, taken) in taken.iter().enumerate() {
-            // Wear has been counted as often as the block stands for, what is dissipated once.
-            let wears = self.contact.interfaces[i].wears();
-            let often = if wears { n } else { 1.0 };
-            let start = jumps.start.get(i).filter(|s| s.len() == taken.len());
-            let rate: Vec<f64> = match start {
-                Some(start) => (taken.iter().zip(start))
-                    .map(|(b, a)| (b - a) / often)
-                    .collect(),
-                None => taken.iter().map(|b| b / often).collect(),
-            };
-            let sum: f64 = rate.iter().map(|r| r.abs()).sum();
-            let total = jumps.total.get(i).copied().unwrap_or(0.0) + sum * n;
-            let last = jumps.rates.get(i).filter(|r| r.len() == rate.len());
-            let change: f64 = match last {
-                Some(last) => rate.iter().zip(last).map(|(b, a)| (b - a).abs()).sum(),
-                None => sum,
-            };
-            let scale = sum + total / count as f64;
-            if known && scale > 0.0 {
-                verdict.all = verdict.all.max(change / scale);
-                if wears {
-                    verdict.wearing = verdict.wearing.max(change / scale);
-                }
+    /// Goes on from a block that is over where something wears: from a whole to its halves, from one half to the other, and from both to what they tell.
+    fn end_wearing_block(
+        &mut self,
+        running: &mut Increments,
+        (chosen, period, count): (ChosenJump, f64, usize),
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        let Block { before, stands_for } = self.frame.block;
+        let after = before + stands_for;
+        let worn = difference(&self.taken(), &running.jumps.start);
+        let places = self.places();
+        let jumps = &mut running.jumps;
+        let trial = jumps.trial.take();
+        let (whole, first, halves) = match trial {
+            None => {
+                let change = (!jumps.rates.is_empty()).then(|| absolute(&worn, &jumps.rates));
+                jumps.made.enter(&worn, change);
+                jumps.rates = worn;
+                let reach = TRIED.max(GROWTH);
+                jumps.wish =
+                    (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, reach);
+                return self.keep_block(running, after, count, observers);
             }
-            rates.push(rate);
-            totals.push(total);
+            Some(Halved {
+                whole: Some(whole),
+                first: Some(first),
+                cycles,
+            }) => {
+                let halved = Halved {
+                    cycles,
+                    ..Halved::default()
+                };
+                (whole, first, halved.halves())
+            }
+            Some(trial) if trial.whole.is_some() => {
+                let next = trial.halves()[1];
+                jumps.trial = Some(Halved {
+                    first: Some(worn),
+                    ..trial
+                });
+                self.set_block(running, (after, next), period);
+                return Ok(());
+            }
+            Some(trial) => {
+                let trial = Halved {
+                    whole: Some(worn),
+                    ..trial
+                };
+                return self.go_on_with(running, Some(trial), 1.0);
+            }
+        };
+        let last = difference(&worn, &first);
+        let rates = scaled(&last, 1.0 / halves[1] as f64);
+        let made = jumps.made.with_halves(&whole, &worn, halves);
+        let cycles = halves[0] + halves[1];
+        if made.off(&places).worst() > chosen.error {
+            // What comes before the jump is as it was; how rates change is known better now.
+            let known = made.of_change(&jumps.made);
+            let reach = known.reach(&places, &rates, SAFETY * chosen.error, 0.5 * cycles as f64);
+            let halved = halves[0] >= FEWEST && reach >= SHRINKAGE * cycles as f64;
+            let trial = halved.then_some(Halved {
+                cycles: halves[0],
+                whole: Some(first),
+                first: None,
+            });
+            self.summary.cycles_taken_back += 1;
+            return self.go_on_with(running, trial, reach);
         }
+        jumps.made = made;
         jumps.rates = rates;
-        jumps.total = totals;
-        known.then_some(verdict)
+        let most = (GROWTH * cycles as f64).max(TRIED);
+        jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, most);
+        self.keep_block(running, after, count, observers)
+    }
+
+    /// Keeps what a block has found, and tells it.
+    fn keep_block(
+        &mut self,
+        running: &mut Increments,
+        after: usize,
+        count: usize,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
+        running.jumps.kept += 1;
+        self.frame.block = Block {
+            before: after,
+            stands_for: 0,
+        };
+        let off = running.jumps.made.off(&self.places());
+        if after >= count && off.worst() > 0.0 {
+            self.solver.log.notes.push(format!(
+                "step `{}`: jumps over cycles are off by {:.1e} of the worn volume and by {:.1e} of the greatest depth, as halving each tells",
+                self.step().name,
+                off.volume,
+                off.depth
+            ));
+        }
+        self.release_block(observers)
+    }
+
+    /// Goes back to where the block began, and goes on with a jump of which the whole is known, or another.
+    fn go_on_with(
+        &mut self,
+        running: &mut Increments,
+        trial: Option<Halved>,
+        wish: f64,
+    ) -> Result<(), Error> {
+        let (taken_back, rejected) = (self.summary.cycles_taken_back, running.jumps.rejected);
+        self.take_block_back(running, wish)?;
+        self.summary.cycles_taken_back = taken_back;
+        running.jumps.rejected = rejected + usize::from(trial.is_none());
+        running.jumps.trial = trial;
+        Ok(())
+    }
+
+    /// Where interfaces wear.
+    fn places(&self) -> Vec<Vec<Place>> {
+        let interfaces = self.contact.interfaces.iter();
+        let wearing = interfaces.map(|i| match i.wears() {
+            true => i.wear_places(),
+            false => Vec::new(),
+        });
+        wearing.collect()
+    }
+
+    /// By how much a cycle dissipates what the one before did not, place by place and relative to all that it does; `None` of the first.
+    fn judge_block(&self, jumps: &mut Jumps) -> Option<f64> {
+        let rates = difference(&self.taken(), &jumps.start);
+        let known = !jumps.rates.is_empty();
+        let changes = absolute(&rates, &jumps.rates);
+        let sum = |all: &[f64]| all.iter().map(|r| r.abs()).sum::<f64>();
+        let each = changes.iter().zip(&rates).map(|(change, rate)| {
+            let scale = sum(rate);
+            if scale > 0.0 {
+                sum(change) / scale
+            } else {
+                0.0
+            }
+        });
+        let change = each.fold(0.0, f64::max);
+        jumps.rates = rates;
+        known.then_some(change)
     }
 
     /// Goes back to where the block began, which is to stand for so many cycles then.
@@ -198,6 +323,7 @@ impl Simulation {
         if let Some(mut back) = self.steps.running.take() {
             back.jumps.wish = wish.max(1.0);
             back.jumps.rejected += 1;
+            back.jumps.trial = None;
             *running = back;
         }
         Ok(())
@@ -232,7 +358,7 @@ impl Simulation {
         for row in &trying.rows {
             self.tell(observers, || Event::Increment(row))?;
         }
-        if let Some(row) = &trying.cycle {
+        for row in &trying.cycles {
             self.tell(observers, || Event::Cycle(row))?;
         }
         match trying.fields {
@@ -241,4 +367,33 @@ impl Simulation {
         }?;
         self.tell_notes(observers)
     }
+}
+
+/// Cycles of the first of equal blocks that are no longer than wished for.
+fn equal(left: usize, wish: f64) -> usize {
+    let parts = (left as f64 / wish.max(1.0)).ceil().max(1.0) as usize;
+    left.div_ceil(parts)
+}
+
+/// Amounts less others, of which some may not be there yet.
+fn difference(after: &[Vec<f64>], before: &[Vec<f64>]) -> Amounts {
+    let each = after.iter().enumerate().map(|(i, after)| -> Vec<f64> {
+        let own = before.get(i);
+        let places = after.iter().enumerate();
+        let at = |k: usize| own.and_then(|own| own.get(k)).copied().unwrap_or(0.0);
+        places.map(|(k, a)| a - at(k)).collect()
+    });
+    each.collect()
+}
+
+fn absolute(after: &[Vec<f64>], before: &[Vec<f64>]) -> Amounts {
+    let mut out = difference(after, before);
+    out.iter_mut().flatten().for_each(|v| *v = v.abs());
+    out
+}
+
+fn scaled(amounts: &[Vec<f64>], factor: f64) -> Amounts {
+    let each = amounts.iter();
+    each.map(|own| own.iter().map(|v| factor * v).collect())
+        .collect()
 }

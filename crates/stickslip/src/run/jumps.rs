@@ -1,30 +1,62 @@
 //! What is remembered of jumps over cycles from one block to the next.
 
+use super::jump_error::JumpError;
+
+/// By interface and place.
+pub(super) type Amounts = Vec<Vec<f64>>;
+
 /// What is known of the blocks of a step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Jumps {
-    /// The next is to stand for so many cycles.
+    /// The next is to stand for so many cycles; where something wears, it and the one after it together.
     pub wish: f64,
-    /// By interface and place, what had been taken when the block began, and what a cycle of the block before took.
-    pub start: Vec<Vec<f64>>,
-    pub rates: Vec<Vec<f64>>,
-    /// By interface, what cycles of the step have taken in all.
-    pub total: Vec<f64>,
+    /// What had been taken when the block began, and what a cycle of the block before took.
+    pub start: Amounts,
+    pub rates: Amounts,
     /// By how much a cycle of each of the last blocks differed from one of the block before, relative to what it took; no more than three.
     pub changes: Vec<f64>,
     /// Blocks that were kept, and those that were taken back.
     pub kept: usize,
     pub rejected: usize,
+    /// The jump that is tried, where something wears.
+    pub trial: Option<Halved>,
+    /// What the error of the jumps so far comes to.
+    pub made: JumpError,
 }
 
+/// A jump that is tried as a whole and as two halves: what both wear off tells the error.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Halved {
+    /// Cycles that it stands for.
+    pub cycles: usize,
+    /// What the whole wears off.
+    pub whole: Option<Amounts>,
+    /// What the first half wears off, once it is over.
+    pub first: Option<Amounts>,
+}
+
+impl Halved {
+    /// How many cycles each half stands for.
+    pub fn halves(&self) -> [usize; 2] {
+        let first = self.cycles / 2;
+        [first, self.cycles - first]
+    }
+}
+
+crate::keep!(Halved {
+    cycles,
+    whole,
+    first
+});
 crate::keep!(Jumps {
     wish,
     start,
     rates,
-    total,
     changes,
     kept,
-    rejected
+    rejected,
+    trial,
+    made
 });
 
 impl Jumps {

@@ -5,6 +5,7 @@ mod checkpoint;
 mod cycles;
 mod failures;
 mod fallback;
+mod jump_error;
 mod jumps;
 mod modes;
 mod pending;

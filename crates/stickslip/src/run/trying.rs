@@ -1,13 +1,13 @@
-//! A block of cycles that may be taken back.
+//! Blocks of cycles that may be taken back.
 
 use super::checkpoint::Checkpoint;
 use crate::results::history::Row;
 
-/// The block at hand: where it began, and what is to be told when it is over.
+/// The block at hand, or two that are judged together: where they began, and what is to be told when they are over.
 pub(super) struct Trying {
     pub start: Checkpoint,
     pub rows: Vec<Row>,
-    pub cycle: Option<Row>,
+    pub cycles: Vec<Row>,
     pub fields: bool,
 }
 
@@ -17,7 +17,7 @@ impl Trying {
         Trying {
             start,
             rows: Vec::new(),
-            cycle: None,
+            cycles: Vec::new(),
             fields: false,
         }
     }
@@ -28,8 +28,8 @@ impl Trying {
         self.fields |= fields;
     }
 
-    /// Keeps what came of the cycle.
+    /// Keeps what came of a cycle.
     pub fn hold_cycle(&mut self, row: Row) {
-        self.cycle = Some(row);
+        self.cycles.push(row);
     }
 }

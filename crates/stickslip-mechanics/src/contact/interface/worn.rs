@@ -226,6 +226,17 @@ impl Interface {
             .collect()
     }
 
+    /// The places of [`Interface::taken`] where something wears: whether they are on the primary, and their areas `[m²]`.
+    pub fn wear_places(&self) -> Vec<(bool, f64)> {
+        let areas = || self.points.iter().map(|p| p.area * self.share);
+        let own = areas().map(|area| (false, area));
+        let nodes = self.history.traces.iter().zip(&self.hollows.area);
+        let nodes = nodes.map(|(_, area)| (true, *area));
+        own.chain(nodes)
+            .chain(areas().map(|area| (true, area)))
+            .collect()
+    }
+
     /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.
     pub fn skip(&mut self, cycles: f64) {
         self.directives.skipped = cycles;
