@@ -650,3 +650,43 @@ step = [{{ increments.fixed = 20 }}]
         near(value(&row, "ERESIDUAL"), 0.0, 0.02 * energy);
     }
 }
+
+#[test]
+fn a_spring_on_a_reference_point_is_one_however_it_is_given() {
+    let run = |spring: &str| -> f64 {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.follower = {{ generate.rectangle = {{ from = [-0.04, 0.05], to = [0.04, 0.06], cells = [16, 4] }}, material = "m" }}
+material.m.isotropic = {{ young = 2e11, poisson = 0.3, density = 7800 }}
+obstacle.disc.cylinder = {{ centre = [0.01, 0], radius = 0.05 }}
+interface.c = {{ secondary = "follower.bottom", primary = "disc" }}
+reference.stem.point = [0, 0.06]
+coupling.stem.kinematic = {{ reference = "stem", set = "follower.top" }}
+support.stem = {{ set = "stem", x = 0, rotation-z = 0 }}
+load.press = {{ set = "stem", nodal-force.value = [0, -1000.0] }}
+step = [{{ increments.fixed = 2 }}]
+{spring}
+"#
+        );
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        simulation.summary.last["c.CFN2"]
+    };
+    // The disc is far stiffer: it bears the force, whatever the spring.
+    for stiffness in [1e-3, 1.0, 1e3, 1e6] {
+        let load = run(&format!(
+            r#"load.soft = {{ set = "stem", spring.stiffness = [0, {stiffness:?}] }}"#
+        ));
+        let coupling = run(&format!(
+            r#"coupling.soft.spring = {{ stiffness = {stiffness:?}, terms = [{{ set = "stem", component = "y" }}] }}"#
+        ));
+        assert!(
+            (load / coupling - 1.0).abs() < 1e-9,
+            "{stiffness}: {load} {coupling}"
+        );
+        assert!((load / 1000.0 - 1.0).abs() < 1e-2, "{stiffness}: {load}");
+    }
+}

@@ -854,3 +854,39 @@ dynamic.scheme.hht.alpha = -0.05
         assert!(largest > 0.0);
     }
 }
+
+#[test]
+fn the_first_explicit_increment_knows_what_is_in_contact() {
+    // A law a million times as stiff as the cells beneath, at rest.
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.b = { generate.rectangle = { to = [1, 1], cells = [4, 4] }, material = "m" }
+material.m.isotropic = { young = 2e9, poisson = 0.3, density = 7800.0 }
+obstacle.o.plane = { point = [0, 0], normal = [0, 1] }
+interface.f = { secondary = "b.bottom", primary = "o", normal.linear.c = 1e16 }
+support.s = { set = "b.left", x = 0 }
+support.t = { set = "b.top", y = -1e-4 }
+step = [{}, { duration = 5e-5, dynamic.scheme.central-difference = {} }]
+output.every = 0
+"#;
+    let mut record = support::Record::default();
+    let mut simulation = support::build(&support::problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    simulation
+        .run(&mut [&mut record])
+        .unwrap_or_else(|e| panic!("{e}"));
+    let rows: Vec<_> = record.increments.iter().map(|(_, row)| row).collect();
+    let at_rest = rows.iter().rfind(|r| value(r, "STEP") == 1.0);
+    let at_rest = value(at_rest.expect("a row"), "f.CFN2");
+    for row in rows.iter().filter(|r| value(r, "STEP") == 2.0) {
+        let force = value(row, "f.CFN2");
+        assert!((force / at_rest - 1.0).abs() < 1e-3, "{force} {at_rest}");
+    }
+    // By the rows of what springs of 1e16 Pa/m add to points of a quarter of a cell: ω² = c A / m with A = 1/4 and m = ρ/32.
+    let longest = 2.0 / f64::sqrt(1e16 * 0.25 / (7800.0 / 32.0));
+    let stable = simulation.summary.stable_increment;
+    assert!(
+        stable > 0.5 * longest && stable < longest,
+        "{stable} {longest}"
+    );
+}

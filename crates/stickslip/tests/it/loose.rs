@@ -695,3 +695,71 @@ step = [{{ increments.fixed = 2 }}, {{ increments = {{ initial = 0.25, largest =
     assert!(slope > 7.0, "{works:?}");
     assert!((works[2] / far - 1.0).abs() < 1e-3, "{works:?}, {far}");
 }
+
+/// A block that only contact holds, on another, with weight; in metres and seconds.
+fn laid(steps: &str, lift: f64) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.a = {{ generate.rectangle = {{ from = [0, -1], to = [1, 0], cells = [1, 1] }}, material = "m" }}
+body.b = {{ generate.rectangle = {{ to = [1, 1], cells = [1, 1] }}, translate = [0, {lift:?}], material = "m" }}
+material.m.isotropic = {{ young = 2e9, poisson = 0.3, density = 7800.0 }}
+interface.f = {{ secondary = "b.bottom", primary = "a.top" }}
+load.w = {{ set = "b", gravity.acceleration = [0, -10] }}
+support.s = {{ set = "a.bottom", x = 0, y = 0 }}
+quality.gate = "off"
+step = [{steps}]
+"#
+    )
+}
+
+#[test]
+fn what_followed_a_loose_body_at_rest_has_no_part_in_motion() {
+    const REST: &str = "{ duration = 1 }";
+    const MODES: &str = "{ duration = 1, modes = { count = 2 } }";
+    let explicit = "{ duration = 1e-3, dynamic.scheme.central-difference = {} }";
+    let implicit = "{ duration = 1e-3, dynamic.scheme.generalised-alpha = {} }";
+    let weight = 78e3;
+    for steps in [
+        vec![REST, explicit],
+        vec![REST, implicit],
+        vec![REST, MODES, explicit],
+        vec![REST, explicit, REST],
+        vec![REST, implicit, explicit, REST],
+    ] {
+        let text = laid(&steps.join(", "), 0.0);
+        let found = run(&steps.join(" "), &text);
+        let force = found.last("f.CFN2");
+        // A weight that lay still goes on doing so.
+        assert!((force / weight - 1.0).abs() < 0.02, "{steps:?}: {force}");
+        let followed = found.summary.followed;
+        let rests = steps.iter().filter(|s| **s == REST).count();
+        assert!(followed >= 1 && followed <= 20 * rests, "{followed}");
+        // What anchors were left in is not seen in motion.
+        let mut simulation = simulation(&text);
+        while simulation
+            .advance(&mut [])
+            .unwrap_or_else(|e| panic!("{e}"))
+        {
+            let step = simulation.frame.step;
+            let moves = steps[step] == explicit || steps[step] == implicit;
+            let notes = &simulation.summary.notes;
+            assert!(
+                !moves || !notes.iter().any(|n| n.contains("moved without strain")),
+                "{notes:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_body_that_fell_explicitly_is_followed_at_rest() {
+    let explicit = "{ duration = 1e-3, dynamic.scheme.central-difference = {} }";
+    let found = run(
+        "fall, rest",
+        &laid(&format!("{explicit}, {{ duration = 1 }}"), 0.01),
+    );
+    let force = found.last("f.CFN2");
+    assert!((force / 78e3 - 1.0).abs() < 1e-6, "{force}");
+}

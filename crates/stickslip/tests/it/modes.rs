@@ -83,7 +83,10 @@ fn solved(n: usize, a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
 
 /// All eigenvalues of `λ² M + λ C + K` that do not lie below the real axis, by dense matrices alone.
 fn companion(outcome: &ModalOutcome) -> Vec<[f64; 2]> {
-    let (n, [k, c, m]) = matrices(outcome);
+    companion_of(matrices(outcome))
+}
+
+fn companion_of((n, [k, c, m]): (usize, [Vec<f64>; 3])) -> Vec<[f64; 2]> {
     let (k, c) = (solved(n, &m, &k, n), solved(n, &m, &c, n));
     let mut a = vec![0.0; 4 * n * n];
     for i in 0..n {
@@ -1036,4 +1039,205 @@ fn friction_damps_what_moves_across_the_sliding() {
     );
     near(growth, 0.0, 1e-9);
     near(omega, 10.0, 1e-9);
+}
+
+/// A rigid block of mass 1 that may move along x and, without turning, along y.
+fn upright(more: &str) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.mass = {{ rigid = true, generate.rectangle = {{ from = [-0.5, 0], to = [0.5, 0.2], cells = [1, 1] }}, material = "any" }}
+material.any.isotropic = {{ young = 1e6, poisson = 0, density = 5 }}
+set.a = {{ of = "mass", point = [-0.5, 0] }}
+set.b = {{ of = "mass", point = [0.5, 0] }}
+coupling.upright.equation.terms = [{{ set = "a", component = "y" }}, {{ set = "b", component = "y", factor = -1 }}]
+coupling.kx.spring = {{ stiffness = 100.0, terms = [{{ set = "a", component = "x" }}] }}
+output.every = 0
+{more}
+"#
+    )
+}
+
+#[test]
+fn equations_on_rigid_bodies_leave_as_many_modes_as_freedoms() {
+    let spring =
+        r#"coupling.ky.spring = { stiffness = 400.0, terms = [{ set = "b", component = "y" }] }"#;
+    let outcome = modes(&upright(&format!(
+        "{spring}\n[[step]]\nmodes = {{ count = 4 }}"
+    )));
+    assert_eq!(outcome.modes.len(), 2);
+    for (mode, omega) in outcome.modes.iter().zip([10.0, 20.0]) {
+        near(TAU * mode.frequency, omega, 1e-10 * omega);
+        // What does not turn moves alike everywhere.
+        let shape = &mode.shape[0];
+        near(shape[1], shape[3], 1e-12);
+        near(mode.effective_mass.iter().take(2).sum(), 1.0, 1e-10);
+    }
+    // Twice the same equation says it once.
+    let twice = r#"coupling.again.equation.terms = [{ set = "b", component = "y", factor = 3 }, { set = "a", component = "y", factor = -3 }]"#;
+    let outcome = modes(&upright(&format!(
+        "{spring}\n{twice}\n[[step]]\nmodes = {{ count = 4 }}"
+    )));
+    assert_eq!(outcome.modes.len(), 2);
+    // The answer to a force is that of one mass on a spring: at resonance the dashpot alone resists.
+    let shaken = r#"coupling.d.dashpot = { coefficient = 2.0, terms = [{ set = "b", component = "y" }] }
+load.shake = { set = "a", nodal-force.value = [0, 3.0] }
+probe.b = { of = "mass", point = [0.5, 0] }
+[[step]]
+loads = []
+[[step]]
+harmonic = { loads = ["shake"], frequencies = [3.183098861837907] }"#;
+    let outcome = modes(&upright(&format!("{spring}\n{shaken}")));
+    let response = outcome.response.expect("an answer");
+    let [re, im] = response.rows[0].values[1];
+    near(re.hypot(im), 3.0 / (2.0 * 20.0), 1e-9);
+}
+
+#[test]
+fn equations_on_rigid_bodies_that_slide_make_no_mode_of_their_own() {
+    let more = r#"
+obstacle.belt.plane = { point = [0, 0], normal = [0, 1] }
+load.press = { set = "mass.top", pressure = { value = 10 } }
+coupling.d.dashpot = { coefficient = 2.0, terms = [{ set = "a", component = "x" }] }
+interface.rub = { secondary = "mass.bottom", primary = "belt", normal.linear = { c = 1e4 }, friction.stribeck = { static = 0.5, kinetic = 0.3, velocity = 0.1 }, primary-velocity = [0.1, 0] }
+step = [{ name = "slide", steady = {} }, { complex-modes = { count = 4 } }]
+"#;
+    let outcome = modes(&upright(more));
+    assert_eq!(outcome.modes.len(), 2);
+    // Friction that falls with speed, N dμ/dv = -10 · 2 / e, is a damping beside that of the dashpot.
+    let damping = 2.0 - 20.0 / std::f64::consts::E;
+    let growth = -0.5 * damping;
+    near(outcome.modes[0].growth, growth, 1e-8);
+    let omega = (100.0 - growth * growth).sqrt();
+    near(TAU * outcome.modes[0].frequency, omega, 1e-7);
+    near(TAU * outcome.modes[1].frequency, 100.0, 1e-6);
+    near(outcome.modes[1].growth, 0.0, 1e-9);
+}
+
+#[test]
+fn a_cell_whose_points_follow_a_reference_is_a_rigid_body() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.cell = { generate.rectangle = { from = [-0.5, -0.1], to = [0.5, 0.1], cells = [1, 1] }, material = "m" }
+material.m.isotropic = { young = 1e3, poisson = 0.3, density = 5 }
+reference.middle.point = [0, 0]
+coupling.all.kinematic = { reference = "middle", set = "cell" }
+set.a = { of = "cell", point = [-0.5, -0.1] }
+set.b = { of = "cell", point = [0.5, -0.1] }
+coupling.ya.spring = { stiffness = 50.0, terms = [{ set = "a", component = "y" }] }
+coupling.yb.spring = { stiffness = 50.0, terms = [{ set = "b", component = "y" }] }
+coupling.x.spring = { stiffness = 400.0, terms = [{ set = "middle", component = "x" }] }
+output.every = 0
+step = [{ modes = { count = 10 } }]
+"#;
+    let outcome = modes(text);
+    assert_eq!(outcome.modes.len(), 3);
+    // Mass 1; moments of inertia of a rectangle, 1.04 / 12, on two springs half a length to each side.
+    let turning = f64::sqrt(2.0 * 50.0 * 0.25 / (1.04 / 12.0));
+    for (mode, omega) in outcome.modes.iter().zip([10.0, turning, 20.0]) {
+        near(TAU * mode.frequency, omega, 1e-9 * omega);
+    }
+    let total: f64 = outcome.modes.iter().map(|m| m.effective_mass[0]).sum();
+    near(total, outcome.masses[0], 1e-10);
+}
+
+/// Matrices of all dofs as those of the dofs that are left by equations `x[i] = Σ a x[j]`, by dense products.
+fn left_by(
+    (n, all): (usize, [Vec<f64>; 3]),
+    equations: &[(usize, Vec<(usize, f64)>)],
+) -> (usize, [Vec<f64>; 3]) {
+    let kept: Vec<usize> = (0..n)
+        .filter(|i| equations.iter().all(|(dof, _)| dof != i))
+        .collect();
+    let m = kept.len();
+    let mut t = vec![0.0; n * m];
+    for (column, &dof) in kept.iter().enumerate() {
+        t[dof * m + column] = 1.0;
+    }
+    for (dof, row) in equations {
+        for &(other, a) in row {
+            let column = kept.iter().position(|k| *k == other).expect("it is kept");
+            t[dof * m + column] = a;
+        }
+    }
+    let reduced = all.map(|a| {
+        let mut out = vec![0.0; m * m];
+        for i in 0..n {
+            for j in 0..n {
+                for p in (0..m).filter(|p| t[i * m + p] != 0.0) {
+                    for q in (0..m).filter(|q| t[j * m + q] != 0.0) {
+                        out[p * m + q] += t[i * m + p] * a[i * n + j] * t[j * m + q];
+                    }
+                }
+            }
+        }
+        out
+    });
+    (m, reduced)
+}
+
+#[test]
+fn equations_between_points_leave_the_modes_of_dense_matrices_without_them() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.pad = { generate.rectangle = { to = [1, 0.3], cells = [3, 2] }, material = "m", rayleigh = { mass = 0.05, stiffness = 1e-4 } }
+material.m.isotropic = { young = 1e3, poisson = 0.3, density = 2.0 }
+obstacle.belt.plane = { point = [0, 0], normal = [0, 1] }
+interface.rub = { secondary = "pad.bottom", primary = "belt", normal.linear = { c = 1e4 }, friction.coulomb = { mu = 0.6 }, primary-velocity = [0.1, 0] }
+support.back = { set = "pad.right", x = 0 }
+load.press = { set = "pad.top", pressure = { value = 1 } }
+set.p = { of = "pad", point = [0, 0.3] }
+set.q = { of = "pad", point = [0.66666667, 0.3] }
+set.r = { of = "pad", point = [0, 0] }
+coupling.one.equation.terms = [{ set = "p", component = "x", factor = 2 }, { set = "q", component = "y", factor = 0.7 }, { set = "r", component = "x", factor = -0.4 }]
+coupling.two.equation.terms = [{ set = "r", component = "y" }, { set = "p", component = "y", factor = -1.5 }]
+output.every = 0
+step = [
+    { steady = {}, couplings = [] },
+    { complex-modes = { count = 1, export = true }, couplings = [] },
+    { complex-modes = { count = 12 }, couplings = ["one", "two"] },
+]
+"#;
+    let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let (free, bound) = (&simulation.modes[0], &simulation.modes[1]);
+    let (_, numbers) = dense(free, "dofs");
+    let points = &simulation.model.mesh.points;
+    let unknown = |x: [f64; 2], component: usize| -> usize {
+        let away = |p: &[f64; 3]| (p[0] - x[0]).hypot(p[1] - x[1]);
+        let mut all = 0..points.len();
+        let point = all.find(|i| away(&points[*i]) < 1e-6).expect("a point");
+        let dof = simulation.model.dofs.of(point, component) as f64;
+        numbers.iter().position(|n| *n == dof).expect("an unknown")
+    };
+    let [p, q, r] = [[0.0, 0.3], [2.0 / 3.0, 0.3], [0.0, 0.0]];
+    let equations = [
+        (
+            unknown(p, 0),
+            vec![(unknown(q, 1), -0.35), (unknown(r, 0), 0.2)],
+        ),
+        (unknown(r, 1), vec![(unknown(p, 1), 1.5)]),
+    ];
+    let exact = companion_of(left_by(matrices(free), &equations));
+    assert_eq!(bound.modes.len(), 12);
+    for (mode, [growth, omega]) in bound.modes.iter().zip(&exact) {
+        let size = growth.hypot(*omega);
+        let ours = [mode.growth, TAU * mode.frequency];
+        let off = (ours[0] - growth).hypot(ours[1] - omega);
+        let nearest = exact
+            .iter()
+            .map(|z| (ours[0] - z[0]).hypot(ours[1] - z[1]))
+            .fold(off, f64::min);
+        assert!(nearest < 1e-8 * size, "{ours:?}: {nearest:e}");
+        assert!(mode.residual < 1e-8, "{:e}", mode.residual);
+        // Shapes obey the equations.
+        for shape in &mode.shape {
+            let at = |x, c| shape[numbers[unknown(x, c)] as usize];
+            near(2.0 * at(p, 0) + 0.7 * at(q, 1) - 0.4 * at(r, 0), 0.0, 1e-12);
+            near(at(r, 1) - 1.5 * at(p, 1), 0.0, 1e-12);
+        }
+    }
 }

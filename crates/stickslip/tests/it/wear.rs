@@ -550,3 +550,42 @@ step = [{{ supports = ["press"], increments.fixed = 1 }}, {{ supports = ["push"]
     assert!(fast("base.CWEARMAX") > 0.0 && fast("base.CFN2") < 0.9 * slow("base.CFN2"));
     assert!((slow("base.CFN2") / plain("base.CFN2") - 1.0).abs() < 1e-2);
 }
+
+#[test]
+fn explicit_wear_beyond_its_limit_is_above_the_limit_of_the_gate() {
+    let run = |times: f64| -> Simulation {
+        // The way up to which 16 points on a layer are stable, as it is told.
+        let limit = 4.0 / 16.0 / (std::f64::consts::PI * 1.0 / 0.91);
+        let way = times * limit;
+        let text = format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.layer = {{ generate.rectangle = {{ from = [0, -1], to = [1, 0], cells = [16, 8] }}, material = "m" }}
+material.m.isotropic = {{ young = 1.0, poisson = 0.3 }}
+obstacle.flat.plane = {{ point = [0, 0], normal = [0, -1] }}
+interface.c = {{ secondary = "layer.top", primary = "flat", wear.archard = {{ coefficient = 1.0 }}, wear-feedback = "explicit", primary-velocity-table = [[1, 0, 0], [1.0000001, {speed:?}, 0], [3, {speed:?}, 0]] }}
+support.side = {{ set = "layer.bottom", x = 0 }}
+support.bottom = {{ set = "layer.bottom", y = 1e-3 }}
+step = [{{ increments.fixed = 1 }}, {{ increments.fixed = 4 }}]
+output.every = 0
+"#,
+            speed = 4.0 * way
+        );
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        simulation
+    };
+    for times in [0.5, 3.0] {
+        let simulation = run(times);
+        let figures = &simulation.summary.quality.figures;
+        let figure = figures.iter().find(|f| f.figure == "explicit-wear");
+        let figure = figure.expect("it is judged");
+        assert!(
+            (figure.value / times - 1.0).abs() < 1e-3,
+            "{times}: {figure:?}"
+        );
+        assert_eq!(figure.met, times < 1.0);
+        assert_eq!(simulation.summary.quality.failed(), times > 1.0);
+    }
+}
