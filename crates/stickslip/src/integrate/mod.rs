@@ -43,4 +43,5 @@ pub(crate) mod integrator;
 pub(crate) mod onset;
 pub(crate) mod quasi_static;
 mod sight;
+mod supports;
 pub(crate) mod turning;

@@ -1,6 +1,7 @@
 //! Quasi-static increments.
 
 use super::integrator::Integrator;
+use super::supports::turn_with_supports;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -38,6 +39,7 @@ impl Integrator for QuasiStatic {
             return solver.attempt_condensed(model, contact, (external, constraints), trial);
         }
         let mut at = frame.extrapolated(trial);
+        turn_with_supports(model, &frame.state.u, &constraints, &mut at.u);
         let fixed = constraints.fixed.clone();
         let task = Task {
             load: Load::External(external.clone()),

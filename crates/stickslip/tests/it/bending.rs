@@ -256,3 +256,61 @@ fn runs_with_bodies_that_bend_go_on_where_they_stopped() {
     assert!(pressed.count() > 2, "it never touches");
     restart::check("strip", &support::problem(&text), Path::new("."), 4);
 }
+
+/// Two blocks that are pressed on each other and then turned as one by an angle in each step, by what supports prescribe for their far ends.
+fn turned_as_one(angle: f64, turns: usize) -> String {
+    let mut text = r#"format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { from = [-1, -0.5], to = [1, 0], cells = [5, 2] }, material = "m", formulation = "incompatible-modes", rotation = "corotational" }
+body.upper = { generate.rectangle = { from = [-0.6, 0], to = [0.6, 0.9], cells = [7, 3] }, material = "m", formulation = "incompatible-modes", rotation = "corotational" }
+material.m.isotropic = { young = 4000, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.3 }
+"#
+    .to_string();
+    let lower = (0..=5).map(|k| [-1.0 + 0.4 * f64::from(k), -0.5]);
+    let upper = (0..=7).map(|k| [-0.6 + 1.2 / 7.0 * f64::from(k), 0.9]);
+    let held = lower
+        .map(|x| (x, "lower", 0.0))
+        .chain(upper.map(|x| (x, "upper", -4e-3)));
+    let mut steps = vec![String::new(); turns + 1];
+    for (p, (x, body, way)) in held.enumerate() {
+        text += &format!("set.q{p} = {{ of = \"{body}\", point = {x:?} }}\n");
+        for (k, list) in steps.iter_mut().enumerate() {
+            let (s, c) = (k as f64 * angle).sin_cos();
+            let y = x[1] + way;
+            let moved = [c * x[0] - s * y - x[0], s * x[0] + c * y - x[1]];
+            text += &format!(
+                "support.s{k}-{p} = {{ set = \"q{p}\", x = {}, y = {} }}\n",
+                moved[0], moved[1]
+            );
+            list.push_str(&format!("\"s{k}-{p}\", "));
+        }
+    }
+    let steps: Vec<String> = (steps.iter())
+        .map(|list| format!("{{ increments.fixed = 1, supports = [{list}] }}"))
+        .collect();
+    text + &format!("step = [{}]\n", steps.join(", "))
+}
+
+#[test]
+fn what_supports_turn_is_expected_to_turn_with_them() {
+    let record = run(&turned_as_one(0.19, 3));
+    let all = &record.increments;
+    assert_eq!((all.len(), record.cutbacks), (4, 0));
+    let force = |row: &support::Row| {
+        let of = |name: &str| row.get(name).expect("a force");
+        of("joint.CFN1").hypot(of("joint.CFN2"))
+    };
+    let pressed = force(&all[0].1);
+    for (_, row) in &all[1..] {
+        // The turned state is a solution, and next to nothing is to be done to it.
+        assert!(
+            (force(row) / pressed - 1.0).abs() < 1e-6,
+            "{} for {pressed}",
+            force(row)
+        );
+        assert_eq!(row.get("SLIP"), Some(0.0));
+        let iterations = row.get("ITRS").expect("a count");
+        assert!(iterations <= 8.0, "{iterations}");
+    }
+}
