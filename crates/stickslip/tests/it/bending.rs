@@ -314,3 +314,36 @@ fn what_supports_turn_is_expected_to_turn_with_them() {
         assert!(iterations <= 8.0, "{iterations}");
     }
 }
+
+/// A strip that is clamped at its left end, and a block whose left edge presses it down near the other. Roles as named.
+fn edge_on_strip(sides: [&str; 2]) -> String {
+    format!(
+        r#"format = 1
+model.space = "plane-stress"
+body.strip = {{ generate.rectangle = {{ to = [10, 0.5], cells = [20, 2] }}, material = "s", formulation = "incompatible-modes", rotation = "corotational" }}
+body.block = {{ generate.rectangle = {{ from = [8.4, 0.5], to = [9.4, 1], cells = [2, 1] }}, material = "h", formulation = "incompatible-modes", rotation = "corotational" }}
+material.s.isotropic = {{ young = 200000, poisson = 0.3 }}
+material.h.isotropic = {{ young = 2000000, poisson = 0.3 }}
+interface.i = {{ secondary = "{}", primary = "{}", normal.linear.c = 1e6, roles = "as-named" }}
+support.fix = {{ set = "strip.left", x = 0, y = 0 }}
+support.push = {{ set = "block.top", x = 0, y = -1 }}
+step = [{{ increments.fixed = 10 }}]
+"#,
+        sides[0], sides[1]
+    )
+}
+
+#[test]
+fn an_edge_of_the_primary_presses_along_the_normal_of_what_it_presses() {
+    let force = |sides: [&str; 2]| {
+        let record = run(&edge_on_strip(sides));
+        ["i.CFN1", "i.CFN2"].map(|name| last(&record, name))
+    };
+    // The elastica with shear and axial strain has (1.84, 10.26) on the block.
+    let [x, y] = force(["strip.top", "block.bottom"]);
+    assert!((x / -1.84 - 1.0).abs() < 0.05, "{x}");
+    assert!((y / -10.26 - 1.0).abs() < 0.03, "{y}");
+    let [x, y] = force(["block.bottom", "strip.top"]);
+    assert!((x / 1.84 - 1.0).abs() < 0.05, "{x}");
+    assert!((y / 10.26 - 1.0).abs() < 0.03, "{y}");
+}

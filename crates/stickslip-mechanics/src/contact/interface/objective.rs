@@ -169,6 +169,7 @@ fn drum(
             positive_areas(kind, &x, |_| 1.0).iter().sum()
         },
         held: vec![false; nodes.len()],
+        continues: Vec::new(),
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));

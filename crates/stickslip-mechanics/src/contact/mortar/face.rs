@@ -1,6 +1,9 @@
 //! The secondary as faces.
 
-use crate::math::Vec3;
+use std::collections::BTreeMap;
+
+use crate::contact::surface::edges;
+use crate::math::{Vec3, dot};
 use crate::shape::ElementKind;
 
 /// Most nodes of a face.
@@ -25,6 +28,8 @@ pub struct Face {
     pub area: f64,
     /// Whether the motion of each node that contact would change is prescribed in some step, or follows from that of others.
     pub held: Vec<bool>,
+    /// For each edge (3D) or end (2D), whether the surface goes smoothly on beyond it; [`Mortar::new`] finds out.
+    pub continues: Vec<bool>,
 }
 
 /// The secondary as faces.
@@ -38,7 +43,8 @@ pub struct Mortar {
 
 impl Mortar {
     /// From faces, for this many contact points.
-    pub fn new(faces: Vec<Face>, points: usize) -> Self {
+    pub fn new(mut faces: Vec<Face>, points: usize) -> Self {
+        connect(&mut faces);
         let mut around = vec![Vec::new(); points];
         for (f, face) in faces.iter().enumerate() {
             for (a, &point) in face.points.iter().enumerate() {
@@ -46,5 +52,37 @@ impl Mortar {
             }
         }
         Mortar { faces, around }
+    }
+}
+
+/// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are averaged where the surface is smooth.
+const SMOOTH: f64 = 0.999;
+
+/// Finds out which edges are shared with a face that goes smoothly on.
+fn connect(faces: &mut [Face]) {
+    let mut known: BTreeMap<Vec<usize>, Vec<(usize, usize)>> = BTreeMap::new();
+    for (f, face) in faces.iter_mut().enumerate() {
+        face.continues = vec![false; edges(face.kind).len()];
+        for (e, corners) in edges(face.kind).iter().enumerate() {
+            let mut key: Vec<usize> = corners.iter().map(|&k| face.nodes[k]).collect();
+            key.sort_unstable();
+            known.entry(key).or_default().push((f, e));
+        }
+    }
+    let normal = |faces: &[Face], f: usize, node: usize| {
+        let face = &faces[f];
+        let at = face.nodes.iter().position(|&n| n == node);
+        at.and_then(|k| face.normals.get(k).copied())
+    };
+    for (nodes, sides) in &known {
+        let [(f, e), (g, h)] = sides[..] else {
+            continue;
+        };
+        let smooth = nodes.iter().all(|&node| {
+            let both = normal(faces, f, node).zip(normal(faces, g, node));
+            both.is_some_and(|(a, b)| dot(a, b) > SMOOTH)
+        });
+        faces[f].continues[e] = smooth;
+        faces[g].continues[h] = smooth;
     }
 }

@@ -6,6 +6,7 @@ use super::integral::FaceIntegral;
 use super::interval::Interval;
 use super::merge::Merged;
 use super::plane::Plane;
+use super::rim::{self, Rim};
 use super::sides::Sides;
 use super::sum::sum;
 use super::view::{Sample, View, Wall, gather, looks_back};
@@ -67,6 +68,8 @@ fn meet<W: Window>(
     scratch: &mut Scratch,
     out: &mut FaceIntegral,
 ) {
+    let own = Patch::new(view.face.kind, &view.x[..view.face.nodes.len()]);
+    let outward = rim::normal(&own).unwrap_or(normal);
     for &f in candidates {
         let facet = &sides.facets[f];
         let x = gather(&facet.nodes, sides.x);
@@ -88,8 +91,16 @@ fn meet<W: Window>(
             let piece = *known.get_or_insert_with(|| out.piece_of(f));
             let centre = facet.kind.centre();
             let mut start = [centre[0], centre[1]];
+            let rim = Rim {
+                face: view.face,
+                x: &view.x[..view.face.nodes.len()],
+                outward,
+                sides,
+                candidates,
+                facet: f,
+            };
             window.places(&part, facet.kind, &mut |xi, w| {
-                let met = (piece, &patch, &wall);
+                let met = (piece, &patch, (&wall, &rim));
                 view.sample((xi, w), met, &mut start, &mut scratch.samples);
             });
         }

@@ -140,6 +140,7 @@ mod tests {
             areas: vec![0.5; 2],
             area: 1.0,
             held: held.to_vec(),
+            continues: Vec::new(),
         }
     }
 

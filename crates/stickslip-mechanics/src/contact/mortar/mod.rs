@@ -12,7 +12,7 @@
 //! patch tests pass on any pair of meshes.
 //!
 //! The gradient of the gap is that of the integral at fixed places of the secondary. What moves with the cuts drops out, as the integrand is
-//! continuous across them. The change of the gradient itself, of the size of pressure over modulus, is left out of the tangent.
+//! continuous across them, but for the cut where the primary ends: there the gradient is that of an edge over a face (`rim`). The change of the gradient itself, of the size of pressure over modulus, is left out of the tangent.
 
 mod cells;
 mod clip;
@@ -24,6 +24,7 @@ mod integrate;
 mod interval;
 mod merge;
 mod plane;
+mod rim;
 mod rules;
 mod sides;
 mod sum;

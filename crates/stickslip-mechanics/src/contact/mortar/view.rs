@@ -3,6 +3,7 @@
 use super::clip::Point;
 use super::dual::positive;
 use super::face::{FACE_NODES, Face};
+use super::rim::Rim;
 use crate::contact::projection::Patch;
 use crate::math::{Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, sub};
 use crate::shape::ElementKind;
@@ -170,7 +171,7 @@ impl View<'_> {
     pub fn sample(
         &self,
         (xi, w): (Point, f64),
-        (piece, facet, wall): (usize, &Patch, &Wall),
+        (piece, facet, (wall, rim)): (usize, &Patch, (&Wall, &Rim)),
         start: &mut Point,
         out: &mut Vec<Sample>,
     ) {
@@ -209,7 +210,7 @@ impl View<'_> {
             opposite,
             place: *start,
             gap,
-            direction: m.map(|m| m / facing),
+            direction: rim.direction((from, normal), (add_scaled(from, gap, normal), m)),
         });
     }
 

@@ -369,6 +369,7 @@ impl Surfaces<'_> {
                 area: areas.iter().sum(),
                 held: vec![false; nodes.len()],
                 areas: areas.clone(),
+                continues: Vec::new(),
             };
             for (a, area) in areas.iter().enumerate() {
                 let own = heir(nodes, &x, without, a);
