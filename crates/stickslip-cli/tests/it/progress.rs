@@ -64,7 +64,7 @@ interface base at time 1, forces on its secondary
   contact area   0.04
   points         3 stick, 2 slip, 0 open
   friction work  0.1813
-quality: all 14 limits are kept; nearest: oscillation of interface base, 0.013 of 0.25
+quality: all 15 limits are kept; nearest: oscillation of interface base, 0.013 of 0.25
 results in case.out
   stickslip plot case.out      a picture
   stickslip report case.out    all of it, as a page to browse

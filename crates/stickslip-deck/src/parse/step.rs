@@ -198,7 +198,7 @@ impl Reader<'_> {
         if self.deck.steps.len() > 1 {
             self.note(
                 card.place,
-                "*FREQUENCY: vibrations about the state of the step before, with its closed contacts; stress does not stiffen bodies, as strains are small",
+                "*FREQUENCY: vibrations about the state of the step before, with its closed contacts; stress does not stiffen bodies. The run says what it would do to the frequencies, and ends with exit code 2 where that is more than a twentieth",
             );
         }
         let count = asked.clamp(1.0, 1e6) as usize;

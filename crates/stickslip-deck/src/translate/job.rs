@@ -33,6 +33,8 @@ pub(super) struct Job<'a> {
     pub(super) shaking: Vec<(String, Part, Vec<bool>)>,
     /// Starts and lengths of the steps.
     pub(super) spans: Vec<[f64; 2]>,
+    /// Whether the deck asks for large strains (`NLGEOM`), and bodies do not turn: how large they become has to be judged.
+    pub(super) strains: bool,
 }
 
 impl<'a> Job<'a> {
@@ -58,6 +60,7 @@ impl<'a> Job<'a> {
             part: Part::Lasting,
             shaking: Vec::new(),
             spans: spans.collect(),
+            strains: false,
         }
     }
 

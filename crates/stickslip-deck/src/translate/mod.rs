@@ -77,6 +77,7 @@ impl Deck {
         quality(&mut job);
         steps::write(&mut job);
         unprinted(&mut job, &bodies);
+        modal_output(&mut job);
         job.out.tables(sets.tables());
         if !job.errors.is_empty() {
             return Err(job.failed());
@@ -118,17 +119,53 @@ impl Deck {
     }
 }
 
-/// Limits of the gate that do not hold where the deck gives springs of its own.
+/// Limits of the gate that do not hold where the deck gives springs of its own, and those that the deck asks for.
 fn quality(job: &mut Job) {
     let (stick, soft) = (deck_has_stick(job.deck), contact::ties_by_springs(job.deck));
+    let mut lines = Vec::new();
     if stick || soft {
         // The slip and the stretch of springs that the deck gives are no errors of the solution.
-        job.out.line("");
-        job.out.line("[quality]");
-        job.out.line("false-slip = 1e300");
+        lines.push("false-slip = 1e300");
     }
     if soft {
-        job.out.line("penetration-to-approach = 1e300");
+        lines.push("penetration-to-approach = 1e300");
+    }
+    if job.strains {
+        lines.push("strain = 0.05");
+    }
+    if !lines.is_empty() {
+        job.out.line("");
+        job.out.line("[quality]");
+    }
+    lines.into_iter().for_each(|line| job.out.line(line));
+}
+
+/// What steps that look for modes ask to be printed and written: modes have files of their own.
+fn modal_output(job: &mut Job) {
+    let steps = job.deck.steps.iter();
+    let modal: Vec<_> = steps.filter(|s| s.is_modal() && !s.is_harmonic()).collect();
+    for step in modal {
+        let mut asked = Vec::new();
+        let prints = |nodes: bool| {
+            let mut all = step.prints.iter();
+            all.any(|p| matches!(p, Print::Node { .. }) == nodes)
+        };
+        if prints(true) {
+            asked.push("*NODE PRINT");
+        }
+        if prints(false) {
+            asked.push("*EL PRINT, *CONTACT PRINT or *SECTION PRINT");
+        }
+        if !step.filed.is_empty() {
+            asked.push("*NODE FILE, *EL FILE or *CONTACT FILE");
+        }
+        if !asked.is_empty() {
+            let message = format!(
+                "{}: left out in a step that looks for modes, of which nothing goes to the .dat and .frd files",
+                asked.join(", ")
+            );
+            job.warn(step.place, message, "frequencies and shapes are in modes-N.csv and modes-N.pvd of the results, N the number of the step");
+        }
     }
 }
 

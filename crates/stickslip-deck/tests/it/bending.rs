@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::{run, translate};
+use stickslip::results::{Analysis, Event, Observer};
+
+use crate::support::{run, run_before, translate};
 
 /// Cells along the bar, and its length; it is one wide and high.
 const CELLS: usize = 40;
@@ -117,4 +119,75 @@ fn what_cannot_turn_yet_is_told() {
     let both = format!("{text}*STEP\n*FREQUENCY\n2\n*END STEP\n")
         .replace("*ELASTIC", "*DENSITY\n7.8E-9\n*ELASTIC");
     assert!(!translate(&both).toml.contains("rotation"));
+}
+
+/// A cube that is drawn out, under `NLGEOM`, with these cards before and steps after.
+fn drawn(by: f64, before: &str, after: &str) -> String {
+    format!(
+        "*NODE, NSET=NALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT, TYPE=C3D8, ELSET=EALL\n1,1,2,3,4,5,6,7,8\n\
+         *NSET, NSET=BOT\n1,2,3,4\n*NSET, NSET=TOP\n5,6,7,8\n*MATERIAL, NAME=M\n*ELASTIC\n200000.,0.\n*EXPANSION\n1.E-5\n*DENSITY\n7.8E-9\n\
+         *SOLID SECTION, ELSET=EALL, MATERIAL=M\n*BOUNDARY\nBOT,1,3\nTOP,1,2\n{before}*STEP, NLGEOM\n*STATIC\n1.,1.\n*BOUNDARY\nTOP,3,3,{by}\n*END STEP\n{after}"
+    )
+}
+
+#[test]
+fn strains_are_judged_where_nlgeom_falls_back_to_small_rotations() {
+    let frequency = "*STEP\n*FREQUENCY\n2\n*END STEP\n";
+    let warm = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL,0.\n";
+    // Warm by 1e-5 only: what is thermal is no strain here, and next to nothing.
+    for (name, before, after) in [("drawn-modes", "", frequency), ("drawn-warm", warm, "")] {
+        for (by, met) in [(0.4, false), (0.02, true)] {
+            let mut text = drawn(by, before, after);
+            if !before.is_empty() {
+                text = text.replace("*END STEP", "*TEMPERATURE\nNALL,1.\n*END STEP");
+            }
+            let toml = translate(&text).toml;
+            assert!(toml.contains("strain = 0.05"), "{toml}");
+            let mut judged = Judged::default();
+            run_before(name, &text, Some(&mut judged));
+            let (value, kept) = judged.strain.expect("judged");
+            assert!((value / by - 1.0).abs() < 1e-3, "{value}");
+            assert_eq!(kept, met, "{name} {by}");
+        }
+    }
+    // Where nothing is asked for, linear theory is what is meant.
+    let linear = drawn(0.4, "", frequency).replace(", NLGEOM", "");
+    assert!(!translate(&linear).toml.contains("strain"));
+}
+
+/// The strain of the first body, and whether its limit is kept.
+#[derive(Default)]
+struct Judged {
+    strain: Option<(f64, bool)>,
+}
+
+impl Observer for Judged {
+    fn see(&mut self, analysis: &Analysis, _: Event) -> Result<(), stickslip::Error> {
+        let figures = analysis.summary.quality.figures.iter();
+        let strain = figures.into_iter().find(|f| f.figure == "strain");
+        self.strain = strain.map(|f| (f.value, f.met)).or(self.strain);
+        Ok(())
+    }
+}
+
+#[test]
+fn what_a_step_that_looks_for_modes_does_not_print_is_told() {
+    let asked = "*NODE PRINT, NSET=TOP\nU\n*NODE FILE\nU\n";
+    let text = drawn(
+        0.01,
+        "",
+        &format!("*STEP\n*FREQUENCY\n2\n{asked}*END STEP\n"),
+    );
+    let notes: Vec<String> = translate(&text)
+        .notes
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let told = notes
+        .iter()
+        .filter(|n| n.contains("*NODE PRINT") && n.contains("*NODE FILE"));
+    assert_eq!(told.count(), 1, "{notes:?}");
+    let silent = drawn(0.01, "", "*STEP\n*FREQUENCY\n2\n*END STEP\n");
+    let notes = translate(&silent).notes;
+    assert!(notes.iter().all(|n| !n.to_string().contains(".frd")));
 }

@@ -24,6 +24,7 @@ mod medium;
 mod moments;
 mod operator;
 mod portion;
+mod prestress;
 mod recover;
 mod redistribution;
 mod rigid;

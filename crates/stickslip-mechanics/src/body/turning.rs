@@ -15,6 +15,8 @@ use crate::shape::QuadraturePoint;
 pub struct Turning {
     /// As a whole, by the mean of its displacement gradient `[rad]`.
     pub mean: f64,
+    /// The same as the rotation vector of the linear theory `[rad]`.
+    pub vector: Vec3,
     /// The cell that has turned most, by its gradient at the centre `[rad]`.
     pub largest: f64,
     /// That cell.
@@ -78,25 +80,27 @@ impl Elastic {
             }
         }
         let volume = volume.max(f64::MIN_POSITIVE);
-        turning.mean = rotation_of(&mean.map(|row| row.map(|g| g / volume)));
+        let mean = mean.map(|row| row.map(|g| g / volume));
+        turning.mean = rotation_of(&mean);
+        turning.vector = axial(&mean);
         turning
     }
 
-    /// How much the body is strained at the displacements `u` `[m]`, where its energy is: the root of the mean square of the strain, `√(ε:ε)`, weighted with the energy of the
+    /// How much the body is strained, thermal strains apart, where its energy is: the root of the mean square of the strain, `√(ε:ε)`, weighted with the energy of the
     /// cells. Cells at corners where a strain has no limit count for no more than they store.
-    pub fn strain_level(&self, u: &[f64]) -> f64 {
-        let mut sums = [0.0; 2];
+    pub fn strain_level<'a>(&self, at: impl Into<At<'a>>) -> f64 {
+        let (at, mut sums) = (at.into(), [0.0; 2]);
         for (part, p) in self.parts.iter().enumerate() {
             let kind = self.mesh.blocks[p.block].kind;
-            by_nodes!(kind, Elastic::strain_of(self, part, u, &mut sums));
+            by_nodes!(kind, Elastic::strain_of(self, part, at, &mut sums));
         }
         (sums[1] / sums[0].max(f64::MIN_POSITIVE)).sqrt()
     }
 
-    fn strain_of<const N: usize>(&self, part: usize, u: &[f64], sums: &mut [f64; 2]) {
+    fn strain_of<const N: usize>(&self, part: usize, at: At, sums: &mut [f64; 2]) {
         self.each_cell::<N>(
             part,
-            At::from(u),
+            at,
             2,
             |_, _, recovered, values| {
                 let mut squares = [0.0; 2];

@@ -37,7 +37,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 18] = [
+pub(crate) static ALL: [&Kind; 20] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -52,8 +52,10 @@ pub(crate) static ALL: [&Kind; 18] = [
     &MOMENT,
     &EQUILIBRIUM,
     &ROTATION,
+    &ROTATION_TO_APPROACH,
     &LOCAL_ROTATION,
     &STRAIN,
+    &PRESTRESS,
     &DISPLACEMENT,
     &ENERGY,
 ];
@@ -181,6 +183,15 @@ pub(crate) static ROTATION: Kind = Kind {
     help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far turns with a reference point (`body.NAME.rotation.with`); a face that is meant to turn far without one is moved by supports of its points",
 };
 
+// Of energies and works, as penetration.
+pub(crate) static ROTATION_TO_APPROACH: Kind = Kind {
+    name: "rotation-to-approach",
+    own: LEAST * LEAST,
+    model: TRACE * TRACE,
+    what: "its bodies have turned and rotations are taken as small: half the square of the angle times the distance from where a body is held is missing in the gap, this part of the elastic approach, and pressures are wrong by about as much",
+    help: "let the body turn in a frame: `body.NAME.rotation.with` of the reference point that turns it, `rotation = \"large\"` of what turns freely, `rotation = \"corotational\"` of what bends",
+};
+
 pub(crate) static LOCAL_ROTATION: Kind = Kind {
     name: "local-rotation",
     own: 0.0,
@@ -193,8 +204,17 @@ pub(crate) static STRAIN: Kind = Kind {
     name: "strain",
     own: 0.0,
     model: 0.0,
-    what: "where its energy is, the body is strained by this much, and forces are wrong by about that part: the theory is linear in the frames that turn",
+    what: "where its energy is, the body is strained by this much, and forces are wrong by about that part: the theory is one of small strains",
     help: "look for a load or a stiffness in the wrong unit, or take another program for what strains as much as rubber does",
+};
+
+// Of frequencies.
+pub(crate) static PRESTRESS: Kind = Kind {
+    name: "prestress",
+    own: 0.0,
+    model: 0.0,
+    what: "the stress that the vibrations begin from would change a frequency by this part, and stress does not stiffen bodies here",
+    help: "take the frequencies for those of the body without stress, or another program for bodies that are pressed or drawn so far that it shows",
 };
 
 pub(crate) static DISPLACEMENT: Kind = Kind {
@@ -210,7 +230,7 @@ pub(crate) static ENERGY: Kind = Kind {
     own: 1.0,
     model: 1.0,
     what: "the balance of energies is open by this part",
-    help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps it is the ledger alone that is off: forces do not follow from it",
+    help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps forces are not made of it, but where smaller increments do not close it something acts along another direction than gaps have: look at edges that press, at bodies that turn by small rotations, and at `small-sliding`",
 };
 
 /// What a figure came to after an increment.

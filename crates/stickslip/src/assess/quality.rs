@@ -199,7 +199,7 @@ fn ratio(value: f64, scale: f64) -> f64 {
 
 impl View<'_> {
     /// Elastic energy of bodies and compliant interfaces `[J]`.
-    fn elastic_energy(&self) -> f64 {
+    pub(super) fn elastic_energy(&self) -> f64 {
         let interfaces = self.contact.interfaces.iter();
         let compliant = interfaces.map(Interface::law_energy).sum::<f64>();
         self.frame.ledger.strain + compliant
@@ -333,7 +333,7 @@ impl View<'_> {
         let unknown = ledger.uncertain;
         if !moves && open > OPEN * scale {
             notes.push(format!(
-                "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that; forces do not follow from them. Smaller increments make it less",
+                "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",
                 100.0 * open / scale
             ));
         }

@@ -5,10 +5,18 @@ use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
 use super::quality::Gate;
 use super::view::View;
 use crate::body::Turning;
-use crate::math::norm;
+use crate::math::{Vec3, norm};
 use crate::model::definition::Body;
 use crate::model::limits::{GateMode, Limits};
 use crate::system::State;
+
+/// The rotation of a link as a vector in space: in the plane its one component comes first.
+fn rotation_vector(turn: Vec3, dim: usize) -> Vec3 {
+    match dim {
+        2 => [0.0, 0.0, turn[0]],
+        _ => turn,
+    }
+}
 
 impl View<'_> {
     /// Takes note of how far bodies have turned, the most in `largest`, and moved.
@@ -23,11 +31,16 @@ impl View<'_> {
         let size = self.model.mesh.diameter() + self.prescribed_way();
         let t = self.frame.state.t;
         let mut far = Vec::new();
+        let mut turns = Vec::new();
         let strained = self.strained();
         for body in &self.model.bodies {
             let place = format!("body {}", body.name);
             let turning = self.turning(body, &strained);
             *largest = largest.max(turning.mean);
+            turns.push(match self.has_frames(body) {
+                true => [0.0; 3],
+                false => turning.vector,
+            });
             if !judged {
                 continue;
             }
@@ -36,9 +49,11 @@ impl View<'_> {
                 let pair = [turning.largest, 1.0];
                 gate.note(&LOCAL_ROTATION, &place, pair, limits.local_rotation, t);
             }
-            if self.has_frames(body) {
-                let pair = [body.elastic.strain_level(&strained.u), 1.0];
-                gate.note(&STRAIN, &place, pair, limits.strain, t);
+            // Of the others who asked for it wants to know.
+            let asked = self.has_frames(body) || limits.strain.is_some();
+            if asked && body.rigid.is_none() {
+                let pair = [body.elastic.strain_level(&*strained), 1.0];
+                gate.note(&STRAIN, &place, pair, limits.strain_limit(), t);
             }
             let way = self.way(body);
             let moved = way / size.max(f64::MIN_POSITIVE);
@@ -50,6 +65,7 @@ impl View<'_> {
         }
         if judged {
             self.judge_references(limits, gate);
+            self.judge_rotations(&turns, limits, gate);
         }
         for (body, way, moved) in far {
             self.note_far(&body, (way, moved), findings);
@@ -82,13 +98,18 @@ impl View<'_> {
     fn turning(&self, body: &Body, strained: &State) -> Turning {
         match body.rigid {
             Some(rigid) if self.model.links.all()[rigid.link].framed => Turning::default(),
-            Some(rigid) => Turning {
-                mean: norm(
-                    self.model.links.all()[rigid.link]
-                        .rotation(self.model.dofs, &self.frame.state.u),
-                ),
-                ..Turning::default()
-            },
+            Some(rigid) => {
+                let link = &self.model.links.all()[rigid.link];
+                let turned = rotation_vector(
+                    link.rotation(self.model.dofs, &self.frame.state.u),
+                    self.model.dofs.dim,
+                );
+                Turning {
+                    mean: norm(turned),
+                    vector: turned,
+                    ..Turning::default()
+                }
+            }
             // Of what turns freely that is what it is bent by.
             None => body.elastic.turning(&strained.u),
         }

@@ -1,5 +1,6 @@
 //! What is simulated and where it stands: data, and what acts at a time.
 
+pub(crate) mod anchors;
 pub(crate) mod conditions;
 pub(crate) mod contact;
 pub(crate) mod course;

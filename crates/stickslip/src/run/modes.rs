@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::simulation::Simulation;
+use super::simulation::{Simulation, view};
+use crate::assess::prestress::Shape;
 use crate::contact::interface::Steady;
 use crate::error::{Error, RunError};
 use crate::modal::{self, ModalOutcome, Mode};
@@ -105,6 +106,30 @@ impl Simulation {
         self.tell_notes(observers)
     }
 
+    /// Judges what modes leave out: the stress that they begin from.
+    fn judge_modes(&mut self, outcome: &mut ModalOutcome) {
+        let complex = outcome.complex;
+        let shape = |mode| {
+            let Mode {
+                frequency, shape, ..
+            }: &Mode = mode;
+            let parts = shape.iter().filter(|part| !part.is_empty());
+            Shape {
+                frequency: *frequency,
+                stiffness: (!complex).then(|| (TAU * frequency).powi(2)),
+                parts: parts.map(Vec::as_slice).collect(),
+            }
+        };
+        let modes: Vec<Shape> = outcome.modes.iter().map(shape).collect();
+        let (limits, gate) = (&self.model.quality, &mut self.summary.quality);
+        let mut notes = Vec::new();
+        view!(self).judge_prestress(&modes, limits, gate, &mut notes);
+        gate.gate = limits.gate;
+        gate.settle();
+        drop(modes);
+        outcome.notes.extend(notes);
+    }
+
     /// Finds the modes that the step at hand asks for. Its time passes, and nothing moves.
     ///
     /// # Errors
@@ -115,7 +140,8 @@ impl Simulation {
             return Ok(());
         };
         let end = step.end;
-        let outcome = self.modes_about(&plan)?;
+        let mut outcome = self.modes_about(&plan)?;
+        self.judge_modes(&mut outcome);
         let notes = outcome.notes.iter();
         let name = &outcome.step;
         (self.solver.log.notes).extend(notes.map(|note| format!("{name}: {note}")));

@@ -8,7 +8,7 @@ use super::position::Steps;
 use super::queue::{Pending, Recovered, TakenBack};
 use super::trying::Trying;
 use crate::assess::diagnosis::{CheckReport, start_gaps};
-use crate::assess::doctor::{self, Finding, Watch};
+use crate::assess::doctor::{self, DoctorCause, Finding, Watch};
 use crate::assess::quality;
 use crate::assess::view::View;
 use crate::body::Around;
@@ -222,12 +222,16 @@ impl Simulation {
         let strain = self.frame.ledger.strain;
         summary.artificial_energy = self.solver.floating.artificial_energy(strain);
         summary.interfaces = quality::interfaces(&view, &summary.quality, &self.watches);
+        let mut notes = Vec::new();
         if summary.completed {
             for finding in doctor::watched(&view, &self.watches) {
+                // Shear that is not there looks like any other.
+                if finding.cause == DoctorCause::TurnedNormals {
+                    notes.push(finding.message.clone());
+                }
                 doctor::note(&mut summary.findings, finding);
             }
         }
-        let mut notes = Vec::new();
         if summary.increments > 0 {
             let (limits, energy) = (&self.model.quality, &summary.energy_quality);
             view.judge_energy(limits, energy, &mut summary.quality, &mut notes);

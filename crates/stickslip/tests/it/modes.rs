@@ -1241,3 +1241,49 @@ step = [
         }
     }
 }
+
+/// A column that is clamped at both ends and pressed by this part of its length.
+fn pressed_column(pressed: f64) -> String {
+    format!(
+        r#"format = 1
+model.space = "plane-stress"
+body.column = {{ generate.rectangle = {{ to = [8, 0.4], cells = [40, 2], element = "quad8" }}, material = "m" }}
+material.m.isotropic = {{ young = 1e6, poisson = 0, density = 1 }}
+support.left = {{ set = "column.left", x = 0, y = 0 }}
+support.right = {{ set = "column.right", x = {}, y = 0 }}
+step = [{{ increments.fixed = 1 }}, {{ modes.count = 1 }}]
+"#,
+        -8.0 * pressed
+    )
+}
+
+#[test]
+fn what_stress_would_do_to_frequencies_is_estimated_and_judged() {
+    let judged = |pressed: f64| {
+        let mut simulation = build(&problem(&pressed_column(pressed))).expect("a model");
+        simulation.run(&mut []).expect("modes");
+        let figures = &simulation.summary.quality.figures;
+        let figure = figures.iter().find(|f| f.figure == "prestress").cloned();
+        let notes = simulation.modes[0].notes.clone();
+        (figure, notes)
+    };
+    // Euler and Bernoulli: the first mode of a beam that is clamped at both ends has ∫ φ'² L² / ∫ φ''² L⁴ = 12.30 / 500.6, and a force P lowers its squared frequency by P L² / E I times that;
+    // here P = E A ε and A / I = 12 / h².
+    for strain in [2e-3, -2e-3] {
+        let part = strain * 12.0 * (8.0_f64 / 0.4).powi(2) * 12.30 / 500.6;
+        let change = (1.0 - part).sqrt() - 1.0;
+        let (figure, notes) = judged(strain);
+        let figure = figure.expect("judged");
+        assert!(!figure.met, "{figure:?}");
+        assert!(
+            (figure.value / change.abs() - 1.0).abs() < 0.05,
+            "{figure:?} {change}"
+        );
+        let percent = format!("{:+.0}", 100.0 * change);
+        assert!(notes.iter().any(|n| n.contains(&percent[..2])), "{notes:?}");
+    }
+    let (figure, notes) = judged(1e-4);
+    assert!(figure.expect("judged").met && notes.is_empty(), "{notes:?}");
+    // Where there is no stress there is nothing to say.
+    assert_eq!(judged(0.0).0.map(|f| f.value), None);
+}

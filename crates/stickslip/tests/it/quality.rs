@@ -962,3 +962,113 @@ fn a_body_that_leaves_without_any_force_has_a_balance() {
     assert!(gate.met && !gate.failed(), "{:#?}", violated(&simulation));
     assert!(simulation.summary.energy.strain.abs() < 1e-16);
 }
+
+/// A shaft in a hub, larger by this much, whose axle turns by this angle: `rotation` of the shaft, and what ties it to its axle.
+fn turned_fit(angle: f64, [rotation, tie]: [&str; 2]) -> String {
+    format!(
+        r#"format = 1
+model.space = "plane-strain"
+material.steel.isotropic = {{ young = 210000, poisson = 0.3 }}
+body.shaft = {{ generate.ring = {{ bore = 5, radius = 20.01, cells = [16, 2], element = "quad8" }}, material = "steel"{rotation} }}
+body.hub = {{ generate.ring = {{ bore = 20, radius = 40, cells = [16, 2], element = "quad8" }}, material = "steel" }}
+interface.fit = {{ secondary = "shaft.rim", primary = "hub.bore", initial = "ramp" }}
+reference.axle.point = [0, 0]
+{tie}
+support.hub = {{ set = "hub.rim", x = 0, y = 0 }}
+support.axle = {{ set = "axle", x = 0, y = 0, rotation-z = {angle}, amplitude = "turn" }}
+amplitude.turn.table = [[0, 0], [1, 0], [2, 1]]
+step = [{{ increments = {{ fixed = 1 }} }}, {{ increments = {{ fixed = 2 }} }}]
+"#
+    )
+}
+
+const TIED: [&str; 2] = [
+    "",
+    r#"coupling.core.kinematic = { set = "shaft.bore", reference = "axle" }"#,
+];
+
+const FRAMED: [&str; 2] = [
+    r#", rotation.with = "axle""#,
+    r#"support.core = { set = "shaft.bore", x = 0, y = 0 }"#,
+];
+
+#[test]
+fn a_shaft_that_turns_by_a_small_rotation_is_judged_beside_its_interference() {
+    let peak = |simulation: &Simulation| simulation.summary.interfaces[0].pressure;
+    let rest = run(&turned_fit(0.0, TIED));
+    assert!(rest.summary.quality.met);
+    // It grows by R θ² / 2: at 0.04 by 16 on 10 micrometres of interference, whose approach becomes 26.
+    let far = run(&turned_fit(0.04, TIED));
+    trips(&far, "rotation-to-approach");
+    let value = figure(&far, "rotation-to-approach").value;
+    assert!((value - 16.0 / 26.0).abs() < 0.03, "{value}");
+    assert!(peak(&far) > 2.4 * peak(&rest));
+    assert!(run(&turned_fit(0.006, TIED)).summary.quality.met);
+    let framed = run(&turned_fit(0.04, FRAMED));
+    assert!(framed.summary.quality.met, "{:#?}", violated(&framed));
+    assert!((peak(&framed) / peak(&rest) - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_rotation_that_is_prescribed_too_far_is_found_before_the_run() {
+    let found = |text: &str| -> Vec<String> {
+        let built = support::build(&support::problem(text));
+        let findings = built.unwrap_or_else(|e| panic!("{e}")).check().findings;
+        let large = findings.into_iter();
+        large
+            .filter(|f| f.cause == DoctorCause::LargeRotation)
+            .map(|f| format!("{f}"))
+            .collect()
+    };
+    let [far] = found(&turned_fit(0.04, TIED)).try_into().expect("one");
+    assert!(
+        far.contains("support axle turns axle and with it shaft by 0.040 rad"),
+        "{far}"
+    );
+    assert!(
+        far.contains("1.6") && far.contains("body.shaft.rotation.with = \"axle\""),
+        "{far}"
+    );
+    assert_eq!(found(&turned_fit(0.006, TIED)), [""; 0]);
+    assert_eq!(found(&turned_fit(0.4, FRAMED)), [""; 0]);
+    // Beyond small rotations whatever touches.
+    let loose = turned_fit(0.4, TIED).replace("radius = 20.01", "radius = 12");
+    let [far] = found(&loose).try_into().expect("one");
+    assert!(far.contains("quality.rotation"), "{far}");
+}
+
+#[test]
+fn normals_of_the_start_that_have_turned_are_told_at_the_end() {
+    // By symmetry two equal cylinders have no shear between them.
+    let pressed = |kinematics: &str| {
+        let half = |y: f64| {
+            let radius = 8.0_f64;
+            format!(
+                "generate.half-disc = {{ centre = [0, {}], radius = {radius}, direction = [0, {}], size = 1.5, refine = {{ finest = 0.12, width = 0.8, growth = 1.5 }} }}, material = \"elastic\"",
+                y * radius,
+                -y
+            )
+        };
+        run(&format!(
+            r#"format = 1
+model.space = "plane-strain"
+body.lower = {{ {} }}
+body.upper = {{ {} }}
+material.elastic.isotropic = {{ young = 200, poisson = 0.3 }}
+interface.c = {{ secondary = "upper.arc", primary = "lower.arc", friction.coulomb.mu = 0.2{kinematics} }}
+support.base = {{ set = "lower.flat", x = 0, y = 0 }}
+support.close = {{ set = "upper.flat", x = 0, y = -0.19 }}
+step = [{{ increments = {{ fixed = 2 }} }}]
+"#,
+            half(-1.0),
+            half(1.0)
+        ))
+    };
+    let frozen = pressed(", kinematics.small-sliding = {}");
+    let said = |simulation: &Simulation| {
+        let notes = simulation.summary.notes.iter();
+        notes.filter(|n| n.contains("small sliding")).count()
+    };
+    assert_eq!(said(&frozen), 1, "{:?}", frozen.summary.notes);
+    assert_eq!(said(&pressed("")), 0);
+}

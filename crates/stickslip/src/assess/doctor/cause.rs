@@ -133,6 +133,8 @@ causes! {
     DeepWear = "deep-wear",
     /// Wear is explicit, and stable in short increments only.
     ExplicitWear = "explicit-wear",
+    /// A rotation is prescribed that is no small one.
+    LargeRotation = "large-rotation",
 }
 
 impl DoctorCause {

@@ -18,6 +18,7 @@ mod schedules;
 mod speeds;
 mod strains;
 mod surfaces;
+mod turned;
 mod units;
 mod unmoved;
 mod unused;
@@ -74,6 +75,7 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
     out.extend(unused::check(model));
     out.extend(unjoined.check(view));
     out.extend(strains::check(model));
+    out.extend(turned::check(view, &measured));
     out.extend(locking::check(model));
     out.extend(units::check(model));
     out.sort_by_key(|f| std::cmp::Reverse(f.severity));

@@ -1,0 +1,64 @@
+//! Judges what small rotations leave out at interfaces.
+
+use super::figures::ROTATION_TO_APPROACH;
+use super::missed::{Turned, missed_gaps};
+use super::quality::Gate;
+use super::view::View;
+use crate::contact::interface::Interface;
+use crate::math::{Vec3, dot};
+use crate::model::limits::Limits;
+
+/// Angle in radians below which nobody looks: half its square is less than rounding leaves of most coordinates.
+const NOTHING: f64 = 1e-7;
+
+impl View<'_> {
+    /// Judges what rotations of bodies, by body `[rad]`, leave out at interfaces; `turns` are zero of those that turn in frames.
+    pub(super) fn judge_rotations(&self, turns: &[Vec3], limits: &Limits, gate: &mut Gate) {
+        let t = self.frame.state.t;
+        let far = |turn: &Vec3| dot(*turn, *turn) > NOTHING * NOTHING;
+        let turned: Vec<Option<Turned>> = match turns.iter().any(far) {
+            true => (turns.iter().zip(self.anchors(t)))
+                .map(|(by, anchors)| far(by).then_some(Turned { by: *by, anchors }))
+                .collect(),
+            false => vec![None; turns.len()],
+        };
+        let energy = self.elastic_energy();
+        for interface in &self.contact.interfaces {
+            let place = format!("interface {}", interface.name);
+            let r = interface.resultant(&self.frame.state.u);
+            if r.carried <= 0.0 {
+                continue;
+            }
+            let missed = self.missed(interface, &turned);
+            // Beside the elastic approach, as penetration is; both sides times the force.
+            let elastic = (2.0 * energy).max(r.carried * interface.quality().layer);
+            let pair = [missed * r.carried, elastic];
+            let limit = limits.rotation_to_approach;
+            match self.inertia().is_some() || self.explicit.is_some() {
+                true => gate.note_in_motion(&ROTATION_TO_APPROACH, &place, pair, limit, t),
+                false => gate.note(&ROTATION_TO_APPROACH, &place, pair, limit, t),
+            }
+        }
+    }
+
+    /// The mean of what is missed of the gap where an interface presses `[m]`.
+    fn missed(&self, interface: &Interface, turned: &[Option<Turned>]) -> f64 {
+        if turned.iter().all(Option::is_none) {
+            return 0.0;
+        }
+        let points = interface.pressing();
+        let of = |point: Option<usize>| turned[self.body_of(point?)?].as_ref();
+        let sides: Vec<_> = points.iter().map(|p| p.sides.map(of)).collect();
+        let missed = missed_gaps(&points, &sides);
+        let each = missed.iter().zip(&points);
+        let [sum, force] = each.fold([0.0; 2], |[sum, force], (m, p)| {
+            [sum + m.abs() * p.force, force + p.force]
+        });
+        sum / force.max(f64::MIN_POSITIVE)
+    }
+
+    fn body_of(&self, point: usize) -> Option<usize> {
+        let mut bodies = self.model.bodies.iter();
+        bodies.position(|b| b.points.contains(&point))
+    }
+}
