@@ -1072,3 +1072,40 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     assert_eq!(said(&frozen), 1, "{:?}", frozen.summary.notes);
     assert_eq!(said(&pressed("")), 0);
 }
+
+#[test]
+fn cells_that_cannot_keep_their_volume_are_told_before_the_run() {
+    let told = |element: &str, formulation: &str, poisson: f64| {
+        let text = BLOCKS
+            .replace(
+                "cells = [4, 4]",
+                &format!("cells = [4, 4], element = \"{element}\""),
+            )
+            .replacen(
+                "material = \"soft\"",
+                &format!("material = \"soft\", formulation = \"{formulation}\""),
+                1,
+            )
+            .replace("poisson = 0.3", &format!("poisson = {poisson}"));
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let findings = simulation.check().findings.into_iter();
+        let of_lower = |f: &stickslip::assess::doctor::Finding| {
+            f.cause == DoctorCause::Locking && f.message.contains("lower")
+        };
+        findings.filter(of_lower).map(|f| f.message).next()
+    };
+    assert!(told("quad4", "standard", 0.4999).is_some_and(|m| m.contains("too stiff")));
+    // Fully integrated, quad8 is as stiff as it should be, and its pressures are not what they should be.
+    assert!(told("quad8", "standard", 0.4999).is_some_and(|m| m.contains("forces are right")));
+    for (element, formulation, poisson) in [
+        ("quad8", "mean-dilatation", 0.4999),
+        ("quad8", "reduced", 0.4999),
+        ("quad8", "standard", 0.495),
+        ("quad4", "mean-dilatation", 0.4999),
+        ("quad4", "standard", 0.3),
+    ] {
+        let found = told(element, formulation, poisson);
+        assert_eq!(found, None, "{element}, {formulation}, {poisson}");
+    }
+}
