@@ -160,21 +160,20 @@ impl Interface {
         let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
         let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
         let smallest = self.points.iter().map(|p| p.size);
-        let smallest = smallest.fold(f64::INFINITY, f64::min);
+        let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
         let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
         for c in 0..self.dofs.dim {
             for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
                 let apart = upper[0][c] - lower[1][c];
                 let fastest = v_lower[1][c] - v_upper[0][c];
                 let slowest = v_lower[0][c] - v_upper[1][c];
-                // Surfaces that have sunk into each other, as springs let them, lie on the wrong sides, and are not apart.
-                if apart > smallest {
+                if apart > slack {
                     if fastest <= SLIDING * largest {
                         return None;
                     }
-                    entry = entry.max((apart - smallest) / fastest);
+                    entry = entry.max(apart / fastest);
                 } else if slowest < 0.0 {
-                    exit = exit.min((apart - smallest) / slowest);
+                    exit = exit.min((apart - slack) / slowest);
                 }
             }
         }
