@@ -16,6 +16,7 @@ fn warm(body: Elastic, dilation: Dilation, rise: impl Fn(usize) -> f64) -> Elast
     let count = body.mesh().points.len();
     let all = Temperatures {
         start: vec![20.0; count],
+        said: true,
         fields: vec![TemperatureField {
             name: "warm".into(),
             entries: (0..count).map(|p| (p, 20.0 + rise(p))).collect(),

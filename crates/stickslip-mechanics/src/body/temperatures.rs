@@ -11,6 +11,8 @@ use crate::system::{Course, Piece, Schedule};
 pub struct Temperatures {
     /// At the start, by point of the mesh.
     pub start: Vec<f64>,
+    /// Whether that of every point of the fields is given; one that is not is zero.
+    pub said: bool,
     /// What takes its place.
     pub fields: Vec<TemperatureField>,
 }
@@ -91,6 +93,7 @@ impl Temperatures {
         let place = |p: &usize| points.iter().position(|q| q == p);
         Temperatures {
             start: points.iter().map(|&p| self.start[p]).collect(),
+            said: self.said,
             fields: (self.fields.iter())
                 .map(|field| TemperatureField {
                     entries: (field.entries.iter())
@@ -146,6 +149,7 @@ mod tests {
         };
         Temperatures {
             start: vec![20.0; 3],
+            said: true,
             fields: vec![
                 field("warm", 1, 100.0, first.clone(), first),
                 field("hot", 1, 300.0, second.clone(), second),

@@ -23,13 +23,17 @@ pub(crate) struct Kind {
     pub help: &'static str,
 }
 
-/// What may help with a figure. Advice about how a model is solved is withheld where findings say what is wrong with the model itself: of a body
+/// What may help with a figure. Where findings say what is wrong with the model itself they come first, and advice about how it is solved is withheld: of a body
 /// that hangs on the wrong interface the solver cannot do better.
 pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
     let about_solver = help.contains("solver.tolerance");
-    match findings.iter().find(|f| about_solver && f.explains()) {
-        Some(f) => format!(
+    match findings.iter().find(|f| f.explains()) {
+        Some(f) if about_solver => format!(
             "look at the finding `{}` first: while it holds, the solver is not to blame",
+            f.cause
+        ),
+        Some(f) => format!(
+            "look at the finding `{}` first, which may be why; if it is meant: {help}",
             f.cause
         ),
         None => help.to_string(),

@@ -4,16 +4,16 @@
 //! touch: a problem of linear inequalities in as many unknowns as there are free motions. Where there is no such sum, what is left of the loads is the motion
 //! that nothing stops. Of contact the most is believed: every point meets what it faces, and friction is as large as it may be.
 
-use super::doctor::{DoctorCause, Finding, Guilty, Opposite, Severity, body_at};
+use super::doctor::{DoctorCause, Finding, Guilty, Opposite, Severity, body_at, let_go};
 use super::view::View;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::friction::FrictionPoint;
 use crate::error::RunError;
 use crate::math::{
-    Vec3, add_scaled, cross, distance, dot, norm, normalize, rest_of_nonnegative, vector,
+    Vec3, add, add_scaled, cross, distance, dot, norm, normalize, rest_of_nonnegative, vector,
 };
 use crate::model::drivers::named;
-use crate::model::unheld::{Mode, Unheld, modes};
+use crate::model::unheld::{Mode, NO_PART, Unheld, modes};
 
 /// Displacements and gaps over the size of the smallest body up to which points are where they were meshed.
 const SMALL: f64 = 1e-3;
@@ -142,7 +142,16 @@ impl View<'_> {
         let called = self.called();
         let index = self.model.bodies.iter().position(|b| b.name == body);
         let touches = holds.close || index.is_some_and(|b| self.touches(b));
+        // What no friction would hold, and turns, is pressed beside what it lies on.
+        let turns = holds.all.iter().zip(motion);
+        let turns = turns
+            .filter(|(_, part)| part.abs() > NO_PART)
+            .any(|(mode, _)| mode.name.starts_with("rotation"));
         let (cause, sentence) = match touches {
+            true if wanted.is_none() && turns => (
+                DoctorCause::SlidesAway,
+                format!("body {body} tips over or lifts off as a whole ({what})"),
+            ),
             true => (
                 DoctorCause::SlidesAway,
                 format!("body {body} slides, rolls or lifts off as a whole ({what})"),
@@ -167,6 +176,10 @@ impl View<'_> {
             "{called}: there is no equilibrium{when}: {sentence}, {by} it, and contact and friction cannot balance that; {friction}"
         );
         let help = match touches {
+            true if wanted.is_none() && turns => {
+                "let the loads press within what the body lies on, or that reach farther, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
+                 or make the step dynamic if the body is meant to tip"
+            }
             true => {
                 "lower what drives the body, raise friction, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
                  or make the step dynamic if the body is meant to slide or take off"
@@ -176,17 +189,29 @@ impl View<'_> {
             }
         };
         let drivers = push.drivers();
+        let moved = holds.all.iter().zip(motion);
+        let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+        let moved: Vec<String> = moved
+            .map(|(mode, _)| self.model.bodies[mode.body].name.clone())
+            .collect();
+        let gone = let_go(self, &moved);
+        let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();
+        let help = format!("{first}{help}");
         let mut finding = Finding::new(cause, Severity::Error, message.clone())
             .blame(body_at(
                 self.model,
                 &body,
                 format!("{what} is held by contact alone"),
             ))
-            .advise(help);
+            .advise(help.clone());
         let mut culprits = vec![format!("body {body}: {what} is held by contact alone")];
         for driver in drivers {
             culprits.push(format!("{} {}", driver.key, driver.what));
             finding = finding.blame(Guilty::key(driver.key, driver.what));
+        }
+        for gone in gone {
+            culprits.push(format!("{} {}", gone.key, gone.what));
+            finding = finding.blame(Guilty::key(gone.key, gone.what));
         }
         finding.step = Some(self.step_name().to_string());
         finding.time = Some(self.frame.state.t);
@@ -194,7 +219,7 @@ impl View<'_> {
             message,
             time: self.frame.state.t,
             culprits,
-            help: Some(help.into()),
+            help: Some(help),
         };
         (finding, error)
     }
@@ -273,7 +298,12 @@ impl View<'_> {
                 continue;
             }
             gap = gap.min(nearest.gap.abs());
-            let (ours, x) = (owner(point.nodes[0]), interface.place(point));
+            // Beside the primary nothing pushes; the farthest that contact may is its edge.
+            let x = match opposite.edge(&nearest, point.position(&interface.reference)) {
+                Some(edge) => add(edge, interface.origin),
+                None => interface.place(point),
+            };
+            let ours = owner(point.nodes[0]);
             let along = |d: Vec3| -> Vec<f64> {
                 let speed = |motion: &Unheld| -> f64 {
                     let parts = holds.all.iter().zip(motion).map(|(m, c)| {

@@ -87,7 +87,7 @@ impl View<'_> {
     }
 
     /// Whether it turns by any angle in frames of its own or one that a reference point carries.
-    fn has_frames(&self, body: &Body) -> bool {
+    pub(crate) fn has_frames(&self, body: &Body) -> bool {
         let first = body.points.start;
         body.elastic.is_corotational()
             || self.model.corotations.of_point(first).is_some()

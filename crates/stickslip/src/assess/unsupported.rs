@@ -1,6 +1,6 @@
 //! Bodies that nothing holds, for a person: before a step begins, and after an increment in which one could not be brought to rest.
 
-use super::doctor::{DoctorCause, Finding, Guilty, Severity, body_at};
+use super::doctor::{DoctorCause, Finding, Guilty, Severity, body_at, let_go};
 use super::view::View;
 use crate::error::RunError;
 use crate::model::drivers::named;
@@ -68,16 +68,29 @@ impl View<'_> {
         for driver in push.drivers().into_iter().filter(|_| *driven) {
             finding = finding.blame(Guilty::key(driver.key, driver.what));
         }
-        let help = "support these motions, or hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`); \
-             if the body is meant to fly or fall, make the step dynamic";
-        finding = finding.advise(help);
+        let mut help = "support these motions, or hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`); \
+             if the body is meant to fly or fall, make the step dynamic"
+            .to_string();
+        let moved = refused
+            .iter()
+            .flat_map(|(motion, ..)| all.iter().zip(motion));
+        let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+        let moved: Vec<String> = moved
+            .map(|(mode, _)| self.model.bodies[mode.body].name.clone())
+            .collect();
+        for gone in let_go(self, &moved) {
+            culprits.push(format!("{} {}", gone.key, gone.what));
+            help = format!("{}; {help}", gone.advice);
+            finding = finding.blame(Guilty::key(gone.key, gone.what));
+        }
+        finding = finding.advise(help.clone());
         finding.step = Some(step);
         finding.time = Some(self.frame.state.t);
         let error = RunError {
             message: finding.message.clone(),
             time: self.frame.state.t,
             culprits,
-            help: Some(help.into()),
+            help: Some(help),
         };
         Some((finding, error))
     }
@@ -123,13 +136,17 @@ impl View<'_> {
         if lost {
             culprits.extend(failure.culprits.iter().take(3).map(ToString::to_string));
         }
+        let names = told.iter().map(|f| model.bodies[f.body].name.clone());
+        let gone = let_go(self, &names.collect::<Vec<_>>());
+        culprits.extend(gone.iter().map(|g| format!("{} {}", g.key, g.what)));
+        let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();
         Some(RunError {
             message,
             time: self.frame.state.t,
             culprits,
             help: Some(match lost {
-                true => LOST.into(),
-                false => format!("{WAITS} ({})", self.smallest_gaps()),
+                true => format!("{first}{LOST}"),
+                false => format!("{first}{WAITS} ({})", self.smallest_gaps()),
             }),
         })
     }

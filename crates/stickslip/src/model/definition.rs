@@ -73,6 +73,8 @@ pub struct Model {
     pub follow: bool,
     /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
     pub unused: Vec<String>,
+    /// Interfaces, by name, whose roughness is a sum of waves, and the shortest of these `[m]`.
+    pub waves: Vec<(String, f64)>,
     /// What counts as a good solution.
     pub quality: Limits,
 }

@@ -47,6 +47,11 @@ pub trait RoughnessModel {
     /// [`Error::Io`] or [`Error::Mesh`] for a file that cannot be read or used.
     fn heights(&self, folder: &Path, profile: bool) -> Result<Relief, Error>;
 
+    /// The shortest of its waves `[length]`; `None` where it is no sum of waves.
+    fn shortest(&self) -> Option<f64> {
+        None
+    }
+
     /// What is wrong with its parameters in a space of `dim` dimensions: the key, and how a sentence goes on that begins with it.
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)>;
 

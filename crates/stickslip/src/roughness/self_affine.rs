@@ -137,6 +137,10 @@ impl RoughnessModel for SelfAffine {
         Ok(self.waves(profile).into())
     }
 
+    fn shortest(&self) -> Option<f64> {
+        Some(self.shortest)
+    }
+
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
         let mut faults = Vec::new();
         if !(1..dim).contains(&self.period.len()) {

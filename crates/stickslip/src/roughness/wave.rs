@@ -36,6 +36,10 @@ impl RoughnessModel for Wave {
         Ok(self.clone().into())
     }
 
+    fn shortest(&self) -> Option<f64> {
+        self.wavelength.iter().copied().reduce(f64::min)
+    }
+
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {
         let mut faults: Vec<_> = positive("amplitude", self.amplitude).into_iter().collect();
         for length in &self.wavelength {

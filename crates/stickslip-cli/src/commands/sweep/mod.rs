@@ -4,6 +4,7 @@ mod begun;
 mod columns;
 mod critical;
 mod effort;
+mod idle;
 mod merge;
 mod one;
 mod plan;
@@ -217,6 +218,12 @@ fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
         all.find_critical(&table, quantity)?;
     }
     begun.end();
+    for axis in idle::idle(plan.axes.len(), table.rows()) {
+        all.tell(&format!(
+            "{} changes nothing: all runs that differ in it alone have the same results to the last digit. Is it a key of what acts in no step, or that another key overrides?",
+            plan.axes[axis].path
+        ));
+    }
     all.tell(&format!(
         "{} in {:.3} s, the first in {first:.3} s; table in {}",
         runs(plan.count()),

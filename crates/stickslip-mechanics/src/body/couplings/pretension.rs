@@ -14,6 +14,8 @@ use crate::system::Amplitude;
 pub struct Pretension {
     /// What part of a force acts between each pair of points; with sum one.
     pub shares: Vec<f64>,
+    /// Area of the section across the normal `[m²]`.
+    pub area: f64,
     /// What is done with it, step by step: start and end of the step `[s]`, and what.
     pub steps: Vec<(f64, f64, Draw)>,
 }

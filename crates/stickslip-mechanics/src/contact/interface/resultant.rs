@@ -97,6 +97,13 @@ impl Interface {
         tally
     }
 
+    /// The points in contact at the last committed state.
+    pub fn closed(&self) -> Vec<usize> {
+        let points = self.history.points.iter().enumerate();
+        let closed = points.filter(|(_, h)| h.status != Status::Open);
+        closed.map(|(i, _)| i).collect()
+    }
+
     /// Area that slides and area in contact, at the last committed state `[m²]`.
     pub fn sliding_area(&self) -> [f64; 2] {
         let mut areas = [0.0; 2];

@@ -17,6 +17,9 @@ const FACING: f64 = -0.3;
 /// Cosine between contact normals that make a flat surface.
 const FLAT: f64 = 0.999;
 
+/// Part of the limit of friction that is rounding.
+const SLIGHT: f64 = 1e-6;
+
 /// Part of the loads that counts as none.
 const NONE: f64 = 1e-9;
 
@@ -31,6 +34,15 @@ struct Push {
 
 /// Bodies without supports and springs on which the loads at time `t` and contact cannot be in balance.
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
+    beyond(view, t, SLIGHT)
+}
+
+/// The same of loads that come to the limit of friction, where nothing is left to hold a body.
+pub(super) fn at_limit(view: &View, t: f64) -> Option<Finding> {
+    beyond(view, t, -SLIGHT)
+}
+
+fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
     let model = view.model;
     let held = view.constraints(t).fixed;
     let loads = view.loads(t);
@@ -75,7 +87,7 @@ pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
             &push,
             (mean, narrowest),
             force,
-            NONE * scale_of_loads,
+            (NONE * scale_of_loads, slight),
         );
         if let Some((cause, message)) = found {
             let finding = Finding::new(cause, Severity::Warning, message)
@@ -104,7 +116,7 @@ fn judge(
     push: &Push,
     (mean, narrowest): (Vec3, f64),
     force: Vec3,
-    nothing: f64,
+    (nothing, slight): (f64, f64),
 ) -> Option<(DoctorCause, String)> {
     let mu = push.friction?;
     if norm(force) <= nothing {
@@ -132,7 +144,7 @@ fn judge(
             ),
         ));
     }
-    (along > (1.0 + 1e-6) * mu * pressing + nothing).then(|| {
+    (along > (1.0 + slight) * mu * pressing + nothing).then(|| {
         (
             DoctorCause::SlidesAway,
             format!(
@@ -198,12 +210,13 @@ mod tests {
             ..Push::default()
         };
         let up = [0.0, 1.0, 0.0];
-        let cause = |force: Vec3| judge("block", &push, (up, 1.0), force, 1e-9).map(|f| f.0);
+        let cause =
+            |force: Vec3| judge("block", &push, (up, 1.0), force, (1e-9, SLIGHT)).map(|f| f.0);
         assert_eq!(cause([0.29, -1.0, 0.0]), None);
         assert_eq!(cause([0.31, -1.0, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0, 0.1, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0; 3]), Some(DoctorCause::FreeRigidMode));
         // A seat that holds from both sides.
-        assert!(judge("pin", &push, (up, -0.2), [0.0; 3], 1e-9).is_none());
+        assert!(judge("pin", &push, (up, -0.2), [0.0; 3], (1e-9, SLIGHT)).is_none());
     }
 }

@@ -101,7 +101,7 @@ causes! {
     SuddenChange = "sudden-change",
     /// The largest value of an amplitude lies beyond the end of the analysis.
     AmplitudeUnused = "amplitude-unused",
-    /// A normal law is far softer or stiffer than the bodies.
+    /// A normal law is far softer or stiffer than the bodies, or wear faster than that of any surface.
     LawOutOfRange = "law-out-of-range" mistake,
     /// A function that is used as a law gives what no law can.
     FaultyLaw = "faulty-law" mistake,
@@ -133,6 +133,14 @@ causes! {
     DeepWear = "deep-wear",
     /// Wear is explicit, and stable in short increments only.
     ExplicitWear = "explicit-wear",
+    /// A bolt that holds nothing: it is pushed apart, or drawn together with next to nothing.
+    LooseBolt = "loose-bolt" mistake,
+    /// Roughness with waves that are too short for the contact points.
+    UnresolvedRoughness = "unresolved-roughness",
+    /// Temperatures are given, and nobody says how warm bodies are at the start.
+    StartTemperature = "start-temperature",
+    /// Contact ended because what carried has left the primary over its edge.
+    LeftPrimary = "left-primary",
     /// A rotation is prescribed that is no small one.
     LargeRotation = "large-rotation",
 }

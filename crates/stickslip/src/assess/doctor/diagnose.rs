@@ -329,10 +329,19 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
     }
 }
 
-/// With the loads, supports and obstacles that drive a body.
+/// With the loads, supports and obstacles that drive a body, and the supports that held it in the step before.
 fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
     let drivers = view.drivers(body, trial.to).into_iter();
-    drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)))
+    let finding = drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)));
+    let free: Vec<String> = (finding.guilty.iter())
+        .filter(|g| g.what == What::Body)
+        .map(|g| g.name.clone())
+        .collect();
+    let gone = check::let_go(view, &free).into_iter();
+    gone.fold(finding, |f, gone| {
+        f.blame(Guilty::key(gone.key, gone.what))
+            .advise(gone.advice)
+    })
 }
 
 /// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.
@@ -355,6 +364,11 @@ fn linear(view: &View, trial: &Trial) -> Finding {
     let free = floating(view, trial.to, &contact_rows(view, trial.to));
     if !free.is_empty() {
         return free_mode(view, trial, &free, "is held by nothing");
+    }
+    let moves = view.step().is_some_and(|s| s.dynamic.is_some());
+    let beyond = || balance::at_limit(view, trial.to);
+    if let Some(finding) = (!moves).then(beyond).flatten() {
+        return finding;
     }
     let weak = floating(view, trial.to, &[]);
     if weak.is_empty() {
@@ -400,6 +414,9 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
             }
             return finding;
         }
+    }
+    if !dynamic && let Some(finding) = balance::at_limit(view, trial.to) {
+        return finding;
     }
     if let Some((mu, limit, e)) = beyond_coupling(view, evidence) {
         return of(

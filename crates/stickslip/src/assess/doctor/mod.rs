@@ -26,7 +26,7 @@ mod watch;
 pub use cause::DoctorCause;
 pub use finding::{Finding, Guilty, MOST_GUILTY, Severity, What};
 
-pub(crate) use check::{examine, longest_way};
+pub(crate) use check::{examine, let_go, longest_way};
 pub(crate) use culprits::write as write_culprits;
 pub(crate) use diagnose::{MORE_MEMORY, diagnose, stopped};
 pub(crate) use places::body as body_at;

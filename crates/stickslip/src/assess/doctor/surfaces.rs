@@ -1,10 +1,15 @@
 //! How the two sides of an interface lie to each other, apart from any law.
 
+use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, distance, dot, sub};
+use crate::shape::ElementKind;
+
+/// Part of a distance that rounding may put to the side.
+const BESIDE: f64 = 1e-6;
 
 /// What lies nearest to a point.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +58,19 @@ impl<'a> Opposite<'a> {
         }
     }
 
+    /// The place on the edge of a facet that is nearest to a place beside it; `None` of one that lies opposite the facet, or opposite an obstacle.
+    pub fn edge(&self, nearest: &Nearest, x: Vec3) -> Option<Vec3> {
+        let Primary::Facets(facets) = &self.interface.primary else {
+            return None;
+        };
+        let facet = &facets[nearest.facet];
+        let aside = nearest.distance - nearest.gap.abs();
+        let nodes = coordinates(self.interface, facet);
+        let xi = within(facet.kind, nearest.xi);
+        let edge = evaluate(facet.kind, &nodes, xi).x;
+        (aside > BESIDE * distance(x, edge)).then_some(edge)
+    }
+
     /// What lies nearest to a place, whichever way it faces.
     pub fn nearest(&mut self, x: Vec3) -> Option<Nearest> {
         let facets = match &self.interface.primary {
@@ -89,6 +107,19 @@ impl<'a> Opposite<'a> {
             }
         }
         best
+    }
+}
+
+/// A place on a facet, inside of it.
+fn within(kind: ElementKind, [a, b]: [f64; 2]) -> [f64; 2] {
+    match kind {
+        ElementKind::Line2 | ElementKind::Line3 => [a.clamp(-1.0, 1.0), 0.0],
+        ElementKind::Tri3 | ElementKind::Tri6 => {
+            let [a, b] = [a.clamp(0.0, 1.0), b.clamp(0.0, 1.0)];
+            let most = f64::max(a + b, 1.0);
+            [a / most, b / most]
+        }
+        _ => [a.clamp(-1.0, 1.0), b.clamp(-1.0, 1.0)],
     }
 }
 

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Guilty, Severity};
+use super::finding::{Finding, Guilty, Severity, What};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Resolution, Resultant};
 use crate::math::Vec3;
 
 /// What is remembered of an interface.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
     /// The largest force so far `[N]`, its time and how finely contact was resolved then.
     force: f64,
@@ -22,6 +22,9 @@ pub(crate) struct Watch {
     turned_at: f64,
     /// The largest pressure so far.
     peak: Peak,
+    /// When it carried something last, and the points that did.
+    carried_at: f64,
+    carriers: Vec<usize>,
 }
 
 /// The largest pressure of an interface over a run.
@@ -49,6 +52,9 @@ const DEEP: f64 = 1e-2;
 /// Part of the force that has to be carried where contact is three points across.
 const RESOLVED: f64 = 0.5;
 
+/// Part of its largest force with which an interface carries nothing any more: what the tolerance of Newton's method leaves.
+const NEXT_TO_NOTHING: f64 = 1e-6;
+
 /// Part of the force that the displacements would make as strains below which a force is rounding.
 const NOTHING: f64 = 1e-11;
 
@@ -74,6 +80,10 @@ impl Watch {
             self.turn = turn;
             self.turned_at = t;
         }
+        if force > NEXT_TO_NOTHING * self.force {
+            self.carried_at = t;
+            self.carriers = interface.closed();
+        }
         if force > self.force {
             self.force = force;
             self.time = t;
@@ -87,24 +97,51 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
     let interfaces = view.contact.interfaces.iter();
     let pairs = interfaces.zip(watches);
     let nothing = NOTHING * view.strain_force();
-    pairs
-        .filter(|(_, watch)| watch.acted)
-        .flat_map(|(interface, watch)| match watch.force > nothing {
-            // One half of a pair may be idle where the other one carries.
-            false if interface.share < 1.0 => [None, None, None],
-            false => [
-                Some(never_carried(interface, view.model.moves())),
-                None,
-                None,
-            ],
-            true => [
-                coarse(interface, watch),
-                turned(interface, watch),
-                deep(interface),
-            ],
+    let mut out = strained(view);
+    out.extend(
+        pairs
+            .filter(|(_, watch)| watch.acted)
+            .flat_map(|(interface, watch)| match watch.force > nothing {
+                // One half of a pair may be idle where the other one carries.
+                false if interface.share < 1.0 => [None, None, None, None],
+                false => [
+                    Some(never_carried(interface, view.model.moves())),
+                    None,
+                    None,
+                    None,
+                ],
+                true => [
+                    coarse(interface, watch),
+                    turned(interface, watch),
+                    deep(interface),
+                    left(view, interface, watch),
+                ],
+            })
+            .flatten(),
+    );
+    out
+}
+
+/// Bodies without frames of their own that are strained, where their energy is, by more than forces of a linear theory may be wrong. With frames there is a figure for it.
+fn strained(view: &View) -> Vec<Finding> {
+    let limit = view.model.quality.strain;
+    let bodies = view.model.elastic().filter(|b| !view.has_frames(b));
+    let strained = bodies.filter_map(|body| {
+        let strain = body.elastic.strain_level(&view.frame.state.u);
+        let name = &body.name;
+        (strain > limit && strain.is_finite()).then(|| {
+            Finding::new(
+                DoctorCause::LargeStrain,
+                Severity::Warning,
+                format!(
+                    "body {name} is strained by {strain:.2} in the end, in the mean of its energy: bodies are linear, with small strains, and forces are wrong by about that part"
+                ),
+            )
+            .blame(super::places::body(view.model, name, format!("strain {strain:.2}")))
+            .advise("if that is not meant, look for a load, a way or a stiffness in the wrong unit; for what strains as much as rubber does take another program")
         })
-        .flatten()
-        .collect()
+    });
+    strained.collect()
 }
 
 fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
@@ -163,6 +200,60 @@ fn deep(interface: &Interface) -> Option<Finding> {
     )
 }
 
+/// Contact that has ended over the edge of the primary: what carried last has nothing opposite any more.
+fn left(view: &View, interface: &Interface, watch: &Watch) -> Option<Finding> {
+    let now = view.frame.state.t;
+    if interface.rigid() || watch.carried_at >= now || !interface.schedule.active(now) {
+        return None;
+    }
+    let gaps = interface.initial_gaps();
+    let beyond = watch.carriers.iter().filter(|&&i| !gaps[i].is_finite());
+    let count = beyond.clone().count();
+    if count == 0 || 2 * count < watch.carriers.len() {
+        return None;
+    }
+    let name = &interface.name;
+    // What is thrown may well fly on.
+    let severity = match view.model.moves() {
+        true => Severity::Note,
+        false => Severity::Warning,
+    };
+    let finding = Finding::new(
+        DoctorCause::LeftPrimary,
+        severity,
+        format!(
+            "interface {name} carries nothing any more after time {:.4e}: what carried last has gone over the edge of the primary, and nothing lies opposite",
+            watch.carried_at
+        ),
+    );
+    let mut finding = Finding {
+        time: Some(watch.carried_at),
+        ..finding
+    }
+    .blame(Guilty::interface(
+        name,
+        "its secondary has left its primary",
+    ));
+    for &i in beyond {
+        finding = finding.blame(
+            Guilty {
+                what: What::Node,
+                name: name.clone(),
+                id: (interface.points[i].node()).map(|one| interface.node_ids[one]),
+                interface: Some(name.clone()),
+                remark: "beyond the edge".into(),
+                ..Guilty::default()
+            }
+            .at(interface.place(&interface.points[i])),
+        );
+    }
+    Some(
+        finding
+            .advise("let the primary reach as far as the motion goes, or let the motion end before its edge")
+            .advise("if contact may end there, the result is right: what the model does after that time is not held by this interface"),
+    )
+}
+
 fn never_carried(interface: &Interface, moves: bool) -> Finding {
     let name = &interface.name;
     // What is thrown may land later than anybody wants to know.
@@ -201,7 +292,7 @@ fn coarse(interface: &Interface, watch: &Watch) -> Option<Finding> {
     }
     .blame(Guilty::interface(name, format!("{points} in contact")));
     finding = finding.advise(
-        "refine the secondary where it is touched: the force may be right, the pressure and its extent are not",
+        "refine the secondary where it is touched: pressures and the extent of contact need several points across; what the force is off shows when the mesh is halved",
     );
     Some(finding)
 }
@@ -213,6 +304,8 @@ crate::keep!(Watch {
     acted,
     turn,
     turned_at,
-    peak
+    peak,
+    carried_at,
+    carriers
 });
 crate::keep!(Peak { value, at, time });

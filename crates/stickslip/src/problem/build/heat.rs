@@ -148,8 +148,14 @@ pub(super) fn temperatures(
                 share,
             }
         });
-    let fields = fields.collect();
-    Ok(Some(Temperatures { start, fields }))
+    let fields: Vec<TemperatureField> = fields.collect();
+    let mut heated = fields.iter().flat_map(|f| &f.entries);
+    let said = heated.all(|e| given[e.0].is_some());
+    Ok(Some(Temperatures {
+        start,
+        said,
+        fields,
+    }))
 }
 
 /// What a field gives at points, ascending.

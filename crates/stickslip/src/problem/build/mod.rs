@@ -273,6 +273,7 @@ impl Problem {
             energy_limit: self.solver.energy_limit,
             follow: self.solver.follow_loose_bodies,
             unused: unused::tables(self),
+            waves: relief::waves(self),
             quality: self.quality,
             largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,

@@ -37,6 +37,7 @@ pub(super) fn build(
             rows: rows.map_err(fault)?,
             tie: Tie::Pretension(Pretension {
                 shares: areas.iter().map(share).collect(),
+                area: whole,
                 steps: steps(problem, &cut.name, timeline),
             }),
             schedule: Schedule::always(),

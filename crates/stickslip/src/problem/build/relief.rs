@@ -52,6 +52,16 @@ pub(super) fn apply(
     Ok(notes)
 }
 
+/// Interfaces whose roughness is a sum of waves, and the shortest of these `[length]`.
+pub(super) fn waves(problem: &Problem) -> Vec<(String, f64)> {
+    let rough = problem.interface.iter();
+    let shortest = rough.filter_map(|(name, table)| {
+        let shortest = table.roughness.as_ref()?.kind.as_dyn().shortest()?;
+        Some((name.clone(), shortest))
+    });
+    shortest.collect()
+}
+
 /// What is known of a measured surface, in the words of who measures and of the law that takes it as a statistic.
 fn figures(name: &str, map: &Figures) -> String {
     let s = &map.statistics;

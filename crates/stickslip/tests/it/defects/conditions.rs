@@ -3,7 +3,7 @@
 use stickslip::assess::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
-use super::models::{CUBES, LED, LOAD, PRESS, SLIDE, THROW};
+use super::models::{BOLT, CUBES, DRAG, HOT, LANDING, LED, LOAD, PRESS, RAIL, SLIDE, THROW};
 use super::{Defect, defect};
 
 pub const CONDITIONS: &[Defect] = &[
@@ -259,5 +259,97 @@ pub const CONDITIONS: &[Defect] = &[
         THROW,
         &[("set = \"block\", velocity", "set = \"block.bottom\", velocity")],
         Found(DoctorCause::NothingActs, "fall"),
+    ),
+    defect(
+        "a step lets the bolt go",
+        BOLT,
+        &[("hold = true", "force = 0")],
+        Found(DoctorCause::LetGo, "step.1.pretension.left"),
+    )
+    .also(&[DoctorCause::FreeRigidMode, DoctorCause::SlidesAway]),
+    defect(
+        "an amplitude that tells of two cycles",
+        SLIDE,
+        &[
+            ("[[1, 0], [2, 1]]", "[[1, 0], [1.25, 1], [1.75, -1], [2, 0], [2.25, 1], [2.75, -1], [3, 0]]"),
+            ("name = \"slide\"", "name = \"slide\", cycles = { count = 2 }"),
+        ],
+        Found(DoctorCause::AmplitudeUnused, "step slide with its 2 cycles"),
+    ),
+    defect(
+        "an amplitude that turns round after the analysis",
+        SLIDE,
+        &[("[[1, 0], [2, 1]]", "[[1, 0], [2, 1], [3, -1]]")],
+        Found(DoctorCause::AmplitudeUnused, "support.along.amplitude"),
+    ),
+    defect(
+        "no temperature at the start",
+        HOT,
+        &[("initial.cold = { set = \"upper\", temperature.uniform.value = 20 }\n", "")],
+        Found(DoctorCause::StartTemperature, "temperature.hot"),
+    ),
+    defect(
+        "a temperature that comes at once in motion",
+        THROW,
+        &[(
+            "step =",
+            "material.steel.expansion = 12e-6\ntemperature.hot = { set = \"block\", uniform.value = 50 }\nstep =",
+        )],
+        Found(DoctorCause::SuddenChange, "temperature.hot"),
+    ),
+    defect(
+        "a kinematic coupling over the surface of contact",
+        PRESS,
+        &[(
+            "step =",
+            "reference.middle.point = [0.02, 0.03]\ncoupling.lead.kinematic = { set = \"upper.bottom\", reference = \"middle\" }\nstep =",
+        )],
+        Found(DoctorCause::SupportOnContact, "coupling.lead"),
+    )
+    // A rigid face on a smooth one touches at its ends first.
+    .also(&[DoctorCause::NotConverged, DoctorCause::Chatter]),
+    defect(
+        "both surfaces of an interface on one body",
+        PRESS,
+        &[("primary = \"lower.top\"", "primary = \"upper.top\"")],
+        Found(DoctorCause::NormalsNotOpposed, "joint"),
+    )
+    .also(&[DoctorCause::MissingInterface]),
+    defect(
+        "a slide beyond the edge of the primary",
+        SLIDE,
+        &[("x = 1e-5, amplitude", "x = 0.05, amplitude")],
+        Found(DoctorCause::LeftPrimary, "joint"),
+    ),
+    defect(
+        "a step leaves out the support that holds against a load",
+        LOAD,
+        &[
+            ("traction.value = [1e7, 0]", "traction.value = [1e8, 0]"),
+            (
+                "step = [{ name = \"load\" }]",
+                "support.guide = { set = \"block.right\", x = 0 }\nstep = [{ name = \"load\" }, { name = \"slide\", supports = [] }]",
+            ),
+        ],
+        Found(DoctorCause::SlidesAway, "support.guide"),
+    ),
+    defect(
+        "a drag that comes to the limit of friction",
+        DRAG,
+        &[("traction.value = [2e6, 0]", "traction.value = [5e6, 0]")],
+        Found(DoctorCause::SlidesAway, "upper"),
+    ),
+    defect(
+        "a block on a round rail that nothing guides",
+        RAIL,
+        &[("support.guide = { set = \"block.top\", x = 0 }\n", "")],
+        Found(DoctorCause::FreeRigidMode, "nothing guides body block"),
+    )
+    .also(&[DoctorCause::SlidesAway]),
+    defect(
+        "a landing that the load stands beside",
+        LANDING,
+        &[("step =", "load.end = { set = \"beam.right\", traction.value = [0, -1e6] }\nstep =")],
+        Found(DoctorCause::SlidesAway, "tips over"),
     ),
 ];

@@ -186,6 +186,8 @@ pub fn judged(
     ];
     let serious = || {
         let findings = said.findings().filter(|f| !OUTCOME.contains(&f.cause));
+        let findings = findings
+            .filter(|f| f.cause != DoctorCause::LargeStrain || !f.message.contains("in the end"));
         findings.filter(|f| f.severity >= Severity::Warning)
     };
     if let Some(f) = serious().find(|f| f.cause != cause && !also.contains(&f.cause)) {

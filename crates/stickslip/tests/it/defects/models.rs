@@ -208,8 +208,101 @@ step = [{ name = "touch", supports = ["base", "down"], loads = [] }, { name = "p
 "#
 );
 
+/// A plate under a yoke that a bolt draws down, tightened in a first step and held in a second.
+pub const BOLT: &str = r#"
+format = 1
+model.space = "plane-stress"
+model.thickness = 0.02
+body.base = { generate.rectangle = { from = [0, -0.01], to = [0.06, 0], cells = [12, 3] }, material = "steel" }
+body.plate = { generate.rectangle = { from = [0.012, 0], to = [0.048, 0.01], cells = [9, 3] }, material = "steel" }
+body.yoke = { generate.rectangle = { from = [0, 0.01], to = [0.06, 0.03], cells = [12, 5] }, material = "steel" }
+body.left = { generate.rectangle = { from = [0, 0], to = [0.01, 0.01], cells = [3, 4] }, material = "steel" }
+body.right = { generate.rectangle = { from = [0.05, 0], to = [0.06, 0.01], cells = [3, 4] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.thread = { secondary = "left.bottom", primary = "base.top", tied = true }
+interface.foot = { secondary = "right.bottom", primary = "base.top", tied = true }
+interface.head = { secondary = "left.top", primary = "yoke.bottom", tied = true }
+interface.hinge = { secondary = "right.top", primary = "yoke.bottom", tied = true }
+interface.seat = { secondary = "plate.top", primary = "yoke.bottom" }
+interface.joint = { secondary = "plate.bottom", primary = "base.top", friction.coulomb = { mu = 0.2 } }
+pretension.left = { of = "left", plane = { point = [0.005, 0.005], normal = [0, 1] } }
+support.ground = { set = "base.bottom", x = 0, y = 0 }
+support.rail = { set = "plate.right", x = 0 }
+step = [{ name = "tighten", pretension.left = { force = 8e3 } }, { name = "serve", pretension.left = { hold = true } }]
+"#;
+
+/// Two blocks that are pressed together and turned by an axle, both with it.
+pub const AXLE: &str = r#"
+format = 1
+model.space = "plane-strain"
+reference.axle.point = [0, -0.02]
+body.lower = { generate.rectangle = { from = [-0.02, -0.02], to = [0.02, 0], cells = [6, 3] }, material = "steel", rotation.with = "axle" }
+body.upper = { generate.rectangle = { from = [-0.01, 0], to = [0.01, 0.02], cells = [4, 4] }, material = "steel", rotation.with = "axle" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.press = { set = "upper.top", x = 0, y = -1e-6 }
+support.turn = { set = "axle", x = 0, y = 0, rotation-z = 0.5, amplitude = "turn" }
+amplitude.turn.table = [[1, 0], [2, 1]]
+step = [{ name = "press" }, { name = "turn", increments.fixed = 2 }]
+"#;
+
+/// A block on another one that is hot, and whose temperature at the start is given.
+pub const HOT: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+support.top = { set = "upper.top", x = 0, y = -1e-5 }
+material.steel.expansion = 12e-6
+initial.cold = { set = "upper", temperature.uniform.value = 20 }
+temperature.hot = { set = "upper", uniform.value = 50 }
+step = [{ name = "heat" }]
+"#
+);
+
+/// A block that is dragged over another one by a load, up to two thirds of what friction holds.
+pub const DRAG: &str = blocks!(
+    r#"interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb = { mu = 0.3 } }
+load.weight = { set = "upper.top", pressure.value = 1e7, amplitude = "down" }
+load.drag = { set = "upper.left", traction.value = [2e6, 0], amplitude = "along" }
+amplitude.down.table = [[0, 0], [1, 1]]
+amplitude.along.table = [[0, 0], [1, 0], [2, 1]]
+step = [{ name = "press", increments.fixed = 2 }, { name = "drag", increments.fixed = 5 }]
+"#
+);
+
+/// A long block across a narrow one, loaded over it.
+pub const LANDING: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.post = { generate.rectangle = { from = [-0.004, -0.02], to = [0.004, 0], cells = [4, 6] }, material = "steel" }
+body.beam = { generate.rectangle = { from = [-0.02, 0], to = [0.02, 0.01], cells = [20, 4] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+interface.seat = { secondary = "beam.bottom", primary = "post.top", friction.coulomb = { mu = 0.3 } }
+support.base = { set = "post.bottom", x = 0, y = 0 }
+load.weight = { set = "beam.top", pressure.value = 1e5 }
+step = [{ name = "load" }]
+"#;
+
+/// A block on a round rail, guided where it is loaded.
+pub const RAIL: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.block = { generate.rectangle = { from = [-0.01, 0], to = [0.01, 0.03], cells = [20, 10] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+obstacle.rail.cylinder = { centre = [0, -0.01], radius = 0.01 }
+interface.base = { secondary = "block.bottom", primary = "rail", friction.coulomb = { mu = 0.3 } }
+load.weight = { set = "block.top", pressure.value = 1e6 }
+support.guide = { set = "block.top", x = 0 }
+step = [{ name = "load" }]
+"#;
+
 /// All models that have nothing wrong with them.
-pub const SOUND: [(&str, &str); 13] = [
+pub const SOUND: [(&str, &str); 19] = [
+    ("rail", RAIL),
+    ("bolt", BOLT),
+    ("axle", AXLE),
+    ("hot", HOT),
+    ("drag", DRAG),
+    ("landing", LANDING),
     ("beside", BESIDE),
     ("pinned", PINNED),
     ("handed", HANDED),

@@ -3,7 +3,7 @@
 use stickslip::assess::doctor::DoctorCause;
 
 use super::Expected::{Found, Refused};
-use super::models::{COMPLIANT, CUBES, LOAD, PRESS, THROW};
+use super::models::{AXLE, BOLT, COMPLIANT, CUBES, HOT, LOAD, PRESS, SLIDE, THROW};
 use super::{Defect, defect};
 
 pub const NUMBERS: &[Defect] = &[
@@ -178,5 +178,111 @@ pub const NUMBERS: &[Defect] = &[
             "load.weight = { set = \"upper.right\", pressure.value = 1e9 }\nstep =",
         )],
         Found(DoctorCause::LargeStrain, "weight"),
+    ),
+    defect(
+        "wear a million times too fast",
+        SLIDE,
+        &[
+            (
+                "friction.coulomb = { mu = 0.3 }",
+                "friction.coulomb = { mu = 0.3 }, wear.archard.coefficient = 2.9e-8",
+            ),
+            (
+                "{ name = \"press\" }, { name = \"slide\" }",
+                "{ name = \"press\", increments.fixed = 2 }, { name = \"slide\", increments.fixed = 2 }",
+            ),
+        ],
+        Found(DoctorCause::LawOutOfRange, "interface.joint.wear.archard"),
+    ),
+    defect(
+        "Archard's coefficient without the hardness",
+        SLIDE,
+        &[
+            (
+                "friction.coulomb = { mu = 0.3 }",
+                "friction.coulomb = { mu = 0.3 }, wear.archard.coefficient = 1e-4",
+            ),
+            (
+                "{ name = \"press\" }, { name = \"slide\" }",
+                "{ name = \"press\", increments.fixed = 2 }, { name = \"slide\", increments.fixed = 2 }",
+            ),
+        ],
+        Found(DoctorCause::LawOutOfRange, "interface.joint.wear.archard"),
+    ),
+    defect(
+        "wear over energy a million times too fast, of the primary",
+        SLIDE,
+        &[
+            (
+                "friction.coulomb = { mu = 0.3 }",
+                "friction.coulomb = { mu = 0.3 }, wear.dissipated-energy = { coefficient = 3e-14, primary-coefficient = 3e-7 }",
+            ),
+            (
+                "{ name = \"press\" }, { name = \"slide\" }",
+                "{ name = \"press\", increments.fixed = 2 }, { name = \"slide\", increments.fixed = 2 }",
+            ),
+        ],
+        Found(DoctorCause::LawOutOfRange, "its primary, body lower"),
+    ),
+    defect(
+        "an expansion in millionths",
+        HOT,
+        &[("expansion = 12e-6", "expansion = 12")],
+        Found(DoctorCause::LargeStrain, "body.upper.material"),
+    )
+    .also(&[DoctorCause::TooLargeSlip, DoctorCause::LostProjection]),
+    defect(
+        "a roughness in metres",
+        PRESS,
+        &[(
+            "mu = 0.3 }",
+            "mu = 0.3 }, roughness.wave = { amplitude = 5e-3, wavelength = [0.02] }",
+        )],
+        Found(DoctorCause::LargeStrain, "interface.joint.roughness"),
+    )
+    .also(&[DoctorCause::InitialOverlap]),
+    defect(
+        "blocks that are strained by a tenth",
+        PRESS,
+        &[("y = -1e-5", "y = -4e-3")],
+        Found(DoctorCause::LargeStrain, "body upper is strained"),
+    ),
+    defect(
+        "waves that are shorter than two cells",
+        PRESS,
+        &[(
+            "mu = 0.3 }",
+            "mu = 0.3 }, roughness.wave = { amplitude = 1e-7, wavelength = [1e-4] }",
+        )],
+        Found(
+            DoctorCause::UnresolvedRoughness,
+            "interface.joint.roughness",
+        ),
+    ),
+    defect(
+        "a bolt of eight newtons",
+        BOLT,
+        &[("force = 8e3", "force = 8")],
+        Found(DoctorCause::LooseBolt, "step.0.pretension.left"),
+    ),
+    defect(
+        "a bolt that pushes",
+        BOLT,
+        &[("force = 8e3", "force = -8e3")],
+        Found(DoctorCause::LooseBolt, "step.0.pretension.left"),
+    ),
+    defect(
+        "an axle in millimetres",
+        AXLE,
+        &[("point = [0, -0.02]", "point = [0, -20]")],
+        Found(DoctorCause::MixedUnits, "reference.axle.point"),
+    )
+    // So far away rounding of rotations is felt.
+    .also(&[DoctorCause::NotConverged, DoctorCause::Chatter]),
+    defect(
+        "an axle that turns in degrees",
+        AXLE,
+        &[("rotation-z = 0.5", "rotation-z = 30")],
+        Found(DoctorCause::MixedUnits, "support.turn"),
     ),
 ];

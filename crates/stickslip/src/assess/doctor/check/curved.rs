@@ -103,10 +103,19 @@ fn across(
     })
 }
 
-pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Finding> {
-    if interface.laws.tied {
-        return None;
-    }
+/// A place on the secondary between two of its facets.
+struct Between {
+    x: Vec3,
+    /// To the other side `[m]`.
+    away: f64,
+    /// Spacings of both sides along the bend `[m]`.
+    spacings: [f64; 2],
+    /// Curvature between the surfaces, positive where they part beside the place `[1/m]`.
+    curvature: f64,
+}
+
+/// Places on the secondary that are nearest to the other side.
+fn nearest_places(interface: &Interface, t: f64) -> Vec<Between> {
     let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
     let theirs: Vec<&Facet> = match &interface.primary {
         Primary::Facets(facets) => facets.iter().collect(),
@@ -120,18 +129,39 @@ pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Find
         }
     }
     let mut opposite = Opposite::new(interface, t);
-    // Distance, and for each side its spacing over the radius of what lies between the surfaces.
-    let mut places: Vec<(f64, [f64; 2])> = Vec::new();
+    let mut places = Vec::new();
     for bend in &own {
         if let Some((away, spacing, curvature)) = across(interface, &mut opposite, bend, &by_facet)
         {
-            let relative = (bend.curvature + curvature).max(0.0);
-            places.push((away, [bend.spacing * relative, spacing * relative]));
+            places.push(Between {
+                x: bend.x,
+                away,
+                spacings: [bend.spacing, spacing],
+                curvature: bend.curvature + curvature,
+            });
         }
     }
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    places.sort_by(|a, b| a.away.total_cmp(&b.away));
     places.truncate(((NEAREST * places.len() as f64) as usize).max(LEAST));
-    let part = [0, 1].map(|side| median(places.iter().map(|p| p.1[side]).collect()));
+    places
+}
+
+/// Where the sides are nearest to each other, and the least curvature between them near there `[1/m]`: below zero one lies in a hollow of the other.
+pub(super) fn rest(interface: &Interface, t: f64) -> Option<(Vec3, f64)> {
+    let places = nearest_places(interface, t);
+    let least = places.iter().map(|p| p.curvature);
+    let first = places.first()?;
+    Some((first.x, least.fold(f64::INFINITY, f64::min)))
+}
+
+pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Finding> {
+    if interface.laws.tied {
+        return None;
+    }
+    let places = nearest_places(interface, t);
+    // For each side its spacing over the radius of what lies between the surfaces.
+    let over = |p: &Between, side: usize| p.spacings[side] * p.curvature.max(0.0);
+    let part = [0, 1].map(|side| median(places.iter().map(|p| over(p, side)).collect()));
     let side = usize::from(part[1] > part[0]);
     let coarse = part[side];
     (coarse > WIDEST).then(|| say(model, interface, side, coarse))

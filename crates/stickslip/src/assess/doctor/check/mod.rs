@@ -1,5 +1,7 @@
 //! What can be told of a model before it runs.
 
+mod axles;
+mod bolts;
 mod cells;
 mod common;
 mod conditions;
@@ -7,6 +9,7 @@ mod curved;
 mod driven;
 mod friction;
 mod gaps;
+mod heat;
 mod laws;
 mod locking;
 mod measured;
@@ -14,17 +17,20 @@ mod meshes;
 mod motions;
 mod normals;
 mod released;
+mod relief;
 mod schedules;
 mod speeds;
 mod strains;
 mod surfaces;
 mod turned;
+mod unguided;
 mod units;
 mod unmoved;
 mod unused;
 mod wear;
 
 pub(super) use meshes::disconnected;
+pub(crate) use released::let_go;
 pub(crate) use wear::longest_way;
 
 use super::finding::Finding;
@@ -61,8 +67,10 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
                 }
                 out.extend(strains::pressed(view, interface, measured));
                 out.extend(meshes::check(view, interface, measured));
-                out.extend(surfaces::check(model, interface));
+                out.extend(surfaces::check(view, interface));
                 out.extend(curved::check(model, interface, t));
+                out.extend(relief::check(model, interface));
+                out.extend(unguided::check(view, interface));
             }
         }
         out.extend(friction::check(view, interface, measured));
@@ -71,6 +79,9 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
     out.extend(conditions::check(view, &measured));
     out.extend(schedules::check(view));
     out.extend(released::check(view));
+    out.extend(bolts::check(view));
+    out.extend(axles::check(view));
+    out.extend(heat::check(model));
     out.extend(unmoved::check(view));
     out.extend(unused::check(model));
     out.extend(unjoined.check(view));
@@ -97,6 +108,7 @@ pub(super) fn opposed(view: &View) -> Option<Finding> {
 pub(super) fn suspects(model: &Model, moving: bool) -> Vec<Finding> {
     let mut out = units::impossible(model, moving);
     out.extend(strains::check(model));
+    out.extend(heat::strained(model));
     out
 }
 
@@ -107,5 +119,6 @@ pub(super) fn roots(scene: &Scene) -> Vec<Finding> {
     out.extend(laws::check(scene));
     out.extend(surfaces::doubled(scene));
     out.extend(speeds::fast(scene));
+    out.extend(wear::fast(scene));
     out
 }

@@ -68,7 +68,38 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
             false => "name the surfaces that face each other; `stickslip check` lists the sets of each body",
         }));
     }
-    inside_out(view, interface, &ours)
+    through(view, interface, measured, &ours).or_else(|| inside_out(view, interface, &ours))
+}
+
+/// Two surfaces of one body with its material between them.
+fn through(view: &View, interface: &Interface, measured: &Measured, ours: &str) -> Option<Finding> {
+    let [own, other] = sides(view.model, interface);
+    if own.is_none() || own != other {
+        return None;
+    }
+    // Inside a body the other surface lies behind, by its thickness.
+    let gaps = measured.gaps.iter().zip(&interface.points).enumerate();
+    let behind = gaps.filter(|(_, (gap, point))| gap.is_finite() && **gap < -point.size);
+    let behind: Vec<(usize, f64)> = behind.map(|(i, (gap, _))| (i, *gap)).collect();
+    let (i, gap) = *behind.first()?;
+    if behind.len() as f64 <= INSIDE * measured.gaps.len() as f64 {
+        return None;
+    }
+    let name = &interface.name;
+    Some(
+        Finding::new(
+            DoctorCause::NormalsNotOpposed,
+            Severity::Warning,
+            format!(
+                "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {:.3e} behind them, and the two cannot touch",
+                behind.len(),
+                -gap
+            ),
+        )
+        .blame(Guilty::interface(name, "both sides on one body"))
+        .blame(secondary(interface, i, format!("the other side is {:.3e} behind it, through the body", -gap)))
+        .advise("name the surface of the other body that this one meets; a body that meets itself needs two surfaces that face each other"),
+    )
 }
 
 /// A body most of which lies within the obstacle it is meant to rest on.

@@ -18,6 +18,40 @@ struct Dropped<'a> {
     body: usize,
 }
 
+/// A support that held a body until the step at hand.
+pub(crate) struct Gone {
+    /// Its key.
+    pub key: String,
+    /// What it did.
+    pub what: String,
+    /// What to do.
+    pub advice: String,
+}
+
+/// Supports of some bodies that the step at hand leaves out and the one before had. Two bodies that move together may have hung on what held one of them.
+pub(crate) fn let_go(view: &View, bodies: &[String]) -> Vec<Gone> {
+    let model = view.model;
+    let at = view.frame.step;
+    let (Some(before), Some(step)) = (at.checked_sub(1).map(|i| &model.steps[i]), view.step())
+    else {
+        return Vec::new();
+    };
+    let gone = supports(model, before, step).into_iter();
+    let own = gone.filter(|d| bodies.contains(&model.bodies[d.body].name));
+    own.map(|d| Gone {
+        key: format!("support.{}", d.name),
+        what: format!(
+            "held body {} in step {}, and step {} leaves it out",
+            model.bodies[d.body].name, before.name, step.name
+        ),
+        advice: format!(
+            "add \"{}\" to `supports` of step {} if it is to hold on: a step with a list has nothing else",
+            d.name, step.name
+        ),
+    })
+    .collect()
+}
+
 pub(super) fn check(view: &View) -> Vec<Finding> {
     let model = view.model;
     let mut out = Vec::new();
@@ -35,14 +69,23 @@ pub(super) fn check(view: &View) -> Vec<Finding> {
         let free = free(view, &modes, step.end);
         let mut told = BTreeSet::new();
         for dropped in supports(model, before, step) {
-            let name = |modes: &BTreeMap<usize, BTreeSet<String>>| {
-                modes.get(&dropped.body).cloned().unwrap_or_default()
+            let of = |all: &BTreeMap<usize, Motions>| {
+                all.get(&dropped.body).cloned().unwrap_or_default()
             };
-            let new: Vec<String> = name(&free).difference(&name(&was)).cloned().collect();
+            let (before_it, now) = (of(&was), of(&free));
+            let new = now.names.difference(&before_it.names).cloned();
+            let new: Vec<String> = new.collect();
             let led = loaded(model, dropped.body, step) && !loaded(model, dropped.body, before);
-            if !new.is_empty() && !led {
+            // The same motions, but more of them: what turned about a support moves by itself.
+            if (!new.is_empty() || now.count > before_it.count) && !led {
                 told.insert(dropped.body);
-                let what = format!("held against {}", new.join(" and "));
+                let what = match new.is_empty() {
+                    false => format!("held against {}", new.join(" and ")),
+                    true => format!(
+                        "held by it against {}",
+                        now.names.iter().cloned().collect::<Vec<_>>().join(" and ")
+                    ),
+                };
                 out.push(finding(model, &dropped, step, &what));
             }
         }
@@ -78,13 +121,25 @@ fn left_out(schedule: &Schedule, before: &Step, step: &Step) -> bool {
     acts(schedule, before) && !acts(schedule, step) && !table
 }
 
+/// Motions of a body: those that have a part in them, and how many there are.
+#[derive(Debug, Clone, Default)]
+struct Motions {
+    names: BTreeSet<String>,
+    count: usize,
+}
+
 /// Motions as a whole that nothing but contact resists, by body.
-fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, BTreeSet<String>> {
-    let mut out: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, Motions> {
+    let mut out: BTreeMap<usize, Motions> = BTreeMap::new();
     for unheld in view.unheld(t, modes, false) {
+        let mut moved = BTreeSet::new();
         for (mode, part) in modes.iter().zip(unheld) {
             if part.abs() > NO_PART {
-                out.entry(mode.body).or_default().insert(mode.name.clone());
+                let motions = out.entry(mode.body).or_default();
+                motions.names.insert(mode.name.clone());
+                if moved.insert(mode.body) {
+                    motions.count += 1;
+                }
             }
         }
     }

@@ -75,7 +75,8 @@ pub(super) fn check(scene: &Scene) -> Vec<Finding> {
         match never(model, &acting) {
             Some(finding) => out.push(finding),
             None if acting.counts && acting.scaled => {
-                out.extend(unreached(model, &acting));
+                let short = unreached(model, &acting);
+                out.extend(short.or_else(|| unread(model, &acting)));
                 out.extend(jump(scene, &acting));
                 out.extend(ended(model, &acting));
             }
@@ -147,6 +148,60 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
         .blame(Guilty::key(format!("{what}.{name}.amplitude"), ""))
         .blame(Guilty::key("step", format!("ends at {end}")))
         .advise("make the steps as long as the amplitude, or scale its times"),
+    )
+}
+
+/// A table that goes on to change behind the end of the analysis, or of the one cycle that it tells of.
+fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
+    let end = model.steps.last().map_or(0.0, |s| s.end);
+    let pieces = acting.schedule.pieces.iter();
+    let mut tables = pieces.filter_map(|p| match &p.course {
+        Course::Table(table) => Some(table),
+        _ => None,
+    });
+    let table = tables.next()?;
+    let (rows, last) = (table.rows(), table.at(end));
+    let largest = rows.iter().fold(0.0_f64, |m, r| m.max(r[1].abs()));
+    let beyond = rows.iter().filter(|r| r[0] > end * (1.0 + 1e-9));
+    let beyond: Vec<&[f64; 2]> = beyond.collect();
+    let changes = beyond.iter().any(|r| (r[1] - last).abs() > JUMP * largest);
+    if !changes {
+        return None;
+    }
+    // Tables tell of one cycle, and times in them count like that.
+    let once = |s: &crate::model::definition::Step| s.cycles.map_or(s.end - s.start, |c| c.period);
+    let told: f64 = model.steps.iter().map(once).sum();
+    let first = beyond[0][0] - (end - told);
+    let Acting { what, name, .. } = acting;
+    let repeated = (model.steps.iter()).find(|s| s.cycles.is_some_and(|c| c.count > 1));
+    let (severity, message, advice) = match repeated.and_then(|s| Some((s, s.cycles?))) {
+        Some((step, cycles)) => (
+            Severity::Warning,
+            format!(
+                "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the steps end at {told} in its time, in which step {} with its {} cycles is one cycle of {}",
+                beyond.len(),
+                step.name,
+                cycles.count,
+                cycles.period
+            ),
+            "let the table tell of one cycle and no more, or make the `duration` of the step, which is that of one cycle, as long as what the table tells",
+        ),
+        None => (
+            Severity::Note,
+            format!(
+                "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the analysis ends at {told}",
+                beyond.len()
+            ),
+            "make the steps as long as the amplitude, or leave out the rows",
+        ),
+    };
+    Some(
+        Finding::new(DoctorCause::AmplitudeUnused, severity, message)
+            .blame(Guilty::key(
+                format!("{what}.{name}.amplitude"),
+                format!("rows from {first} on"),
+            ))
+            .advise(advice),
     )
 }
 

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::cause::DoctorCause;
 use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{roles, sides};
+use crate::body::couplings::Row;
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::Vec3;
@@ -61,7 +62,8 @@ fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
     all.into_iter().filter_map(surface).collect()
 }
 
-pub(super) fn check(model: &Model, interface: &Interface) -> Vec<Finding> {
+pub(super) fn check(scene: &Scene, interface: &Interface) -> Vec<Finding> {
+    let model = scene.model;
     if interface.laws.tied {
         return Vec::new();
     }
@@ -69,6 +71,7 @@ pub(super) fn check(model: &Model, interface: &Interface) -> Vec<Finding> {
     for surface in surfaces(model, interface) {
         out.extend(held(model, interface, &surface));
         out.extend(loaded(model, interface, &surface));
+        out.extend(stiffened(scene, interface, &surface));
     }
     out
 }
@@ -116,6 +119,48 @@ fn held(model: &Model, interface: &Interface, surface: &Surface) -> Option<Findi
             node.into_iter()
                 .fold(finding, |f, p| f.blame(point(model, surface.body, p)))
                 .advise("support the body where it is held in truth, away from the contact, or make it `rigid = true`"),
+        );
+    }
+    None
+}
+
+/// A kinematic coupling that makes the surface itself rigid, although the body behind it could give way.
+fn stiffened(scene: &Scene, interface: &Interface, surface: &Surface) -> Option<Finding> {
+    let model = scene.model;
+    let meshed = model.mesh.points.len();
+    let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
+    let all = scene.contact.couplings.all().iter();
+    for coupling in all.filter(|c| c.referred && c.tie.firm()) {
+        // Each row of a kinematic one leads a point of its own; one that distributes has all points in each.
+        let own = |row: &Row| {
+            let points = row.dofs.iter().map(|&d| model.dofs.locate(d).0);
+            let points: BTreeSet<usize> = points.filter(|&p| p < meshed).collect();
+            (points.len() == 1).then(|| points.first().copied())?
+        };
+        let led: BTreeSet<usize> = coupling.rows.iter().filter_map(own).collect();
+        let count = led.intersection(&on).count();
+        let beyond = surface.body.points.clone();
+        // A body that is led everywhere stands for a rigid one.
+        let elsewhere = led.iter().any(|p| beyond.contains(p) && !on.contains(p));
+        let mut steps = model.steps.iter();
+        let both =
+            steps.any(|s| coupling.schedule.active(s.end) && interface.schedule.active(s.end));
+        if (count as f64) <= MOST * on.len() as f64 || elsewhere || !both {
+            continue;
+        }
+        let (name, ours) = (&interface.name, &surface.body.name);
+        return Some(
+            Finding::new(
+                DoctorCause::SupportOnContact,
+                Severity::Warning,
+                format!(
+                    "coupling {} makes the {} of interface {name} itself rigid, on body {ours}: contact there cannot shape it, and pressures are those of a rigid face",
+                    coupling.name, surface.side
+                ),
+            )
+            .blame(Guilty::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))
+            .blame(Guilty::interface(name, format!("its {}", surface.side)))
+            .advise("let the reference point lead the face where the body is held in truth, away from the contact, or make the body `rigid = true`"),
         );
     }
     None

@@ -48,7 +48,7 @@ const HUGE: f64 = 20.0;
 const TINY: f64 = 0.1;
 
 /// Ratio of the sizes of two bodies beyond which one of them is in other units.
-const SIZES: f64 = 300.0;
+pub(super) const SIZES: f64 = 300.0;
 
 /// A body in numbers.
 struct Numbers<'a> {

@@ -1,13 +1,61 @@
-//! Wear that is explicit is stable below a length of increments only.
+//! Wear that is faster than any, and wear that is explicit, which is stable below a length of increments only.
 
 use super::super::cause::DoctorCause;
 use super::super::finding::{Finding, Guilty, Severity};
 use super::super::friction::friction_coefficient;
+use super::common::{roles, sides};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::wear::Feedback;
 use crate::model::cycling::Jump;
 use crate::model::definition::Model;
+use crate::model::scene::Scene;
+use crate::registry::Family;
+
+/// Modulus over hardness of the softest metals: lead, tin and annealed aluminium have 400 to 1000, steels 50 to 200, polymers and ceramics 10 to 40.
+const SOFTEST: f64 = 1e3;
+
+/// Rates of wear that are those of no surface. Archard's `K = k H` is the part of its contacts in which a surface loses a particle of the size of the contact
+/// ([Archard 1953](crate::references::archard_1953)), and no part is above one: a rate `k` is below `1 / H`, and that below `1000 / E`.
+pub(crate) fn fast(scene: &Scene) -> Vec<Finding> {
+    let interfaces = scene.contact.interfaces.iter();
+    interfaces
+        .filter_map(|i| too_fast(scene.model, i))
+        .collect()
+}
+
+fn too_fast(model: &Model, interface: &Interface) -> Option<Finding> {
+    let shear = friction_coefficient(interface).unwrap_or(1.0);
+    let rates = interface.laws.wear.as_dyn().fastest();
+    let [own, other] = sides(model, interface);
+    let [ours, theirs] = roles(interface);
+    let worn = [(rates[0], own, ours), (rates[1], other, theirs)];
+    worn.into_iter().find_map(|(rate, body, side)| {
+        let name = body?;
+        let body = model.bodies.iter().find(|b| b.name == name)?;
+        let c = body.elastic.parts().first()?.stiffness;
+        let (m, g) = (c[0][0], c[3][3]);
+        let young = g * (3.0 * m - 4.0 * g) / (m - g);
+        let rate = rate.per_path(shear);
+        let part = rate * young / SOFTEST;
+        (part > 1.0 && part.is_finite()).then(|| {
+            let kind = interface.laws.wear.kind();
+            Finding::new(
+                DoctorCause::LawOutOfRange,
+                Severity::Warning,
+                format!(
+                    "interface {}: its {side}, body {name}, wears by {rate:.3e} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young:.3e} the rate of no surface is above {:.3e}",
+                    interface.name,
+                    SOFTEST / young
+                ),
+            )
+            .blame(Guilty::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
+            .blame(super::super::places::body(model, &name, format!("modulus {young:.3e}")))
+            .advise("a coefficient without unit, 1e-7 to 1e-2, is that of `wear.archard-hardness`, with the hardness beside it; that of `wear.archard` is divided by the hardness: 1e-17 to 1e-12 per pascal for metals")
+            .advise("mm³/(N m), as tables have it, is 1e-9 per pascal, and 1e-3 per megapascal")
+        })
+    })
+}
 
 /// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where wear is explicit.
 pub(crate) fn longest_way(model: &Model, interface: &Interface) -> Option<f64> {

@@ -1,0 +1,134 @@
+//! Temperatures that strain bodies too much, that jump in motion, or that count from nobody knows what.
+
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
+use super::super::places::body;
+use super::common::times;
+use crate::model::definition::Model;
+
+/// Strain from which nothing of a linear body can be trusted.
+const LARGE: f64 = 0.2;
+
+pub(super) fn check(model: &Model) -> Vec<Finding> {
+    let mut out = strained(model);
+    out.extend(from_zero(model));
+    out.extend(jumps(model));
+    out
+}
+
+/// Bodies that temperatures strain too much.
+pub(super) fn strained(model: &Model) -> Vec<Finding> {
+    let Some(heat) = &model.heat else {
+        return Vec::new();
+    };
+    let temperatures = &heat.temperatures;
+    let mut out = Vec::new();
+    for owner in model.elastic() {
+        // The largest strain, the rise that makes it and its time.
+        let mut worst = (0.0_f64, 0.0, 0.0);
+        for t in times(model) {
+            let rises = temperatures.rises(t);
+            for p in owner.points.clone() {
+                for dilation in owner.elastic.parts().iter().flat_map(|p| &p.dilation) {
+                    let strain = dilation.strain(temperatures.start[p], rises[p]);
+                    let most = strain[..3].iter().fold(0.0_f64, |m, e| m.max(e.abs()));
+                    if most > worst.0 {
+                        worst = (most, rises[p], t);
+                    }
+                }
+            }
+        }
+        let (strain, rise, t) = worst;
+        if strain <= LARGE {
+            continue;
+        }
+        let name = &owner.name;
+        out.push(
+            Finding::new(
+                DoctorCause::LargeStrain,
+                Severity::Warning,
+                format!(
+                    "body {name} expands by a strain of {strain:.3e}: it is warmer by {rise:.4e} at time {t:.4e}, and its coefficient of thermal expansion is {:.3e}",
+                    strain / rise.abs()
+                ),
+            )
+            .blame(Guilty::key(format!("body.{name}.material"), "its `expansion`"))
+            .blame(body(model, name, format!("strain {strain:.3e}")))
+            .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
+            .advise("bodies are linear, with small strains, and results beyond are not to be trusted"),
+        );
+    }
+    out
+}
+
+/// Temperatures that are given while nobody has said how warm bodies are at the start.
+fn from_zero(model: &Model) -> Option<Finding> {
+    let heat = model.heat.as_ref()?;
+    let temperatures = &heat.temperatures;
+    if temperatures.said || temperatures.fields.is_empty() {
+        return None;
+    }
+    let field = temperatures.fields.first()?;
+    let largest = field
+        .entries
+        .iter()
+        .fold(0.0_f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
+    (largest != 0.0).then(|| {
+        Finding::new(
+            DoctorCause::StartTemperature,
+            Severity::Note,
+            format!(
+                "no `initial` says how warm bodies are at the start: they are free of stress at 0, so that {largest} of temperature {} is the whole rise",
+                field.name
+            ),
+        )
+        .blame(Guilty::key(format!("temperature.{}", field.name), ""))
+        .advise("where temperatures are not meant as rises, give the one of the start: `[initial.NAME]` with `set` and `temperature.uniform.value`, of all bodies")
+    })
+}
+
+/// Temperatures that come or go at once, in a step in which bodies have inertia.
+fn jumps(model: &Model) -> Vec<Finding> {
+    let Some(heat) = &model.heat else {
+        return Vec::new();
+    };
+    let temperatures = &heat.temperatures;
+    let mut out = Vec::new();
+    for (i, step) in model.steps.iter().enumerate() {
+        if step.dynamic.is_none() {
+            continue;
+        }
+        let short = 1e-6 * (step.end - step.start);
+        let mut before = temperatures.rises(step.start);
+        if i == 0 {
+            before.fill(0.0);
+        }
+        let after = temperatures.rises(step.start + short);
+        let changed = before.iter().zip(&after).map(|(b, a)| (a - b).abs());
+        let jump = changed.fold(0.0, f64::max);
+        let most = before.iter().chain(&after);
+        let most = most.fold(0.0_f64, |m, r| m.max(r.abs()));
+        if jump <= 0.5 * most || most == 0.0 {
+            continue;
+        }
+        let mut fields = temperatures.fields.iter();
+        let moved = |f: &&crate::body::TemperatureField| {
+            i == 0 || f.weights(step.start) != f.weights(step.start + short)
+        };
+        let name = fields.find(moved).map_or("", |f| f.name.as_str());
+        out.push(
+            Finding::new(
+                DoctorCause::SuddenChange,
+                Severity::Warning,
+                format!(
+                    "temperature {name} jumps by {jump:.4e} at the start of step {}, which is dynamic: heat takes far longer than sound, and bodies that expand at once ring like bells",
+                    step.name
+                ),
+            )
+            .blame(Guilty::key(format!("temperature.{name}"), "at once"))
+            .blame(Guilty::key("step", format!("step {} is dynamic", step.name)))
+            .advise("heat in a quasi-static step before, or spread the rise by an `amplitude`"),
+        );
+    }
+    out
+}

@@ -1,0 +1,84 @@
+//! Heights of rough surfaces that contact points cannot show, or that are as steep as no surface that first order holds for.
+
+use super::super::cause::DoctorCause;
+use super::super::finding::{Finding, Guilty, Severity};
+use super::super::surfaces::spacing;
+use super::common::median;
+use crate::contact::interface::Interface;
+use crate::math::distance;
+use crate::model::definition::Model;
+
+/// Points that a wave needs at the least to be told from a longer one (Nyquist).
+const POINTS: f64 = 2.0;
+
+/// Strain that it takes to press waves flat from which nothing of a linear body can be trusted.
+const LARGE: f64 = 0.2;
+
+pub(super) fn check(model: &Model, interface: &Interface) -> Option<Finding> {
+    if interface.relief.is_empty() {
+        return None;
+    }
+    aliased(model, interface).or_else(|| steep(interface))
+}
+
+/// Waves that are shorter than two distances of points.
+fn aliased(model: &Model, interface: &Interface) -> Option<Finding> {
+    let waves = model.waves.iter().find(|w| w.0 == interface.name)?;
+    let facets = interface.skin.iter().map(|s| spacing(interface, &s.facet));
+    let apart = median(facets.collect());
+    let (name, shortest) = (&interface.name, waves.1);
+    (shortest < POINTS * apart).then(|| {
+        Finding::new(
+            DoctorCause::UnresolvedRoughness,
+            Severity::Warning,
+            format!(
+                "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
+            ),
+        )
+        .blame(Guilty::key(format!("interface.{name}.roughness"), format!("waves of {shortest:.3e}")))
+        .blame(Guilty::interface(name, format!("points {apart:.3e} apart")))
+        .advise(format!(
+            "refine the secondary until a wave has several points, {:.1e} apart and less, or leave short waves out",
+            0.25 * shortest
+        ))
+        .advise("what is too short for a mesh is a law of contact: `normal.micro-contact`")
+    })
+}
+
+/// Heights between neighbouring points that are a good part of their distance. A cosine of amplitude `a` and length `λ` is pressed flat by the pressure `π E* a / λ`
+/// ([Westergaard 1939](crate::references::westergaard_1939)), a strain of half its steepest slope, which is `√2` times the root mean square.
+fn steep(interface: &Interface) -> Option<Finding> {
+    let mut height = vec![None; interface.nodes.len()];
+    for (point, h) in interface.points.iter().zip(&interface.relief) {
+        if let Some(node) = point.node() {
+            height[node] = Some(*h);
+        }
+    }
+    let (mut squares, mut lengths) = (0.0, 0.0);
+    for facet in interface.skin.iter().map(|s| &s.facet) {
+        let nodes = facet.nodes.iter();
+        let known: Vec<usize> = nodes.copied().filter(|&n| height[n].is_some()).collect();
+        for pair in known.windows(2) {
+            let length = distance(interface.reference[pair[0]], interface.reference[pair[1]]);
+            let [a, b] = [height[pair[0]]?, height[pair[1]]?];
+            squares += (b - a).powi(2) / length.max(f64::MIN_POSITIVE);
+            lengths += length;
+        }
+    }
+    let slope = (squares / lengths).sqrt();
+    let strain = slope * std::f64::consts::FRAC_1_SQRT_2;
+    let name = &interface.name;
+    (strain > LARGE && strain.is_finite()).then(|| {
+        Finding::new(
+            DoctorCause::LargeStrain,
+            Severity::Warning,
+            format!(
+                "interface {name}: its roughness has a slope of {slope:.2} in the root mean square between points: to press it flat takes strains of about {strain:.2}, and heights change gaps to first order"
+            ),
+        )
+        .blame(Guilty::key(format!("interface.{name}.roughness"), format!("slope {slope:.2}")))
+        .blame(Guilty::interface(name, ""))
+        .advise("check the unit of the heights: roughness is micrometres, in a model in metres 1e-6")
+        .advise("a shape that is as steep as that belongs into the mesh")
+    })
+}
