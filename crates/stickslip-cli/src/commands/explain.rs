@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
-use stickslip::assess::Figure;
 use stickslip::assess::doctor::{DoctorCause, Finding, Guilty, Severity};
+use stickslip::assess::{Figure, told_apart};
 
 use crate::failure::{Failure, Outcome};
 use crate::given;
@@ -148,8 +148,9 @@ fn gate(summary: &Value, findings: &[Finding]) -> String {
         let place = figure["place"].as_str().unwrap_or_default();
         // JSON has no NaN: what is no number is null.
         let number = |key: &str| figure[key].as_f64();
-        let value = number("value").map_or("not a number".into(), |v| format!("{v:.2e}"));
         let limit = number("limit").unwrap_or(f64::INFINITY);
+        let both = number("value").map(|value| told_apart(value, limit));
+        let [value, limit] = both.unwrap_or(["not a number".into(), format!("{limit:.1e}")]);
         let when = number("time").map_or(String::new(), |t| format!(", at time {t:.6e}"));
         let (what, help) = Figure::meaning(name, findings).unwrap_or((
             "it is not known to this version",
@@ -157,7 +158,7 @@ fn gate(summary: &Value, findings: &[Finding]) -> String {
         ));
         text += &format!("\n{severity}: quality, {name} of {place}{when}\n");
         text += &print::wrap(
-            &format!("{value}, above its limit {limit:.1e}: {what}."),
+            &format!("{value}, above its limit {limit}: {what}."),
             2,
             WIDTH,
         );

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::symmetry::Across;
-use crate::math::{Vec3, angle, cross, distance, norm};
+use crate::math::{Vec3, angle, cross, distance, dot, norm, sub};
 use crate::shape::ElementKind;
 
 /// A point of the secondary surface at which contact is checked: a node, a quadrature point of a face, or on an obstacle the mean over a quadratic
@@ -171,6 +171,46 @@ pub fn turns(facets: &[&Facet], x: &[Vec3]) -> Vec<[f64; 2]> {
         _ => None,
     };
     sides.values().filter_map(pair).collect()
+}
+
+/// By facet, how far a smooth surface through the nodes stands off it at most on its outer side, because the surface is hollow there `[m]`: an eighth of the angle to the facets beside
+/// it times the distance to them, along both directions of a facet in space. Zero where the surface is flat or bulges, and of quadratic facets, which follow it.
+pub fn hollows(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
+    let mut sides: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+    for (f, facet) in facets.iter().enumerate() {
+        for edge in edges(facet.kind) {
+            let mut key: Vec<usize> = edge.iter().map(|&i| facet.nodes[i]).collect();
+            key.sort_unstable();
+            sides.entry(key).or_default().push(f);
+        }
+    }
+    let centre = |f: usize| {
+        let facet = facets[f];
+        let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| x[n]).collect();
+        let [s, t, _] = facet.kind.centre();
+        evaluate(facet.kind, &nodes, [s, t])
+    };
+    let mut sums = vec![(0.0, 0.0); facets.len()];
+    for pair in sides.values() {
+        let &[a, b] = pair.as_slice() else { continue };
+        let (p, q) = (centre(a), centre(b));
+        let turned = angle(p.normal, q.normal);
+        if turned >= SHARP {
+            continue;
+        }
+        let way = sub(q.x, p.x);
+        // Normals that come towards each other are those of a hollow.
+        let hollow = -dot(sub(q.normal, p.normal), way).signum() * turned * distance(p.x, q.x);
+        for f in [a, b] {
+            sums[f].0 += hollow;
+            sums[f].1 += 1.0;
+        }
+    }
+    let of = |(facet, (sum, count)): (&&Facet, (f64, f64))| match facet.kind.order() {
+        1 if count > 0.0 => (facet.kind.dim() as f64 * sum / (8.0 * count)).max(0.0),
+        _ => 0.0,
+    };
+    facets.iter().zip(sums).map(of).collect()
 }
 
 /// Distance of the nodes of a facet, from its measure: that of a square, or half of one, with nodes at its corners.

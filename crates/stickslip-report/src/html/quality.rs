@@ -1,5 +1,7 @@
 //! The quality gate.
 
+use stickslip::assess::told_apart;
+
 use super::escape::text;
 use super::facts::{mark, number, table};
 use crate::results::Results;
@@ -33,12 +35,19 @@ pub fn section(results: &Results) -> String {
                 )
             });
             let shown = |v: Option<f64>| v.map_or_else(|| "-".into(), number);
+            let mut compared = [shown(value), shown(limit)];
+            // A value that is just above its limit needs more digits.
+            if let (false, Some(v), Some(l)) = (met, value, limit)
+                && compared[0] == compared[1]
+            {
+                compared = told_apart(v, l);
+            }
             let cells = vec![
                 text(f["figure"].as_str().unwrap_or("?")).replace('-', " "),
                 text(f["place"].as_str().unwrap_or("?")),
                 verdict,
-                shown(value),
-                shown(limit),
+                compared[0].clone(),
+                compared[1].clone(),
                 bar,
                 shown(f["time"].as_f64()),
             ];

@@ -26,7 +26,7 @@ const TRIFLE: f64 = 1e-6;
 struct Acting {
     /// Sum of everything.
     left: Torsor,
-    /// The largest of the sums of magnitudes of loads, contact forces, reactions, springs and, in motion, inertia and elastic forces `[N]`.
+    /// The largest of the sums of magnitudes of loads, contact forces, reactions, springs and, in motion, inertia, elastic forces and what would stop it `[N]`.
     scale: f64,
     /// Half the size of the body `[m]`.
     arm: f64,
@@ -44,7 +44,11 @@ impl View<'_> {
         }
         let inertia = self.inertia().map(|inertia| {
             let inertial = inertia.mass_times(&self.frame.state.a);
-            [inertial, self.frame.motion.internal.clone()]
+            [
+                inertial,
+                self.frame.motion.internal.clone(),
+                self.arresting(),
+            ]
         });
         let inside = inertia.unwrap_or_default();
         let bodies = self.model.bodies.iter();
@@ -78,6 +82,15 @@ impl View<'_> {
         }
     }
 
+    /// Forces `[N]` that would stop everything over the step, momentum over its length: one that is left out of balance by a part of them changes
+    /// velocities by that part. What flies freely, a rigid body above all, has nothing else to compare with.
+    fn arresting(&self) -> Vec<f64> {
+        let mut momenta = self.momenta(&self.frame.state.v);
+        let length = self.step().map_or(f64::INFINITY, |s| s.end - s.start);
+        momenta.iter_mut().for_each(|p| *p /= length);
+        momenta
+    }
+
     /// Forces `[N]` by which the stiffness would stop the fastest motion at each dof, `v √(k m)`; nothing where nothing is in motion.
     fn stopping(&self) -> Vec<f64> {
         let Some(inertia) = self.inertia() else {
@@ -95,13 +108,13 @@ impl View<'_> {
             .collect()
     }
 
-    /// `inside`: forces of inertia and elastic forces, where there is motion.
+    /// `inside`: forces of inertia, elastic forces, and what would stop everything, where there is motion.
     fn acting(
         &self,
         body: &Body,
         fixed: &[bool],
         springs: &[f64],
-        inside: &[Vec<f64>; 2],
+        inside: &[Vec<f64>; 3],
     ) -> Acting {
         let model = self.model;
         let dofs = model.dofs;
@@ -133,10 +146,10 @@ impl View<'_> {
             arm: 0.5 * norm(sub(high, low)),
             ..Acting::default()
         };
-        let mut sums = [0.0; 6];
+        let mut sums = [0.0; 7];
         for p in points.clone() {
             let mut left = [0.0; 3];
-            let mut parts = [[0.0; 3]; 6];
+            let mut parts = [[0.0; 3]; 7];
             for (c, left) in left.iter_mut().enumerate().take(dofs.dim) {
                 let dof = dofs.of(p, c);
                 let reaction = if fixed[dof] {

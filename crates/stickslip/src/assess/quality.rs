@@ -52,14 +52,18 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// Its value and its limit with as many digits as it takes to tell one from the other.
+    pub fn compared(&self) -> [String; 2] {
+        let limit = self.limit.unwrap_or(f64::INFINITY);
+        told_apart(self.value, limit)
+    }
+
     /// Where, which, how much and how much too much.
     pub fn brief(&self) -> String {
+        let [value, limit] = self.compared();
         format!(
-            "{}: {} is {:.2e}, above its limit {:.1e}",
-            self.place,
-            self.figure,
-            self.value,
-            self.limit.unwrap_or(f64::INFINITY)
+            "{}: {} is {value}, above its limit {limit}",
+            self.place, self.figure
         )
     }
 
@@ -187,6 +191,21 @@ const STILL: f64 = 1e-6;
 /// The energy that forces of this size stand for where nothing moves `[J]`.
 pub(crate) fn still_energy(model: &Model, forces: f64) -> f64 {
     STILL * model.mesh.diameter() * forces
+}
+
+/// Digits behind the point of a value and of its limit, where these tell them apart.
+const DIGITS: [usize; 2] = [2, 1];
+
+/// Two numbers with as many digits as it takes to tell one from the other.
+pub fn told_apart(value: f64, limit: f64) -> [String; 2] {
+    let [few, fewer] = DIGITS;
+    let said = |x: f64, digits: usize| format!("{x:.digits$e}");
+    let usual = |digits: usize| said(value, digits) == said(limit, digits);
+    let digits = (few..=17).find(|&digits| !usual(digits)).unwrap_or(17);
+    match digits == few {
+        true => [said(value, few), said(limit, fewer)],
+        false => [said(value, digits), said(limit, digits)],
+    }
 }
 
 fn ratio(value: f64, scale: f64) -> f64 {
@@ -499,6 +518,14 @@ crate::keep!(Gate {
 mod tests {
     use super::*;
     use crate::keep::{Keep, Kept};
+
+    #[test]
+    fn a_value_just_above_its_limit_is_told_from_it() {
+        assert_eq!(told_apart(0.4, 1e-4), ["4.00e-1", "1.0e-4"]);
+        assert_eq!(told_apart(0.151, 0.15), ["1.51e-1", "1.5e-1"]);
+        assert_eq!(told_apart(0.150004, 0.15), ["1.50004e-1", "1.50000e-1"]);
+        assert_eq!(told_apart(f64::INFINITY, 0.15), ["inf", "1.5e-1"]);
+    }
 
     #[test]
     fn every_figure_comes_back_as_what_it_was() {

@@ -623,3 +623,22 @@ fn a_ring_on_a_rigid_hub_takes_what_a_torque_gives() {
         "{said}"
     );
 }
+
+/// A rigid body that nothing acts on has no forces to compare its balance with but those that would stop it: rounding over rounding is no figure.
+#[test]
+fn a_rigid_body_that_flies_freely_is_in_balance() {
+    let text = r#"
+        format = 1
+        model.space = "plane-strain"
+        body.b = { generate.rectangle = { to = [1, 1], cells = [1, 1] }, material = "m", rigid = true, rotation = "large" }
+        material.m.isotropic = { young = 1e7, poisson = 0.3, density = 1000 }
+        initial.throw = { set = "b", velocity = [1, 0], spin = [1] }
+        step = [{ increments.fixed = 10, dynamic.scheme.generalised-alpha.rho = 1 }]
+    "#;
+    let mut simulation = support::build(&support::problem(text)).expect("sound");
+    simulation.run(&mut []).expect("a flight");
+    let gate = &simulation.summary.quality;
+    let figure = gate.figures.iter().find(|f| f.figure == "equilibrium");
+    assert!(gate.met, "{figure:?}");
+    assert!(figure.expect("judged").value < 1e-9, "{figure:?}");
+}

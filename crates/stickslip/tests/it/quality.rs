@@ -1109,3 +1109,68 @@ fn cells_that_cannot_keep_their_volume_are_told_before_the_run() {
         assert_eq!(found, None, "{element}, {formulation}, {poisson}");
     }
 }
+
+/// A belt around a quarter of a drum, as a mesh of Gmsh: `n` cells around, two through its thickness.
+fn belt(n: usize) -> String {
+    let mut nodes = String::new();
+    let mut cells = String::new();
+    let at = |i: usize, j: usize| 3 * i + j + 1;
+    for i in 0..=n {
+        let angle = std::f64::consts::FRAC_PI_2 * (0.5 + i as f64 / n as f64);
+        for j in 0..3 {
+            let r = 1.0 + 0.01 * j as f64;
+            nodes += &format!("{} {} {} 0\n", at(i, j), r * angle.cos(), r * angle.sin());
+        }
+    }
+    let mut count = 0;
+    let mut cell = |text: String| {
+        count += 1;
+        cells += &format!("{count} {text}\n");
+    };
+    for i in 0..n {
+        cell(format!("1 2 1 1 {} {}", at(i, 0), at(i + 1, 0)));
+    }
+    for (group, i) in [(2, 0), (3, n)] {
+        for j in 0..2 {
+            cell(format!("1 2 {group} {group} {} {}", at(i, j), at(i, j + 1)));
+        }
+    }
+    for i in 0..n {
+        for j in 0..2 {
+            let [a, b] = [at(i, j), at(i, j + 1)];
+            let [c, d] = [at(i + 1, j + 1), at(i + 1, j)];
+            cell(format!("3 2 4 4 {a} {b} {c} {d}"));
+        }
+    }
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"inner\"\n1 2 \"pulled\"\n1 3 \"fixed\"\n2 4 \"belt\"\n$EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{count}\n{cells}$EndElements\n",
+        3 * (n + 1)
+    )
+}
+
+/// Straight faces of a belt lie within the drum that it is wrapped around, as chords in a circle, and its forces are right all the same (Euler): what holds it is `exp(μ α)` times less.
+#[test]
+fn straight_faces_around_a_drum_are_no_contact_unseen() {
+    let folder = support::folder("quality-belt");
+    std::fs::write(folder.join("belt.msh"), belt(24)).expect("a mesh file");
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.belt = { gmsh.file = "belt.msh", material = "m" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+obstacle.drum.cylinder = { centre = [0, 0], radius = 1 }
+interface.wrap = { secondary = "belt.inner", primary = "drum", friction.coulomb.mu = 0.2 }
+support.hold = { set = "belt.fixed", x = 0, y = 0 }
+load.pull = { set = "belt.pulled", traction.value = [707106.8, -707106.8] }
+step = [{ increments.fixed = 4 }]
+"#;
+    let setup = support::problem(text).build(&folder).expect("sound");
+    let mut simulation = Simulation::new(setup).expect("sound");
+    simulation.run(&mut []).expect("it is in balance");
+    let gate = &simulation.summary.quality;
+    assert!(gate.met, "{:#?}", violated(&simulation));
+    assert!(figure(&simulation, "unseen-to-approach").value < 0.05);
+    let shear = simulation.summary.interfaces[0].shear_force;
+    let normal = simulation.summary.interfaces[0].normal_force;
+    let force = |f: [f64; 3]| f[0].hypot(f[1]);
+    assert!((force(shear) / force(normal) - 0.2).abs() < 1e-3);
+}

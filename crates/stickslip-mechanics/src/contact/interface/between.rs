@@ -13,7 +13,7 @@ use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::projection::facet_distance;
 use crate::contact::search::Tree;
-use crate::contact::surface::{Facet, Skin};
+use crate::contact::surface::{Facet, Skin, hollows};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
 
@@ -208,7 +208,8 @@ impl Interface {
         }
         let x = self.coordinates(u);
         let lowest = self.lowest(&x, t);
-        self.compare(&lowest, t)
+        let skin: Vec<&Facet> = self.skin.iter().map(|s| &s.facet).collect();
+        self.compare(&lowest, &hollows(&skin, &x), t)
     }
 
     /// The same of the meshes, before anything has moved: depth of what overlaps.
@@ -281,7 +282,7 @@ impl Interface {
     }
 
     /// What was found, beside what the contact points say.
-    fn compare(&self, lowest: &[f64], t: f64) -> Between {
+    fn compare(&self, lowest: &[f64], hollows: &[f64], t: f64) -> Between {
         let mut out = Between::default();
         let committed = &self.history.points;
         if committed.len() != self.points.len() {
@@ -295,9 +296,11 @@ impl Interface {
             false => committed[i].gap + self.offset(i, t),
         };
         let mut around = vec![f64::INFINITY; self.points.len()];
-        for (skin, &least) in self.skin.iter().zip(lowest) {
+        for ((skin, &least), &hollow) in self.skin.iter().zip(lowest).zip(hollows) {
             let wanted = skin.points.iter().map(|&p| said(p)).fold(0.0, f64::min);
-            let deep = wanted - least - rounding;
+            // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
+            // touches all along.
+            let deep = wanted - least - hollow - rounding;
             if deep > 0.0 {
                 out.penetration = out.penetration.max(deep);
                 out.relative_to_size = out.relative_to_size.max(deep / self.size_of(skin));
