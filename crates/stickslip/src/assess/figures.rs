@@ -41,7 +41,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 20] = [
+pub(crate) static ALL: [&Kind; 21] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -61,6 +61,7 @@ pub(crate) static ALL: [&Kind; 20] = [
     &STRAIN,
     &PRESTRESS,
     &DISPLACEMENT,
+    &SCHEME_DISSIPATION,
     &ENERGY,
 ];
 
@@ -227,6 +228,14 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
     model: 0.0,
     what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
     help: "nothing holds it back: support it, or lower what drives it; if it is meant to go there, raise `quality.displacement`",
+};
+
+pub(crate) static SCHEME_DISSIPATION: Kind = Kind {
+    name: "scheme-dissipation",
+    own: 1.0,
+    model: 1.0,
+    what: "the scheme that integrates the motion has dissipated this part of the energy in play, and what moves is slower by half of it",
+    help: "take smaller increments, or a scheme that dissipates less: `dynamic.contact-at = \"stage\"` where laws are compliant, `rho` nearer to 1; what the scheme is meant to damp is the noise of a mesh, which has little energy",
 };
 
 pub(crate) static ENERGY: Kind = Kind {

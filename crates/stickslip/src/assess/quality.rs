@@ -6,7 +6,7 @@ use super::doctor::{Finding, Peak, Watch, longest_way};
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_WEAR,
     FALSE_SLIP, FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH,
-    PENETRATION_TO_SIZE, Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+    PENETRATION_TO_SIZE, SCHEME_DISSIPATION, Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
@@ -361,6 +361,11 @@ impl View<'_> {
                 "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
                 ledger.friction
             ));
+        }
+        if moves {
+            let lost = [ledger.numerical.max(0.0), pair[1]];
+            let limit = limits.scheme_dissipation;
+            gate.note(&SCHEME_DISSIPATION, "model", lost, limit, t);
         }
         gate.note(&ENERGY, "model", pair, limit, t);
         gate.settle();

@@ -102,6 +102,10 @@ pub struct Limits {
     /// motion bodies may fly as far as they like: there it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub displacement: f64,
+    /// Energy that the scheme has dissipated (`ALLND`), over the energies in play, at the end. What moves is slower for it, by half that part: at the limit by one in
+    /// a hundred, as much as the balance of energies may be open. What the scheme feeds in counts in `energy`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub scheme_dissipation: f64,
     /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
     /// quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -142,6 +146,7 @@ impl Default for Limits {
             strain: None,
             prestress: 0.05,
             displacement: 1.0,
+            scheme_dissipation: 0.02,
             energy: None,
         }
     }
