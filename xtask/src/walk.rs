@@ -83,7 +83,7 @@ pub fn walk(arguments: &[String]) -> Result<(), String> {
         let [name, value] = pair else {
             return Err("usage: cargo xtask walk [--damages N] [--seed S]".into());
         };
-        let number = value.parse().map_err(|_| format!("{value}: no number"))?;
+        let number: u64 = value.parse().map_err(|_| format!("{value}: no number"))?;
         match name.as_str() {
             "--damages" => damages = number,
             "--seed" => seed = number,
