@@ -215,7 +215,7 @@ fn start_motion(
     };
     let masses = inertia.at_points(model);
     for interface in &mut contact.interfaces {
-        interface.set_masses(&masses, &|node| model.links.of_point(node).is_some());
+        interface.set_masses(&masses);
     }
     let before = inertia.kinetic_energy(&frame.state.v);
     model.apply_initial_velocities(frame.step, &mut frame.state.v);

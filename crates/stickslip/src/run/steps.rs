@@ -250,7 +250,7 @@ impl Simulation {
         frame.motion = Motion::default();
         solver.come_to_rest();
         for interface in &mut contact.interfaces {
-            interface.set_masses(&[], &|_| false);
+            interface.set_masses(&[]);
         }
         contact.use_springs(false, |energy| frame.ledger.initial += energy);
         self.integration = Integration::QuasiStatic(QuasiStatic);

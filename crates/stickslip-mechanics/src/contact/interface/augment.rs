@@ -16,12 +16,12 @@ const ROUNDING: f64 = 16.0;
 const LEFT: f64 = 0.5;
 
 impl Interface {
-    /// The gap that an augmented Lagrangian may leave, by half: the part `error` of the elastic approach of the last accepted state; none where nothing is elastic.
+    /// The gap that an augmented Lagrangian may leave, by half: the part `error` of the elastic approach of the last accepted state.
     pub(super) fn accepted(&self) -> f64 {
         let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
             return 0.0;
         };
-        if !self.laws.needs_normal_stiffness() || self.directives.unyielding {
+        if !self.laws.needs_normal_stiffness() {
             return 0.0;
         }
         let points = self.points.iter().zip(&self.history.points);

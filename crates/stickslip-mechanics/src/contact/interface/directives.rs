@@ -24,8 +24,6 @@ crate::keep!(Steady {
 pub struct Directives {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     pub(super) inertia: Vec<f64>,
-    /// All that meets is rigid: nothing but masses resists what presses it.
-    pub(super) unyielding: bool,
     /// Tractions are means over the increment, as where masses meet what does not give way, not those at its end.
     pub impulses: bool,
     /// Points that do not take part; empty where all do.
@@ -42,7 +40,6 @@ pub struct Directives {
 
 crate::keep!(Directives {
     inertia,
-    unyielding,
     impulses,
     excluded,
     inner,

@@ -148,11 +148,7 @@ impl Interface {
             normal,
             tangential,
             weight: own.min(normal).min(tangential),
-            first_contact: match (touches, self.directives.unyielding) {
-                (true, true) => own,
-                (true, false) => point.stiffness,
-                (false, _) => 0.0,
-            },
+            first_contact: if touches { point.stiffness } else { 0.0 },
         }
     }
 

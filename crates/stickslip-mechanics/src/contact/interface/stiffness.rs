@@ -12,10 +12,8 @@ const STIFFEST: f64 = 1e6;
 const INERTIA: f64 = 0.4;
 
 impl Interface {
-    /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part. `rigid`: of a point of the mesh,
-    /// whether it is one of a rigid body.
-    pub fn set_masses(&mut self, by_point: &[f64], rigid: &dyn Fn(usize) -> bool) {
-        self.directives.unyielding = self.nodes.iter().all(|node| rigid(*node));
+    /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
+    pub fn set_masses(&mut self, by_point: &[f64]) {
         let mass = |p: &ContactPoint| -> f64 {
             let nodes = p.nodes.iter().zip(&p.weights);
             nodes
@@ -26,15 +24,11 @@ impl Interface {
         self.directives.inertia = self.points.iter().map(|p| mass(p) / p.area).collect();
     }
 
-    /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass; where all is rigid the mass alone, as
-    /// cells of rigid bodies and their moduli have no meaning.
+    /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
     pub(super) fn own_stiffness(&self, i: usize, moving: Option<f64>) -> f64 {
         let inertia = self.directives.inertia.get(i).copied().unwrap_or(0.0);
         let inertia = moving.map_or(0.0, |dt| INERTIA * inertia / (dt * dt));
-        match self.directives.unyielding && inertia > 0.0 {
-            true => inertia,
-            false => self.points[i].stiffness + inertia,
-        }
+        self.points[i].stiffness + inertia
     }
 
     /// Whether multipliers are unknowns of the present attempt.
