@@ -282,7 +282,7 @@ load.weight = { set = "beam.top", pressure.value = 1e5 }
 step = [{ name = "load" }]
 "#;
 
-/// A block on a round rail, guided where it is loaded.
+/// A block on a round rail, guided where it is loaded. Its contact is narrower than its cells, which the run says.
 pub const RAIL: &str = r#"
 format = 1
 model.space = "plane-strain"
@@ -296,8 +296,7 @@ step = [{ name = "load" }]
 "#;
 
 /// All models that have nothing wrong with them.
-pub const SOUND: [(&str, &str); 19] = [
-    ("rail", RAIL),
+pub const SOUND: [(&str, &str); 18] = [
     ("bolt", BOLT),
     ("axle", AXLE),
     ("hot", HOT),
