@@ -90,6 +90,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         primary: Primary::Facets(facets),
         hollows: Default::default(),
         walls: Default::default(),
+        clamped: Vec::new(),
         share: 1.0,
         exchanged: false,
         laws: Laws {

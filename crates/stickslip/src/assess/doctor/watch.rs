@@ -7,6 +7,7 @@ use super::finding::{Finding, Guilty, Severity, What};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Resolution, Resultant};
 use crate::math::Vec3;
+use crate::model::Body;
 
 /// What is remembered of an interface.
 #[derive(Debug, Clone, Default)]
@@ -124,10 +125,13 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
 
 /// Bodies without frames of their own that are strained, where their energy is, by more than forces of a linear theory may be wrong. With frames there is a figure for it.
 fn strained(view: &View) -> Vec<Finding> {
-    let limit = view.model.quality.strain;
-    let bodies = view.model.elastic().filter(|b| !view.has_frames(b));
+    let limits = &view.model.quality;
+    let limit = limits.strain_limit();
+    // Where a limit is given the gate judges all bodies.
+    let judged = |b: &&Body| view.has_frames(b) || limits.strain.is_some();
+    let bodies = view.model.elastic().filter(|b| !judged(b));
     let strained = bodies.filter_map(|body| {
-        let strain = body.elastic.strain_level(&view.frame.state.u);
+        let strain = body.elastic.strain_level(&view.frame.state);
         let name = &body.name;
         (strain > limit && strain.is_finite()).then(|| {
             Finding::new(
