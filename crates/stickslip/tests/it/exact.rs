@@ -507,8 +507,10 @@ fn what_slips_on_a_rigid_body_that_turns_carries_its_limit() {
                 let (record, simulation) = run(&support::problem(&text));
                 assert_eq!(record.cutbacks, 0, "{text}");
                 let (worst, slipping) = ratio(&simulation, 0.3);
+                // Of the wheel's points those beyond the edge of the pad have no multiplier.
+                let many = if secondary == wheel[0] { 4 } else { 6 };
                 assert!(
-                    slipping >= if angle < 0.1 { 2 } else { 6 },
+                    slipping >= if angle < 0.1 { 2 } else { many },
                     "{slipping}: {text}"
                 );
                 assert!(worst < 1e-10, "{worst:e}: {text}");

@@ -76,16 +76,15 @@ impl Interface {
         let multipliers = self.attempt.multipliers.iter_mut();
         for (m, e) in multipliers.zip(&self.cache.last.points) {
             let r = &e.response;
-            if e.normal_stiffness.is_finite() {
-                let change = (r.traction[0] - m.centre_pressure).abs();
+            // A point that carries nothing has no stiffness either: what does not change is no violation.
+            let change = (r.traction[0] - m.centre_pressure).abs();
+            if e.normal_stiffness.is_finite() && change != 0.0 {
                 worst = larger(worst, change / e.normal_stiffness);
             }
             let shear = e.along(&e.frames.before);
-            if r.status == Status::Stick && e.tangential_stiffness.is_finite() {
-                worst = larger(
-                    worst,
-                    distance(shear, m.centre_shear) / e.tangential_stiffness,
-                );
+            let change = distance(shear, m.centre_shear);
+            if r.status == Status::Stick && e.tangential_stiffness.is_finite() && change != 0.0 {
+                worst = larger(worst, change / e.tangential_stiffness);
             }
             m.centre_pressure = r.traction[0];
             m.centre_shear = shear;

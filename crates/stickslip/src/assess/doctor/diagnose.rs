@@ -445,7 +445,8 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
         false => prescribed_slip(view, trial),
     };
     let prescribed = prescribed.map(|(slip, interface)| too_large_slip(slip, &interface));
-    prescribed
+    check::same_body(view)
+        .or(prescribed)
         .or(signs.filter(|_| told))
         .or_else(|| check::suspects(view.model, dynamic).into_iter().next())
         .or(to_and_fro)

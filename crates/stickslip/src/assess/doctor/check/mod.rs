@@ -34,6 +34,7 @@ pub(crate) use released::let_go;
 pub(crate) use wear::longest_way;
 
 use super::finding::Finding;
+use super::surfaces::Opposite;
 use super::unjoined::Unjoined;
 use crate::assess::view::View;
 use crate::model::definition::Model;
@@ -99,6 +100,21 @@ pub(super) fn opposed(view: &View) -> Option<Finding> {
     let mut found = interfaces.filter_map(|i| {
         let measured = measure(i, &i.initial_gaps(), view.frame.state.t);
         normals::check(view, i, &measured)
+    });
+    found.next()
+}
+
+/// The first interface between two surfaces of one body whose material lies between them.
+pub(super) fn same_body(view: &View) -> Option<Finding> {
+    let t = view.frame.state.t;
+    let interfaces = view.contact.interfaces.iter();
+    let mut found = interfaces.filter_map(|i| {
+        let mut opposite = Opposite::new(i, t);
+        let gaps: Vec<f64> = (i.points.iter())
+            .map(|p| opposite.nearest(p.position(&i.reference)))
+            .map(|nearest| nearest.map_or(f64::INFINITY, |n| n.gap))
+            .collect();
+        normals::through(view, i, &measure(i, &gaps, t))
     });
     found.next()
 }

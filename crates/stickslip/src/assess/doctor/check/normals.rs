@@ -68,15 +68,16 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
             false => "name the surfaces that face each other; `stickslip check` lists the sets of each body",
         }));
     }
-    through(view, interface, measured, &ours).or_else(|| inside_out(view, interface, &ours))
+    through(view, interface, measured).or_else(|| inside_out(view, interface, &ours))
 }
 
 /// Two surfaces of one body with its material between them.
-fn through(view: &View, interface: &Interface, measured: &Measured, ours: &str) -> Option<Finding> {
+pub(super) fn through(view: &View, interface: &Interface, measured: &Measured) -> Option<Finding> {
     let [own, other] = sides(view.model, interface);
     if own.is_none() || own != other {
         return None;
     }
+    let ours = own.unwrap_or_default();
     // Inside a body the other surface lies behind, by its thickness.
     let gaps = measured.gaps.iter().zip(&interface.points).enumerate();
     let behind = gaps.filter(|(_, (gap, point))| gap.is_finite() && **gap < -point.size);
