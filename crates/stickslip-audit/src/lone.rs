@@ -195,13 +195,14 @@ fn one(
                 *o = along(*o, factor, *f);
             }
         }
+        // All forces where points have come: a body that is carried along turns nothing.
         let places = state.places();
         let (contact, reaction) = (state.grid.vector("CFORCE"), state.grid.vector("RF"));
         let mut parts = [
-            body.sum(&external, centre, points, &all),
+            body.sum(&external, centre, &places, &all),
             body.sum(&contact, centre, &places, &all),
-            body.sum(&reaction, centre, points, &all),
-            body.sum(&reaction, centre, points, &away),
+            body.sum(&reaction, centre, &places, &all),
+            body.sum(&reaction, centre, &places, &away),
         ];
         if ring {
             // What is radial cancels all around.

@@ -34,6 +34,9 @@ const FIELDS: [&str; 8] = [
 /// A deck of which a line is gone, doubled or moved, or a field another.
 fn damaged(text: &str, dice: &mut Dice) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_string).collect();
+    if lines.is_empty() {
+        return String::new();
+    }
     for _ in 0..1 + dice.below(2) {
         let at = dice.below(lines.len());
         match dice.below(4) {

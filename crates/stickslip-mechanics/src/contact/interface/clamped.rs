@@ -11,10 +11,10 @@ const LEFT: f64 = 0.5;
 
 impl Interface {
     /// Whether supports prescribe how all nodes of a point move along `normal`, and most of what lies opposite: then its gap is given, and a multiplier would act on the
-    /// little that is left. `sides`: nodes and their weights, positive on the secondary.
+    /// little that is left. Where pressure follows from the gap it is known all the same. `sides`: nodes and their weights, positive on the secondary.
     pub(super) fn clamped_pair(&self, sides: &[(usize, f64)], normal: Vec3) -> bool {
         let size = dot(normal, normal).sqrt();
-        if self.clamped.is_empty() || size == 0.0 {
+        if self.clamped.is_empty() || size == 0.0 || !self.laws.needs_normal_stiffness() {
             return false;
         }
         let normal = scale(1.0 / size, normal);

@@ -101,7 +101,9 @@ impl Rim<'_> {
             return false;
         };
         let continues = self.face.continues.get(edge).is_some_and(|&c| c);
-        continues || dot(sub(end, from), along) < length
+        // Where both end at one place, as on a plane of symmetry, what they stand apart looks like a piece of one beyond the other: a part of that height, as they are tilted.
+        let beyond = sub(end, add_scaled(from, length, along));
+        continues || dot(beyond, along) < -dot(beyond, self.outward).abs()
     }
 }
 
