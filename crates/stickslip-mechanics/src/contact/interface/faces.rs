@@ -80,6 +80,7 @@ impl Interface {
             }
         };
         cache.faces.renew(&mortar.faces, facets, x);
+        let mirrors = self.mirrors();
         let sides = Sides {
             x,
             before,
@@ -87,6 +88,7 @@ impl Interface {
             turn,
             facets,
             walls: self.walls.of(facets, reference),
+            mirrors: &mirrors,
             compliant: !self.laws.needs_normal_stiffness(),
         };
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
@@ -148,6 +150,7 @@ impl Interface {
         }
         cache.faces.renew(&mortar.faces, facets, at);
         let turn = of_points(self.own_nodes(), (at, &self.reference), self.dofs.dim);
+        let mirrors = self.mirrors();
         let sides = Sides {
             x: at,
             before: &[],
@@ -155,6 +158,7 @@ impl Interface {
             turn: self.across().turn(turn),
             facets,
             walls: self.walls.of(facets, &self.reference),
+            mirrors: &mirrors,
             compliant,
         };
         let faces = mortar.faces.par_iter().zip(&cache.faces.opposite);
@@ -180,6 +184,20 @@ impl Interface {
                 found[f].map_or(1.0, |areas| areas[a] / mortar.faces[f].areas[a])
             };
             *part = around.iter().map(of).fold(0.0, f64::max);
+        }
+        out
+    }
+
+    /// Planes of symmetry on which both surfaces end: the axis across, and where they are along it.
+    fn mirrors(&self) -> Vec<(usize, f64)> {
+        let mut out: Vec<(usize, f64)> = Vec::new();
+        for point in self.points.iter().filter(|p| p.across.any()) {
+            let x = self.reference[point.nodes[0]];
+            for c in (0..self.dofs.dim).filter(|&c| point.across.0[c]) {
+                if !out.contains(&(c, x[c])) {
+                    out.push((c, x[c]));
+                }
+            }
         }
         out
     }

@@ -16,6 +16,9 @@ use crate::shape::ElementKind;
 /// that small strains have, and there both normals are the same to that part.
 const ANGLES: [f64; 2] = [0.05, 0.1];
 
+/// Part of the size of a facet by which it may miss a plane of symmetry that it ends on.
+const ON_PLANE: f64 = 1e-6;
+
 /// Facets after which nobody looks farther.
 const STEPS: usize = 16;
 
@@ -62,7 +65,8 @@ impl Rim<'_> {
             };
             x = add_scaled(x, length, way);
             if !facet.continues.get(edge).is_none_or(|&c| c) {
-                return self.secondary_reaches(from, x, way);
+                let size = norm(sub(nodes[0], nodes[1]));
+                return !self.mirrored(x, size) && self.secondary_reaches(from, x, way);
             }
             let shared: Vec<usize> = (edges(facet.kind)[edge].iter())
                 .map(|&k| facet.nodes[k])
@@ -88,6 +92,12 @@ impl Rim<'_> {
             (f, m) = (next, normal);
         }
         false
+    }
+
+    /// Whether a place lies on a plane of symmetry, beyond which the surfaces go on as their images.
+    fn mirrored(&self, at: Vec3, size: f64) -> bool {
+        let mut planes = self.sides.mirrors.iter();
+        planes.any(|&(axis, place)| (at[axis] - place).abs() <= ON_PLANE * size)
     }
 
     /// Whether the secondary is still there where the primary ends, at `end`.

@@ -19,6 +19,8 @@ pub struct Sides<'a> {
     pub facets: &'a [Facet],
     /// How deep behind each facet a place may lie and meet it `[m]`; empty where any depth will do.
     pub walls: &'a [f64],
+    /// Planes of symmetry on which both surfaces end: the axis across, and where they are along it `[m]`.
+    pub mirrors: &'a [(usize, f64)],
     /// Whether pressure follows from the gap by a law, so that no gap may be taken from beyond the edge of what lies opposite.
     pub compliant: bool,
 }
