@@ -328,7 +328,7 @@ fn guide(s: &mut Sheet, set: &str, upright: bool) {
     if x.is_none() && !s.solid() && !upright || s.space == super::sheet::Space::Ring {
         return;
     }
-    let moves = x.is_some_and(|x| x != 0.0) && !(s.has("press-only") && !s.has("cycles"));
+    let moves = x.is_some_and(|x| x != 0.0) && (!s.has("press-only") || s.has("cycles"));
     match moves {
         true => s.support("guide", set, [x, Some(0.0), None], Some("slide")),
         false => s.support("guide", set, [x.map(|_| 0.0), Some(0.0), None], None),

@@ -476,7 +476,9 @@ impl Sheet {
     }
 
     fn step(&self, step: &Step, text: &mut String) {
-        let parts = match self.view.split && step.motion == Motion::Rest && step.increments % 2 == 0
+        let parts = match self.view.split
+            && step.motion == Motion::Rest
+            && step.increments.is_multiple_of(2)
         {
             true => 2,
             false => 1,

@@ -163,7 +163,7 @@ fn is_tied_to(model: &Model, rows: &[&Row], reference: &Reference, points: &[usi
     let all = rows.iter().map(|row| of(row));
     let own: Vec<Vec<usize>> = all.filter(|row| row.iter().any(|&p| is_own(p))).collect();
     let there = |p: &usize| is_own(*p) || points.binary_search(p).is_ok();
-    !own.is_empty() && own.iter().flatten().all(|p| there(p))
+    !own.is_empty() && own.iter().flatten().all(there)
 }
 
 /// Adds to a motion of points what the reference points tied to them do.

@@ -26,7 +26,7 @@ impl Header {
             return Err(format!("the header has the scales {x:e}, {y:e} and {z:e}"));
         }
         // So many that their number is none follow in no file.
-        let wanted = (self.points.checked_mul(self.profiles)).unwrap_or(usize::MAX);
+        let wanted = self.points.saturating_mul(self.profiles);
         let heights: Vec<f64> = heights.take(wanted).map(|h| h * z).collect();
         if heights.len() < wanted || wanted == 0 {
             return Err(format!(
