@@ -18,7 +18,7 @@ pub struct Dynamic {
     /// How the mass of a cell is given to its points. An explicit scheme has lumped masses in any case.
     pub mass: MassKind,
     /// Whether the points of interfaces have mass. By default it is redistributed where the normal law is unilateral, and
-    /// left as meshed where it is compliant and in an explicit scheme.
+    /// left as meshed where it is compliant and in an explicit scheme. Tied surfaces keep theirs in any case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_mass: Option<ContactMass>,
     /// Where in the increment the forces of the interfaces are taken.

@@ -395,7 +395,7 @@ impl Inertia {
     }
 }
 
-/// Interfaces whose points have their mass given to their neighbours.
+/// Interfaces whose points have their mass given to their neighbours. What is tied neither closes nor opens: it moves as one, and keeps its inertia.
 fn redistributed(contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
     let wanted = |interface: &Interface| match dynamic.contact_mass {
         Some(ContactMass::Redistributed) => true,
@@ -403,7 +403,8 @@ fn redistributed(contact: &Contact, dynamic: &Dynamic) -> Vec<bool> {
         // A compliant law stops a mass gently.
         None => interface.laws.set_valued(),
     };
-    contact.interfaces.iter().map(wanted).collect()
+    let interfaces = contact.interfaces.iter();
+    interfaces.map(|i| !i.laws.tied && wanted(i)).collect()
 }
 
 /// Points whose mass is to be given to their neighbours. Where a body has no others, and in rigid bodies, they keep it all the same.

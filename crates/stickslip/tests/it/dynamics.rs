@@ -890,3 +890,37 @@ output.every = 0
         "{stable} {longest}"
     );
 }
+
+/// A tie neither closes nor opens: what is glued swings like one piece, its mass where the cells have it.
+#[test]
+fn tied_surfaces_keep_their_mass() {
+    let column = |bodies: &str| {
+        let text = format!(
+            r#"
+format = 1
+model = {{ space = "plane-stress", thickness = 1.0 }}
+{bodies}
+material.m.isotropic = {{ young = 1e6, poisson = 0.3, density = 1.0 }}
+support.base = {{ set = "low.bottom", x = 0, y = 0 }}
+output.every = 0
+[[step]]
+duration = 8e-3
+increments.fixed = 40
+dynamic = {{}}
+"#
+        );
+        let record = run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let reactions = record.increments.iter().map(|(_, r)| value(r, "base.RF2"));
+        reactions.collect::<Vec<f64>>()
+    };
+    let whole = column(
+        "body.low.generate.rectangle = { to = [1, 2], cells = [2, 4] }\nbody.low.material = \"m\"\nload.pull = { set = \"low.top\", traction.value = [0, 100] }",
+    );
+    let glued = column(
+        "body.low.generate.rectangle = { to = [1, 1], cells = [2, 2] }\nbody.low.material = \"m\"\nbody.high.generate.rectangle = { from = [0, 1], to = [1, 2], cells = [2, 2] }\nbody.high.material = \"m\"\ninterface.tie = { secondary = \"high.bottom\", primary = \"low.top\", tied = true }\nload.pull = { set = \"high.top\", traction.value = [0, 100] }",
+    );
+    let largest = whole.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let off = whole.iter().zip(&glued).map(|(a, b)| (a - b).abs());
+    let off = off.fold(0.0, f64::max) / largest;
+    assert!(off < 1e-3, "{off:e}");
+}
