@@ -20,7 +20,7 @@ use crate::contact::interface::Sheet;
 use crate::error::Error;
 use crate::io::frd::{END, end_again};
 use crate::io::{csv, own, pvd, vtu, write_atomically};
-use crate::system::{Field, Fields, Location};
+use crate::system::{Field, Fields, Location, Motion};
 
 /// Writes results into a directory as the run goes on; what is there at any time is complete.
 pub struct ResultFiles {
@@ -374,20 +374,11 @@ pub fn fields(view: &View) -> Fields {
             });
         }
     }
-    let fixed = view.held_dofs();
-    let mut reactions: Vec<f64> = view
-        .frame
-        .forces
-        .iter()
-        .zip(&fixed)
-        .map(|(f, &fixed)| if fixed { *f } else { 0.0 })
-        .collect();
-    (model.frames).turn_out(&view.frame.state.u, &mut reactions);
     fields.all.push(Field {
         name: "RF".into(),
         location: Location::Point,
         components: 3,
-        values: vectors(&reactions),
+        values: vectors(&reactions(view)),
     });
     let strained = view.strained();
     for body in &model.bodies {
@@ -399,6 +390,34 @@ pub fn fields(view: &View) -> Fields {
     }
     fatigue::add_fields(view, &mut fields);
     fields
+}
+
+/// The forces of supports by dof, in space `[N]`. One that holds a rigid body acts on it as a whole: its points have equal parts of it.
+fn reactions(view: &View) -> Vec<f64> {
+    let (model, fixed) = (view.model, view.held_dofs());
+    let forces = view.frame.forces.iter().zip(&fixed);
+    let mut out: Vec<f64> = forces
+        .map(|(f, &held)| if held { *f } else { 0.0 })
+        .collect();
+    (model.frames).turn_out(&view.frame.state.u, &mut out);
+    let mut swinging = vec![0.0; out.len()];
+    let each = view.swinging().into_iter();
+    each.for_each(|(dof, force)| swinging[dof] += force);
+    for rigid in model.bodies.iter().filter_map(|b| b.rigid) {
+        let link = &model.links.all()[rigid.link];
+        for (dof, motion) in link.motions(model.dofs) {
+            let Motion::Translation(axis) = motion else {
+                continue;
+            };
+            if fixed[dof] {
+                let part = (out[dof] + swinging[dof]) / link.points.len() as f64;
+                link.points
+                    .clone()
+                    .for_each(|p| out[model.dofs.of(p, axis)] += part);
+            }
+        }
+    }
+    out
 }
 
 /// The number of its body for every cell.

@@ -746,3 +746,37 @@ fn what_does_not_go_with_a_rigid_body_is_refused() {
         ],
     );
 }
+
+/// A support holds a rigid body as a whole. The reactions at its nodes sum up to what the history says.
+#[test]
+fn reactions_are_shown_at_the_points_of_rigid_bodies() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [3, 1], cells = [6, 2] }, material = "m" }
+body.punch = { generate.rectangle = { from = [1, 1], to = [2, 2], cells = [3, 2] }, material = "m", rigid = true }
+material.m.isotropic = { young = 1e4, poisson = 0.3, density = 1.0 }
+interface.joint = { secondary = "lower.top", primary = "punch.bottom", friction.coulomb.mu = 0.3 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.punch = { set = "punch", x = 2e-4, y = -1e-3 }
+step = [{ increments.fixed = 1 }]
+"#;
+    let mut simulation = support::build(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    let mut record = Record::default();
+    (simulation.run(&mut [&mut record])).unwrap_or_else(|e| panic!("{e}"));
+    let fields = stickslip::results::fields(&simulation.view());
+    let shown = fields
+        .all
+        .iter()
+        .find(|f| f.name == "RF")
+        .expect("reactions");
+    let body = simulation.model.bodies.iter().find(|b| b.name == "punch");
+    let row = last(&record);
+    for (c, name) in ["punch.RF1", "punch.RF2"].into_iter().enumerate() {
+        let points = body.expect("the punch").points.clone();
+        let sum: f64 = points.map(|p| shown.values[3 * p + c]).sum();
+        let held = value(row, name);
+        assert!(held.abs() > 1e-2, "{name}: {held}");
+        near(sum, held, 1e-9 * held.abs());
+    }
+}
