@@ -121,3 +121,35 @@ fn pressure_is_finite_where_a_face_hangs_over_an_edge() {
         }
     }
 }
+
+/// What follows a reference point that supports hold is held: a wall beside it has nothing to keep out, be the body rigid or elastic at the points that follow.
+#[test]
+fn a_wall_beside_what_follows_a_held_reference_point_carries_nothing() {
+    for rigid in [true, false] {
+        let row = end(&format!(
+            r#"format = 1
+model.space = "plane-stress"
+body.low = {{ generate.rectangle = {{ from = [-3, -4], to = [3, 0], cells = [8, 5] }}, material = "m" }}
+body.up = {{ generate.rectangle = {{ from = [-3, 0], to = [3, 2], cells = [10, 2] }}, material = "m", rigid = {rigid} }}
+material.m.isotropic = {{ young = 2e4, poisson = 0.15, density = 1 }}
+obstacle.wall.plane = {{ point = [3, 0], normal = [-1, 0] }}
+reference.head.point = [0, 2]
+coupling.head.kinematic = {{ reference = "head", set = "up.top" }}
+interface.joint = {{ secondary = "up.bottom", primary = "low.top", friction.coulomb.mu = 0.6, slip.regularised.epsilon = 0.06, primary-velocity = [1.1, 0] }}
+interface.wall = {{ secondary = "up.right", primary = "wall", friction.coulomb.mu = 0.6, slip.regularised.epsilon = 0.06 }}
+support.base = {{ set = "low.bottom", x = 0, y = 0 }}
+support.head = {{ set = "head", x = 0, y = -0.03, rotation-z = 0 }}
+step = [{{ increments.fixed = 2 }}]
+"#
+        ));
+        let [pressed, held] = ["joint.CFN2", "head.RF2"].map(|name| value(&row, name));
+        let rubbed = value(&row, "wall.CFS2") + value(&row, "joint.CFS2");
+        let off = pressed + rubbed + held;
+        assert!(
+            pressed > 1.0 && off.abs() < 1e-6 * pressed,
+            "{rigid}: {pressed} {rubbed} {held}"
+        );
+        let beside = value(&row, "wall.CFN1").abs();
+        assert!(!rigid || beside == 0.0, "{beside}");
+    }
+}

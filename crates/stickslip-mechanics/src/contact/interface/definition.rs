@@ -56,7 +56,8 @@ pub struct Interface {
     pub primary: Primary,
     /// How what is worn off the primary is divided among its nodes; empty where nothing wears.
     pub hollows: Hollows,
-    /// The axes along which each node is prescribed in all steps; empty where nobody has looked.
+    /// The axes along which each node is prescribed in all steps, or follows what is; over an obstacle those alone along which it follows: a support leaves no multiplier there.
+    /// Empty where nobody has looked.
     pub clamped: Vec<[bool; 3]>,
     /// How thick the primary is behind its facets.
     pub walls: Walls,

@@ -63,6 +63,10 @@ impl Interface {
             sides: batch.sides.len(),
         };
         batch.sides.extend(self.own_weights(i));
+        if self.clamped_pair(&batch.sides[met.sides..], batch.stencil.normal) {
+            batch.sides.truncate(met.sides);
+            return Evaluation::open(f64::INFINITY);
+        }
         let mut e = self.respond(met, scene, batch);
         if let Some(weights) = self.finish(scene, &mut e, batch) {
             let start = batch.hessian.len();
