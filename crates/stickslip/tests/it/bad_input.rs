@@ -381,3 +381,17 @@ fn a_run_that_does_not_converge() {
         ],
     );
 }
+
+#[test]
+fn a_stop_between_points_that_supports_move() {
+    let stop = "coupling.stop.gap = { terms = [{ set = \"block.top-left\", component = \"y\" }, { set = \"block.top-right\", component = \"y\", factor = -1 }], clearance = 1e-6 }\n";
+    let message = message(&format!("{CASE}{stop}"), Path::new(""));
+    says(
+        &message,
+        &[
+            "coupling.stop.gap.terms",
+            "in step press",
+            "let one of its points be free",
+        ],
+    );
+}

@@ -186,6 +186,7 @@ impl Problem {
         let (mut couplings, leads) = couplings::build(self, &sets, ground, &timeline)?;
         let supports = supports(self, &sets, &rigid, &timeline)?;
         let steps = timeline.steps(self);
+        couplings::refuse_prescribed_stops(&couplings, &supports, &links, &steps)?;
         let said = references::Said {
             bodies: &bodies,
             links: &links,
