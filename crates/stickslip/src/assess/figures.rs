@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::doctor::Finding;
+use super::doctor::{DoctorCause, Finding};
 
 /// A figure of the gate: an amount of something that should not be, relative to a scale of the same kind. One row below, a limit in
 /// [`Limits`](crate::model::limits::Limits) and a call of [`Gate::note`](super::quality::Gate) make a figure.
@@ -27,7 +27,11 @@ pub(crate) struct Kind {
 /// that hangs on the wrong interface the solver cannot do better.
 pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
     let about_solver = help.contains("solver.tolerance");
-    match findings.iter().find(|f| f.explains()) {
+    // Units explain what is far too large, and nothing of how well contact or motion is resolved.
+    let units = |f: &&Finding| f.cause == DoctorCause::MixedUnits;
+    let others = findings.iter().filter(|f| f.explains() && !units(f));
+    let units = (findings.iter()).filter(|f| f.explains() && units(f) && help.contains("unit"));
+    match others.chain(units).next() {
         Some(f) if about_solver => format!(
             "look at the finding `{}` first: while it holds, the solver is not to blame",
             f.cause
@@ -227,7 +231,16 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
     own: 1.0,
     model: 0.0,
     what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
-    help: "nothing holds it back: support it, or lower what drives it; if it is meant to go there, raise `quality.displacement`",
+    help: "nothing holds it back: support it, lower what drives it, or look for a load in the wrong unit; if it is meant to go there, raise `quality.displacement`",
+};
+
+// Of energies, as penetration.
+pub(crate) static EXPLICIT_OPENING: Kind = Kind {
+    name: "explicit-opening",
+    own: LEAST * LEAST,
+    model: TRACE * TRACE,
+    what: "in an explicit step springs hold what is tied or coupled, and they give way by this part of what the bodies do",
+    help: "refine the cells beside it, whose mass and size bound these springs, mesh both sides as one body, or take an implicit scheme, which ties without springs",
 };
 
 pub(crate) static SCHEME_DISSIPATION: Kind = Kind {

@@ -1200,3 +1200,21 @@ step = [{{ name = "fall", duration = 0.14, dynamic = {dynamic}, increments = {{ 
     assert!(good.summary.quality.met, "{:#?}", violated(&good));
     assert!(figure(&good, "scheme-dissipation").value < 1e-3);
 }
+
+/// Units explain what is far too large. How well a contact is resolved is no question of them.
+#[test]
+fn units_are_blamed_for_sizes_alone() {
+    let heavy = BLOCKS.replace("poisson = 0.3", "poisson = 0.3, density = 1e6");
+    let simulation = run(&format!(
+        "{heavy}[quality]\nunseen-to-approach = 1e-9\nrotation = 1e-12\n"
+    ));
+    let findings = &simulation.summary.findings;
+    assert!(
+        findings.iter().any(|f| f.cause == DoctorCause::MixedUnits),
+        "{findings:?}"
+    );
+    for (name, blamed) in [("unseen-to-approach", false), ("rotation", true)] {
+        let said = figure(&simulation, name).sentence(findings);
+        assert_eq!(said.contains("mixed-units"), blamed, "{said}");
+    }
+}
