@@ -45,9 +45,9 @@ const MOST_POINTS: usize = 50_000;
 /// Halvings by which a coefficient or a time is found.
 const HALVINGS: usize = 20;
 
-/// A place where contact may push.
+/// A place where contact may push, or the stop of a coupling.
 struct Spot {
-    /// The push and two directions across, as forces along the motions.
+    /// The push and the directions across, as forces along the motions; none of a stop, which has no friction.
     normal: Vec<f64>,
     across: Vec<Vec<f64>>,
     /// The largest coefficient of friction.
@@ -81,14 +81,14 @@ impl Holds {
                 }
                 out
             };
-            if spot.across.len() == 1 {
-                columns.extend([along(1.0, 0.0), along(-1.0, 0.0)]);
-                continue;
-            }
-            for k in 0..EDGES {
-                let angle = std::f64::consts::TAU * k as f64 / EDGES as f64;
-                let outside = (std::f64::consts::PI / EDGES as f64).cos();
-                columns.push(along(angle.cos() / outside, angle.sin() / outside));
+            match spot.across.len() {
+                0 => columns.push(spot.normal.clone()),
+                1 => columns.extend([along(1.0, 0.0), along(-1.0, 0.0)]),
+                _ => columns.extend((0..EDGES).map(|k| {
+                    let angle = std::f64::consts::TAU * k as f64 / EDGES as f64;
+                    let outside = (std::f64::consts::PI / EDGES as f64).cos();
+                    along(angle.cos() / outside, angle.sin() / outside)
+                })),
             }
         }
         let rest = rest_of_nonnegative(&columns, &target);
@@ -254,6 +254,18 @@ impl View<'_> {
                 return None;
             }
             holds.close |= gap <= 1e-9 * size;
+        }
+        for row in self.contact.couplings.stops(t) {
+            let speed = |motion: &Unheld| -> f64 {
+                let parts = holds.all.iter().zip(motion);
+                parts.map(|(m, c)| c * m.along(self.model, row)).sum()
+            };
+            let normal = holds.motions.iter().map(speed).collect();
+            holds.spots.push(Spot {
+                normal,
+                across: Vec::new(),
+                mu: 0.0,
+            });
         }
         (!holds.spots.is_empty()).then_some(holds)
     }

@@ -10,7 +10,7 @@ const NO_FORCE: f64 = 1e-8;
 /// Most names in a sentence.
 const MOST_NAMED: usize = 3;
 
-/// A load, support or obstacle that drives a motion.
+/// A load, pretension, support or obstacle that drives a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Driver {
     /// Its key in the problem: `load.weight`.
@@ -50,7 +50,7 @@ impl Scene<'_> {
         })
     }
 
-    /// The loads along a motion at a time, with what supports that let go still carry.
+    /// The loads and pretensions along a motion at a time, with what supports that let go still carry.
     pub(crate) fn push(&self, all: &[Mode], motion: &Unheld, t: f64) -> Push {
         let model = self.model;
         let parts: Vec<(&Mode, f64)> = all.iter().zip(motion.iter().copied()).collect();
@@ -63,7 +63,7 @@ impl Scene<'_> {
             size: 0.0,
             each: Vec::new(),
         };
-        let mut of = |name: Option<&str>, entries: &[(usize, f64)], factor: f64| {
+        let mut of = |key: Option<String>, entries: &[(usize, f64)], factor: f64| {
             let mut sum = 0.0;
             for &(dof, force) in entries {
                 let along: f64 = parts.iter().map(|(m, c)| c * m.at(model, dof)).sum();
@@ -71,15 +71,19 @@ impl Scene<'_> {
                 push.size += (factor * force).abs();
             }
             push.total += sum;
-            if let Some(name) = name.filter(|_| sum != 0.0) {
-                push.each.push((format!("load.{name}"), sum));
+            if let Some(key) = key.filter(|_| sum != 0.0) {
+                push.each.push((key, sum));
             }
         };
         for load in &model.loads {
             let factor = load.schedule.at(t);
             if factor != 0.0 {
-                of(Some(&load.name), &load.entries, factor);
+                of(Some(format!("load.{}", load.name)), &load.entries, factor);
             }
+        }
+        // A pair of forces inside a body pushes what only one of them acts on.
+        for (name, forces) in self.contact.couplings.pulls(t) {
+            of(Some(format!("pretension.{name}")), &forces, 1.0);
         }
         let step = &model.steps[self.frame.step];
         let left = (step.end - t) / (step.end - step.start);

@@ -2,6 +2,7 @@
 
 use super::definition::{Model, Reference};
 use super::free_bodies::BEYOND;
+use crate::body::couplings::Row;
 use super::scene::Scene;
 use crate::contact::interface::{Interface, Primary};
 use crate::math::{Vec3, add, cross, dot, scale, sub, symmetric_eigen};
@@ -67,6 +68,12 @@ impl Mode {
     pub fn at(&self, model: &Model, dof: usize) -> f64 {
         let (point, component) = model.dofs.locate(dof);
         match model.mesh.points.get(point) {
+    /// The rate of a sum of displacements.
+    pub fn along(&self, model: &Model, row: &Row) -> f64 {
+        let terms = row.terms();
+        terms.map(|(dof, a)| a * self.at(model, dof)).sum()
+    }
+
             Some(_) if !self.moves(model, point) => 0.0,
             Some(&x) => self.velocity(x)[component],
             None if self.hidden == Some(dof) => 1.0,
@@ -205,8 +212,8 @@ impl Resisted<'_> {
 
 impl Scene<'_> {
     /// Motions that neither supports, springs and couplings nor any contact could hold while the interfaces act as they do at `t`. Of contact
-    /// the most is believed: that every point of a secondary meets what it faces, and that friction is as large as need be. Tied surfaces count
-    /// without contact too.
+    /// the most is believed: that every point of a secondary meets what it faces, that gaps of couplings close, and that friction is as large as need be.
+    /// Tied surfaces count without contact too.
     pub(crate) fn unheld(&self, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
         let model = self.model;
         let count = modes.len();
@@ -226,12 +233,14 @@ impl Scene<'_> {
                 resisted.dof(dof);
             }
         }
-        for row in self.contact.couplings.acting(t) {
-            let value = |m: &Mode| {
-                let terms = row.dofs.iter().zip(&row.factors);
-                terms.map(|(&dof, a)| a * m.at(model, dof)).sum::<f64>()
-            };
-            let values: Vec<_> = modes.iter().map(value).enumerate().collect();
+        let couplings = &self.contact.couplings;
+        let stops = couplings.stops(t).filter(|_| contact);
+        for row in couplings.acting(t).chain(stops) {
+            let values: Vec<_> = modes
+                .iter()
+                .map(|m| m.along(model, row))
+                .enumerate()
+                .collect();
             resisted.row(&values, 1.0);
         }
         let acting = self

@@ -763,3 +763,82 @@ fn a_body_that_fell_explicitly_is_followed_at_rest() {
     let force = found.last("f.CFN2");
     assert!((force / 78e3 - 1.0).abs() < 1e-6, "{force}");
 }
+
+/// A block on another, pushed aside, without friction.
+const PUSHED: &str = r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.05, 0.02], cells = [10, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.04, 0.04], cells = [7, 5] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+load.press = { set = "upper.top", pressure.value = 50e6 }
+load.push = { set = "upper.left", traction.value = [20e6, 0] }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top" }
+step = [{ increments.fixed = 2 }]
+"#;
+
+/// What holds a body to another one counts before the run as well as in it: a spring, and a stop that has to be reached first.
+#[test]
+fn springs_and_stops_between_bodies_hold() {
+    let terms = "terms = [{ set = \"upper.bottom-right\", component = \"x\", factor = -1 }, { set = \"lower.bottom-right\", component = \"x\" }]";
+    for coupling in [
+        format!("coupling.c.spring = {{ {terms}, stiffness = 1e9 }}"),
+        format!("coupling.c.gap = {{ {terms}, clearance = 1e-5 }}"),
+    ] {
+        let outcome = run(&coupling, &format!("{PUSHED}{coupling}\n"));
+        let causes = outcome.summary.findings.iter().map(|f| f.cause);
+        let causes: Vec<DoctorCause> = causes.collect();
+        assert!(
+            !causes.contains(&DoctorCause::SlidesAway)
+                && !causes.contains(&DoctorCause::FreeRigidMode),
+            "{causes:?}"
+        );
+        let force = outcome.last("c.F").abs();
+        // Contact on slopes of a thousandth takes a little.
+        assert!((force / 4e5 - 1.0).abs() < 1e-3, "{force:e}");
+        assert!(outcome.summary.quality.met);
+    }
+}
+
+/// Two posts stand on a base, a cap lies on them, and a bolt between them draws it down. Less than its force lifts the cap.
+fn bolted(lift: f64) -> String {
+    format!(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.base = {{ generate.rectangle = {{ to = [0.1, 0.02], cells = [20, 4] }}, material = "steel" }}
+body.left = {{ generate.rectangle = {{ from = [0.01, 0.02], to = [0.03, 0.05], cells = [4, 6] }}, material = "steel" }}
+body.right = {{ generate.rectangle = {{ from = [0.07, 0.02], to = [0.09, 0.05], cells = [4, 6] }}, material = "steel" }}
+body.bolt = {{ generate.rectangle = {{ from = [0.045, 0.02], to = [0.055, 0.05], cells = [2, 6] }}, material = "steel" }}
+body.cap = {{ generate.rectangle = {{ from = [0, 0.05], to = [0.1, 0.07], cells = [20, 4] }}, material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+support.base = {{ set = "base.bottom", x = 0, y = 0 }}
+interface.foot-left = {{ secondary = "left.bottom", primary = "base.top", friction.coulomb.mu = 0.3 }}
+interface.foot-right = {{ secondary = "right.bottom", primary = "base.top", friction.coulomb.mu = 0.3 }}
+interface.head-left = {{ secondary = "left.top", primary = "cap.bottom", friction.coulomb.mu = 0.3 }}
+interface.head-right = {{ secondary = "right.top", primary = "cap.bottom", friction.coulomb.mu = 0.3 }}
+interface.bolt-foot = {{ secondary = "bolt.bottom", primary = "base.top", tied = true }}
+interface.bolt-head = {{ secondary = "bolt.top", primary = "cap.bottom", tied = true }}
+pretension.bolt = {{ of = "bolt", plane = {{ point = [0.05, 0.035], normal = [0, 1] }} }}
+load.lift = {{ set = "cap.top", traction.value = [0, {lift:?}] }}
+step = [{{ pretension.bolt.force = 1e6, increments.fixed = 2 }}]
+"#
+    )
+}
+
+/// A pretension is a pair of forces inside a body: each presses what only it acts on.
+#[test]
+fn what_a_bolt_draws_down_is_held_against_less_than_its_force() {
+    let outcome = run("lifted", &bolted(5e6));
+    let pressed = outcome.last("head-left.CFN2") + outcome.last("head-right.CFN2");
+    assert!((pressed / -5e5 - 1.0).abs() < 1e-3, "{pressed:e}");
+    let message = match attempt(&bolted(2e7)) {
+        Ok(_) => panic!("twice the force of the bolt is held"),
+        Err(e) => e.to_string(),
+    };
+    assert!(
+        message.contains("no equilibrium") && message.contains("load.lift"),
+        "{message}"
+    );
+}

@@ -236,16 +236,29 @@ impl Couplings {
 
     /// The rows that hold something at time `t`: not those of dashpots, nor of gaps that are open.
     pub fn acting(&self, t: f64) -> impl Iterator<Item = &Row> {
+        let holding = self.holding(t).filter(|(_, open)| !open);
+        holding.map(|(row, _)| row)
+    }
+
+    /// The rows of gaps that are open at the last accepted state, and stop what closes them at time `t`.
+    pub fn stops(&self, t: f64) -> impl Iterator<Item = &Row> {
+        let holding = self.holding(t).filter(|(_, open)| *open);
+        holding.map(|(row, _)| row)
+    }
+
+    /// The rows that hold something, and whether they are those of gaps that are open.
+    fn holding(&self, t: f64) -> impl Iterator<Item = (&Row, bool)> {
         self.rows().filter_map(move |(i, c, row)| {
-            let met = match c.tie {
-                Tie::Gap { clearance, .. } => clearance <= 0.0 || self.memory.forces[i] < 0.0,
-                _ => true,
+            let open = match c.tie {
+                Tie::Gap { clearance, .. } => clearance > 0.0 && self.memory.forces[i] >= 0.0,
+                _ => false,
             };
-            let holds = matches!(
-                self.act(i, c, t),
-                Act::Held(_) | Act::Sprung(_) | Act::Stopped(_)
-            );
-            (holds && met).then_some(row)
+            let holds = match self.act(i, c, t) {
+                Act::Held(_) | Act::Stopped(_) => true,
+                Act::Sprung(stiffness) => stiffness != 0.0,
+                Act::Pulled(_) | Act::Damped(_) | Act::Idle => false,
+            };
+            holds.then_some((row, open))
         })
     }
 

@@ -18,6 +18,19 @@ impl Couplings {
         drawn.into_values().fold(0.0, |m, f| f64::max(m, f.abs()))
     }
 
+    /// The forces by which each pretension draws its sides together at time `t`, by dof `[N]`: those of both sides are opposite. Where lengths are held nothing
+    /// is known of them.
+    pub fn pulls(&self, t: f64) -> BTreeMap<&str, Vec<(usize, f64)>> {
+        let mut out: BTreeMap<&str, Vec<(usize, f64)>> = BTreeMap::new();
+        for (i, coupling, row) in self.rows() {
+            if let Act::Pulled(force) = self.act(i, coupling, t) {
+                let own = out.entry(&coupling.name).or_default();
+                own.extend(row.terms().map(|(dof, a)| (dof, -a * force)));
+            }
+        }
+        out
+    }
+
     /// Begins a step of a pretension at displacements `u`. Where it changes between force and length the forces between all pairs of points stay: those of
     /// the rows that let go are handed to the others.
     pub(super) fn draw(

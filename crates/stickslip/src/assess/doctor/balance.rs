@@ -10,6 +10,7 @@ use crate::contact::interface::Primary;
 use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
 use crate::model::definition::Body;
 use crate::model::scene::Scene;
+use crate::model::unheld;
 
 /// Cosine between outward normals below which two places face each other.
 const FACING: f64 = -0.3;
@@ -32,7 +33,7 @@ struct Push {
     interface: String,
 }
 
-/// Bodies without supports and springs on which the loads at time `t` and contact cannot be in balance.
+/// Bodies without supports, springs and couplings to others on which the loads at time `t` and contact cannot be in balance.
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
     beyond(view, t, SLIGHT)
 }
@@ -47,6 +48,9 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
     let held = view.constraints(t).fixed;
     let loads = view.loads(t);
     let scale_of_loads = vector::norm(&loads);
+    let modes = unheld::modes(model);
+    let couplings = &view.contact.couplings;
+    let rows: Vec<_> = couplings.acting(t).chain(couplings.stops(t)).collect();
     for (index, body) in model.bodies.iter().enumerate() {
         let mut dofs: Vec<usize> =
             (model.dofs.of(body.points.start, 0)..model.dofs.of(body.points.end, 0)).collect();
@@ -63,7 +67,11 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
         let sprung = sprung
             .into_iter()
             .any(|(dof, k)| *k > 0.0 && dofs.contains(dof));
-        if sprung || dofs.iter().any(|&dof| held[dof]) {
+        let own = modes.iter().filter(|m| m.body == index);
+        let coupled = own
+            .into_iter()
+            .any(|m| rows.iter().any(|row| m.along(model, row).abs() > NONE));
+        if sprung || coupled || dofs.iter().any(|&dof| held[dof]) {
             continue;
         }
         let Some(push) = push(view, body, t) else {

@@ -56,6 +56,8 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             all.extend(own);
         }
     }
+    let stops = view.contact.couplings.stops(t);
+    all.extend(stops.map(|row| row.terms().collect()));
     let free = floating(view, t, &all);
     if !free.is_empty() {
         let mut finding = Finding::new(
