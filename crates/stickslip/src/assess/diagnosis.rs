@@ -92,7 +92,7 @@ pub struct InterfaceReport {
 pub fn free_modes(view: &View, t: f64) -> Vec<FreeMode> {
     let bodies = view.free_bodies(t).into_iter();
     let modes = bodies.flat_map(|free| {
-        let body = view.model.bodies[free.body].name.clone();
+        let body = free.name(view.model);
         let modes = free.motions.into_iter();
         modes.map(move |(motion, _)| FreeMode {
             body: body.clone(),

@@ -100,16 +100,19 @@ impl View<'_> {
         let free = self.free_bodies(trial.to);
         let model = self.model;
         // A body that has been in contact has lost its hold; others wait for theirs.
-        let touching: Vec<_> = free.iter().filter(|f| self.touches(f.body)).collect();
+        let touching: Vec<_> = free
+            .iter()
+            .filter(|f| f.bodies.iter().any(|&b| self.touches(b)))
+            .collect();
         let lost = !touching.is_empty();
         let told: Vec<_> = match lost {
             true => touching,
             false => free.iter().collect(),
         };
         let first = told.first()?;
-        let name = &model.bodies[first.body].name;
+        let name = first.name(model);
         let called = self.called();
-        let drivers = self.drivers(first.body, trial.to);
+        let drivers = self.drivers(first.bodies[0], trial.to);
         let by = match drivers.is_empty() {
             true => String::new(),
             false => format!(", {} it", named(&drivers, "drives", "drive")),
@@ -129,14 +132,15 @@ impl View<'_> {
                 true => "held by contact alone",
                 false => "held neither by supports nor by springs",
             };
-            let name = &model.bodies[f.body].name;
+            let name = f.name(model);
             culprits.push(format!("body {name}: {} is {held}", motions.join(", ")));
         }
         culprits.extend(drivers.iter().map(|d| format!("{} {}", d.key, d.what)));
         if lost {
             culprits.extend(failure.culprits.iter().take(3).map(ToString::to_string));
         }
-        let names = told.iter().map(|f| model.bodies[f.body].name.clone());
+        let names = told.iter().flat_map(|f| &f.bodies);
+        let names = names.map(|&b| model.bodies[b].name.clone());
         let gone = let_go(self, &names.collect::<Vec<_>>());
         culprits.extend(gone.iter().map(|g| format!("{} {}", g.key, g.what)));
         let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();

@@ -265,6 +265,18 @@ impl Model {
         motions.collect()
     }
 
+    /// The points of a body, and the hidden ones that are displaced with them: its own where it is rigid, and those of reference points that are tied to it.
+    pub(crate) fn displaced_with(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
+        let own = self.bodies[body].rigid.map(|r| r.link);
+        let tied = self.references.iter();
+        let tied = tied.filter(move |r| r.body == Some(body)).map(|r| r.link);
+        let hidden = own
+            .into_iter()
+            .chain(tied)
+            .map(|l| self.links.all()[l].hidden);
+        self.bodies[body].points.clone().chain(hidden)
+    }
+
     /// The bodies that deform.
     pub fn elastic(&self) -> impl Iterator<Item = &Body> {
         self.bodies.iter().filter(|b| b.rigid.is_none())

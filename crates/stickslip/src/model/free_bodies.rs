@@ -3,32 +3,66 @@
 use super::contact::Contact;
 use super::definition::{Model, Reference};
 use super::scene::Scene;
+use super::unheld::{BEYOND, Mode, NO_PART, Resisted, directions, modes, plain};
 use crate::body::couplings::Row;
 use crate::body::{RigidMode, rigid_modes};
+use crate::contact::interface::Interface;
 use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
+use crate::system::Motion;
 
-/// A body that supports and springs leave free to move.
+/// What is left of a motion, relative to the stiffest, that counts as free.
+const FREE: f64 = 1e-10;
+
+/// Part of a motion from which on it gives its name.
+const NAMED: f64 = 0.1;
+
+/// A body that supports and springs leave free to move, with those that ties make one with it.
 #[derive(Clone)]
 pub(crate) struct FreeBody {
-    /// Its index.
-    pub body: usize,
-    /// Its free motions: what they are, and displacements by dof, the largest of size one.
+    /// The indices of the bodies.
+    pub bodies: Vec<usize>,
+    /// Their free motions: what they are, and displacements by dof, the largest about of size one.
     pub motions: Vec<(String, Vec<f64>)>,
-    /// An orthonormal basis of the directions in which it can move without turning.
+    /// An orthonormal basis of the directions in which they can move without turning.
     pub slides: Vec<Vec3>,
 }
 
 impl FreeBody {
-    /// Whether it rubs on something, or is glued to it, at the last accepted state.
+    /// The names of the bodies.
+    pub fn name(&self, model: &Model) -> String {
+        let names = self.bodies.iter().map(|&b| model.bodies[b].name.as_str());
+        names.collect::<Vec<_>>().join(" and ")
+    }
+
+    /// Whether a point of the mesh is one of theirs.
+    pub fn has(&self, model: &Model, point: usize) -> bool {
+        let mut points = self.bodies.iter().map(|&b| &model.bodies[b].points);
+        points.any(|points| points.contains(&point))
+    }
+
+    /// Their points, and the hidden ones that are displaced with them.
+    pub fn points<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = usize> + 'a {
+        self.bodies.iter().flat_map(|&b| model.displaced_with(b))
+    }
+
+    /// Whether it rubs on something at the last accepted state.
     pub fn rubs(&self, model: &Model, contact: &Contact) -> bool {
-        let points = &model.bodies[self.body].points;
         let mut rubbing = contact.interfaces.iter().filter(|i| i.rubs());
-        rubbing.any(|i| i.nodes.iter().any(|n| points.contains(n)))
+        rubbing.any(|i| i.nodes.iter().any(|&n| self.has(model, n)))
     }
 }
 
+/// A motion of one body among those that ties may make one.
+struct Part {
+    /// Its index among the modes of all bodies.
+    mode: usize,
+    name: String,
+    /// Displacements by dof.
+    vector: Vec<f64>,
+}
+
 impl Scene<'_> {
-    /// The bodies that supports, springs and couplings acting at `t` leave free to move.
+    /// The bodies that supports, springs, couplings and ties acting at `t` leave free to move.
     pub(crate) fn free_bodies(&self, t: f64) -> Vec<FreeBody> {
         let model = self.model;
         let mut held = self.supported(t);
@@ -38,115 +72,192 @@ impl Scene<'_> {
             }
         }
         let rows: Vec<_> = self.contact.couplings.acting(t).collect();
-        let mut out = Vec::new();
-        for (index, body) in model.bodies.iter().enumerate() {
-            let modes = match body.rigid {
-                None => {
-                    let points: Vec<usize> = body.points.clone().collect();
-                    let mut modes = carrying(model, &points, &|r| r.body == Some(index));
-                    // What has been cut off moves by itself as well.
-                    for piece in &body.pieces {
-                        let own = carrying(model, piece, &|r| {
-                            r.body == Some(index) && is_tied_to(model, &rows, r, piece)
-                        });
-                        modes.extend(own.into_iter().map(|m| RigidMode {
-                            name: format!("{} {BEYOND}", m.name),
-                            ..m
-                        }));
-                    }
-                    modes
-                }
-                Some(rigid) => motions(model, rigid.link),
-            };
-            // Rotations count by the displacement they make at the rim of the body, like translations.
-            let modes: Vec<_> = modes
-                .into_iter()
-                .map(|m| {
-                    let largest = m.vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-                    (m.name, m.vector, 1.0 / largest.max(f64::MIN_POSITIVE))
-                })
-                .collect();
-            let gram: Vec<Vec<f64>> = modes
-                .iter()
-                .map(|(_, a, sa)| {
-                    modes
-                        .iter()
-                        .map(|(_, b, sb)| {
-                            let sum: f64 = a
-                                .iter()
-                                .zip(b)
-                                .zip(&held)
-                                .filter(|(_, held)| **held)
-                                .map(|((a, b), _)| a * b)
-                                .sum();
-                            // What a coupling resists, whatever is at its other end.
-                            let coupled: f64 = rows.iter().map(|r| r.sum(a) * r.sum(b)).sum();
-                            (sum + coupled) * sa * sb
-                        })
-                        .collect()
-                })
-                .collect();
-            let (values, vectors) = symmetric_eigen(&gram);
-            let largest = values.last().copied().unwrap_or(0.0);
-            let mut motions = Vec::new();
-            for (k, value) in values.iter().enumerate() {
-                if *value > 1e-10 * largest.max(f64::MIN_POSITIVE) {
-                    continue;
-                }
-                let parts: Vec<&str> = modes
-                    .iter()
-                    .enumerate()
-                    .filter(|(i, _)| vectors[*i][k].abs() > 0.1)
-                    .map(|(_, (name, _, _))| name.as_str())
-                    .collect();
-                let mut vector = vec![0.0; model.dofs.count()];
-                for (i, (_, mode, scale)) in modes.iter().enumerate() {
-                    let factor = scale * vectors[i][k];
-                    vector
-                        .iter_mut()
-                        .zip(mode)
-                        .for_each(|(v, m)| *v += factor * m);
-                }
-                motions.push((parts.join(" with "), vector));
-            }
-            if motions.is_empty() {
-                continue;
-            }
-            // Translations come first.
-            let axes: Vec<usize> = modes.iter().filter_map(|(name, ..)| axis(name)).collect();
-            let block: Vec<Vec<f64>> = gram[..axes.len()]
-                .iter()
-                .map(|row| row[..axes.len()].to_vec())
-                .collect();
-            let (values, vectors) = symmetric_eigen(&block);
-            let slides = values.iter().enumerate();
-            let slides = slides.filter(|(_, v)| **v <= 1e-10 * largest.max(f64::MIN_POSITIVE));
-            let slides = slides.map(|(k, _)| {
-                let mut slide = [0.0; 3];
-                for (i, &c) in axes.iter().enumerate() {
-                    slide[c] = vectors[i][k];
-                }
-                slide
-            });
-            out.push(FreeBody {
-                body: index,
-                motions,
-                slides: slides.collect(),
-            });
-        }
-        out
+        let modes = modes(model);
+        let ties: Vec<&Interface> = (self.contact.interfaces.iter())
+            .filter(|i| i.laws.tied && i.schedule.active(t))
+            .collect();
+        let groups = groups(model, &ties);
+        let all = groups.iter().map(|group| {
+            let parts = parts(model, group, &rows, &modes);
+            let gram = resisted(model, &parts, (&held, &rows), (&modes, &ties, t));
+            free(model, group, &parts, &gram, &modes)
+        });
+        all.flatten().collect()
     }
 }
 
-/// What is said of motions of a part that a pretension has cut off.
-pub(crate) const BEYOND: &str = "beyond the cut";
+/// Bodies that ties join, each group in order.
+fn groups(model: &Model, ties: &[&Interface]) -> Vec<Vec<usize>> {
+    let mut of: Vec<usize> = (0..model.bodies.len()).collect();
+    for tie in ties {
+        let mut joined: Vec<usize> = (model.bodies.iter().enumerate())
+            .filter(|(_, body)| tie.nodes.iter().any(|n| body.points.contains(n)))
+            .map(|(b, _)| of[b])
+            .collect();
+        joined.sort_unstable();
+        if let Some(&first) = joined.first() {
+            of.iter_mut()
+                .filter(|o| joined.contains(o))
+                .for_each(|o| *o = first);
+        }
+    }
+    let members = |first: usize| (0..of.len()).filter(|&b| of[b] == first).collect();
+    let groups = (0..of.len()).map(members);
+    groups.filter(|g: &Vec<usize>| !g.is_empty()).collect()
+}
+
+/// The motions of bodies, scaled like their modes.
+fn parts(model: &Model, group: &[usize], rows: &[&Row], modes: &[Mode]) -> Vec<Part> {
+    let mut out = Vec::new();
+    for &index in group {
+        let body = &model.bodies[index];
+        let own = match body.rigid {
+            None => {
+                let points: Vec<usize> = body.points.clone().collect();
+                let mut own = carrying(model, &points, &|r| r.body == Some(index));
+                // What has been cut off moves by itself as well.
+                for piece in &body.pieces {
+                    let beyond = carrying(model, piece, &|r| {
+                        r.body == Some(index) && is_tied_to(model, rows, r, piece)
+                    });
+                    own.extend(beyond.into_iter().map(|m| RigidMode {
+                        name: format!("{} {BEYOND}", m.name),
+                        ..m
+                    }));
+                }
+                own
+            }
+            Some(rigid) => motions(model, rigid.link),
+        };
+        let known = modes.iter().enumerate().filter(|(_, m)| m.body == index);
+        for (mut m, (mode, known)) in own.into_iter().zip(known) {
+            // Rotations count by the displacement they make at the rim of the body, like translations; those of rigid bodies do so already.
+            if body.rigid.is_none() && known.angle() > 0.0 {
+                m.vector.iter_mut().for_each(|v| *v *= known.angle());
+            }
+            out.push(Part {
+                mode,
+                name: m.name,
+                vector: m.vector,
+            });
+        }
+    }
+    out
+}
+
+/// Sums of products of what supports, springs, couplings and ties resist of motions.
+fn resisted(
+    model: &Model,
+    parts: &[Part],
+    (held, rows): (&[bool], &[&Row]),
+    (modes, ties, t): (&[Mode], &[&Interface], f64),
+) -> Vec<Vec<f64>> {
+    let several = parts
+        .iter()
+        .any(|p| modes[p.mode].body != modes[parts[0].mode].body);
+    let mut glued = Resisted {
+        model,
+        modes,
+        gram: vec![vec![0.0; modes.len()]; if several { modes.len() } else { 0 }],
+    };
+    for tie in ties.iter().filter(|_| several) {
+        glued.interface(tie, &directions(tie, t));
+    }
+    let entry = |a: &Part, b: &Part| -> f64 {
+        let both = a.vector.iter().zip(&b.vector).zip(held);
+        let sum: f64 = both
+            .filter(|(_, held)| **held)
+            .map(|((a, b), _)| a * b)
+            .sum();
+        // What a coupling resists, whatever is at its other end.
+        let coupled = rows.iter().map(|r| r.sum(&a.vector) * r.sum(&b.vector));
+        let glued = glued.gram.get(a.mode).map_or(0.0, |row| row[b.mode]);
+        sum + coupled.sum::<f64>() + glued
+    };
+    let row = |a| parts.iter().map(|b| entry(a, b)).collect();
+    parts.iter().map(row).collect()
+}
+
+/// What is free of a group of bodies; `None` where nothing is.
+fn free(
+    model: &Model,
+    group: &[usize],
+    parts: &[Part],
+    gram: &[Vec<f64>],
+    modes: &[Mode],
+) -> Option<FreeBody> {
+    let (values, vectors) = symmetric_eigen(gram);
+    let none = FREE * values.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
+    let column = |k: usize| (0..parts.len()).map(|i| vectors[i][k]).collect();
+    let unheld = values.iter().enumerate().filter(|(_, v)| **v <= none);
+    let mut unheld: Vec<Vec<f64>> = unheld.map(|(k, _)| column(k)).collect();
+    if group.len() > 1 {
+        unheld = plain(unheld);
+    }
+    let moves = |b: usize, motion: &Vec<f64>| {
+        let mut both = motion.iter().zip(parts);
+        both.any(|(c, part)| modes[part.mode].body == b && c.abs() > NO_PART)
+    };
+    let moved = group.iter().copied();
+    let bodies: Vec<usize> = moved
+        .filter(|&b| unheld.iter().any(|m| moves(b, m)))
+        .collect();
+    let motions = unheld.iter().map(|motion| {
+        let both = || motion.iter().zip(parts);
+        let largest = both().fold(0.0_f64, |m, (c, _)| m.max(c.abs()));
+        let mut names: Vec<&str> = Vec::new();
+        for (_, part) in both().filter(|(c, _)| c.abs() > NAMED * largest) {
+            if !names.contains(&part.name.as_str()) {
+                names.push(&part.name);
+            }
+        }
+        let mut vector = vec![0.0; model.dofs.count()];
+        for (c, part) in both() {
+            let own = vector.iter_mut().zip(&part.vector);
+            own.for_each(|(v, m)| *v += c * m);
+        }
+        (names.join(" with "), vector)
+    });
+    let motions: Vec<(String, Vec<f64>)> = motions.collect();
+    if motions.is_empty() {
+        return None;
+    }
+    // What all bodies do alike along an axis.
+    let along: Vec<(usize, Vec<usize>)> = (0..3)
+        .map(|c| {
+            let own = |p: &Part| axis(&p.name) == Some(c);
+            (c, (0..parts.len()).filter(|&i| own(&parts[i])).collect())
+        })
+        .filter(|(_, own): &(usize, Vec<usize>)| !own.is_empty())
+        .collect();
+    let together = |a: &[usize], b: &[usize]| -> f64 {
+        a.iter()
+            .flat_map(|&i| b.iter().map(move |&j| gram[i][j]))
+            .sum()
+    };
+    let block: Vec<Vec<f64>> = (along.iter())
+        .map(|(_, a)| along.iter().map(|(_, b)| together(a, b)).collect())
+        .collect();
+    let (values, vectors) = symmetric_eigen(&block);
+    let slides = values.iter().enumerate().filter(|(_, v)| **v <= none);
+    let slides = slides.map(|(k, _)| {
+        let mut slide = [0.0; 3];
+        for (i, (c, _)) in along.iter().enumerate() {
+            slide[*c] = vectors[i][k];
+        }
+        slide
+    });
+    Some(FreeBody {
+        bodies,
+        motions,
+        slides: slides.collect(),
+    })
+}
 
 /// The motions without strain of these points, with what reference points do that are tied to them, over all dofs.
 fn carrying(model: &Model, points: &[usize], tied: &dyn Fn(&Reference) -> bool) -> Vec<RigidMode> {
     let mut modes = rigid_modes(&model.mesh, points, model.space);
-    let places = points.iter().map(|p| model.mesh.points[*p]);
-    let sum = places.fold([0.0; 3], add);
-    let centre = scale(1.0 / points.len().max(1) as f64, sum);
+    let centre = centre(model, points);
     for mode in &mut modes {
         carry(model, tied, centre, mode);
     }
@@ -168,12 +279,7 @@ fn is_tied_to(model: &Model, rows: &[&Row], reference: &Reference, points: &[usi
 
 /// Adds to a motion of points what the reference points tied to them do.
 fn carry(model: &Model, tied: &dyn Fn(&Reference) -> bool, centre: Vec3, mode: &mut RigidMode) {
-    let unit = |name: &str, kind: &str| -> Vec3 {
-        let axis = name.strip_prefix(kind);
-        ["x", "y", "z"].map(|a| f64::from(u8::from(axis == Some(a))))
-    };
-    let shift = unit(&mode.name, "translation ");
-    let turn = unit(&mode.name, "rotation about ");
+    let (shift, turn) = shift_and_turn(&mode.name);
     let velocity = |x: Vec3| add(shift, cross(turn, sub(x, centre)));
     mode.vector.resize(model.dofs.count(), 0.0);
     for (dof, moved) in model.carried(tied, velocity, turn) {
@@ -186,6 +292,53 @@ fn axis(motion: &str) -> Option<usize> {
     let axes = ["x", "y", "z"].into_iter();
     let translation = motion.strip_prefix("translation ")?;
     axes.into_iter().position(|a| a == translation)
+}
+
+/// The motions of bodies together without strain, over all dofs.
+pub(crate) fn together(model: &Model, bodies: &[usize]) -> Vec<RigidMode> {
+    if let &[only] = bodies
+        && let Some(rigid) = model.bodies[only].rigid
+    {
+        return motions(model, rigid.link);
+    }
+    let of = |&b: &usize| model.bodies[b].points.clone();
+    let points: Vec<usize> = bodies.iter().flat_map(of).collect();
+    let mut modes = rigid_modes(&model.mesh, &points, model.space);
+    let centre = centre(model, &points);
+    let links = bodies.iter().filter_map(|&b| model.bodies[b].rigid);
+    let links: Vec<_> = links.map(|r| &model.links.all()[r.link]).collect();
+    for mode in &mut modes {
+        let (shift, turn) = shift_and_turn(&mode.name);
+        mode.vector.resize(model.dofs.count(), 0.0);
+        for link in &links {
+            let moved = add(shift, cross(turn, sub(link.centre, centre)));
+            for (dof, motion) in link.motions(model.dofs) {
+                mode.vector[dof] = match motion {
+                    Motion::Translation(i) => moved[i],
+                    Motion::Rotation(i) => turn[i] * link.length,
+                };
+            }
+        }
+    }
+    modes
+}
+
+/// The mean of points.
+fn centre(model: &Model, points: &[usize]) -> Vec3 {
+    let sum = points
+        .iter()
+        .map(|&p| model.mesh.points[p])
+        .fold([0.0; 3], add);
+    scale(1.0 / points.len().max(1) as f64, sum)
+}
+
+/// What a motion of this name does: how it shifts and how it turns.
+fn shift_and_turn(name: &str) -> (Vec3, Vec3) {
+    let unit = |kind: &str| -> Vec3 {
+        let axis = name.strip_prefix(kind);
+        ["x", "y", "z"].map(|a| f64::from(u8::from(axis == Some(a))))
+    };
+    (unit("translation "), unit("rotation about "))
 }
 
 /// The motions of a rigid body over all dofs, hidden ones and those of its points.
@@ -206,7 +359,7 @@ pub(crate) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
 }
 
 crate::keep!(FreeBody {
-    body,
+    bodies,
     motions,
     slides
 });

@@ -185,7 +185,7 @@ impl<'a> Scene<'a> {
     /// Whether a body is in contact at the last accepted state.
     pub(crate) fn touches(&self, body: usize) -> bool {
         let points = &self.model.bodies[body].points;
-        let mut all = self.contact.interfaces.iter();
+        let mut all = self.contact.interfaces.iter().filter(|i| !i.laws.tied);
         all.any(|i| i.touched() && i.nodes.iter().any(|n| points.contains(n)))
     }
 }

@@ -1,11 +1,10 @@
 //! Motions of whole bodies that nothing can hold, however contact comes out: known before a quasi-static step begins.
 
 use super::definition::{Model, Reference};
-use super::free_bodies::BEYOND;
-use crate::body::couplings::Row;
 use super::scene::Scene;
+use crate::body::couplings::Row;
 use crate::contact::interface::{Interface, Primary};
-use crate::math::{Vec3, add, cross, dot, scale, sub, symmetric_eigen};
+use crate::math::{Vec3, add, cross, dot, norm, scale, sub, symmetric_eigen};
 use crate::system::{Freedom, Motion};
 
 /// A motion of one body without strain.
@@ -55,6 +54,11 @@ impl Mode {
         add(self.shift, cross(self.turn, sub(x, self.centre)))
     }
 
+    /// The angle by which it turns `[rad/m]`.
+    pub fn angle(&self) -> f64 {
+        norm(self.turn)
+    }
+
     /// Whether a point moves with it.
     fn moves(&self, model: &Model, point: usize) -> bool {
         let body = &model.bodies[self.body];
@@ -64,16 +68,16 @@ impl Mode {
         }
     }
 
-    /// The motion at a dof.
-    pub fn at(&self, model: &Model, dof: usize) -> f64 {
-        let (point, component) = model.dofs.locate(dof);
-        match model.mesh.points.get(point) {
     /// The rate of a sum of displacements.
     pub fn along(&self, model: &Model, row: &Row) -> f64 {
         let terms = row.terms();
         terms.map(|(dof, a)| a * self.at(model, dof)).sum()
     }
 
+    /// The motion at a dof.
+    pub fn at(&self, model: &Model, dof: usize) -> f64 {
+        let (point, component) = model.dofs.locate(dof);
+        match model.mesh.points.get(point) {
             Some(_) if !self.moves(model, point) => 0.0,
             Some(&x) => self.velocity(x)[component],
             None if self.hidden == Some(dof) => 1.0,
@@ -86,6 +90,9 @@ impl Mode {
         }
     }
 }
+
+/// What is said of motions of a part that a pretension has cut off.
+pub(super) const BEYOND: &str = "beyond the cut";
 
 /// A motion that nothing holds: how much of each mode is in it.
 pub(crate) type Unheld = Vec<f64>;
@@ -150,10 +157,10 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
 }
 
 /// Sums of products of what resists the modes.
-struct Resisted<'a> {
-    model: &'a Model,
-    modes: &'a [Mode],
-    gram: Vec<Vec<f64>>,
+pub(super) struct Resisted<'a> {
+    pub model: &'a Model,
+    pub modes: &'a [Mode],
+    pub gram: Vec<Vec<f64>>,
 }
 
 impl Resisted<'_> {
@@ -175,7 +182,7 @@ impl Resisted<'_> {
     }
 
     /// Contact along `directions` at the points of an interface, as if all of them had come to touch.
-    fn interface(&mut self, interface: &Interface, directions: &[Vec3]) {
+    pub fn interface(&mut self, interface: &Interface, directions: &[Vec3]) {
         let model = self.model;
         let body_of = |point: usize| model.bodies.iter().position(|b| b.points.contains(&point));
         let facing = match &interface.primary {
@@ -262,7 +269,7 @@ impl Scene<'_> {
 }
 
 /// Directions in which an interface may resist: all where it sticks or is tied, else those of its normals.
-fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
+pub(super) fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
     let unit = |c: usize| std::array::from_fn(|d| if c == d { 1.0 } else { 0.0 });
     let all = || (0..interface.dofs.dim).map(unit).collect();
     if interface.laws.tied || interface.laws.friction_law().frictional() {
@@ -301,7 +308,7 @@ fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
 }
 
 /// Other vectors of the same space, each with a mode that is in none of the others, so that they have simple names.
-fn plain(mut basis: Vec<Unheld>) -> Vec<Unheld> {
+pub(super) fn plain(mut basis: Vec<Unheld>) -> Vec<Unheld> {
     let mut taken: Vec<usize> = Vec::new();
     for k in 0..basis.len() {
         let free = (0..basis[k].len()).filter(|i| !taken.contains(i));

@@ -1,11 +1,10 @@
 //! Where supports carry a body that contact has to hold in its other motions.
 
 use super::solver::Solver;
-use crate::body::rigid_modes;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::free_bodies::motions;
+use crate::model::free_bodies::together;
 use crate::system::Constraints;
 use crate::time::Trial;
 
@@ -37,7 +36,7 @@ impl Solver {
             .collect();
         let change = |dof: usize| to.values[dof] - from.values[dof];
         for (k, free) in bodies.iter().enumerate() {
-            let carried = carried(model, free.body, &prescribed, change);
+            let carried = carried(model, &free.bodies, &prescribed, change);
             let ahead = |p: usize| match &carried {
                 Some(u) => model.dofs.vector(u, p),
                 None => Vec3::default(),
@@ -51,16 +50,11 @@ impl Solver {
 /// nothing turns that need not. `None` where nothing is prescribed of the body or nothing changes.
 fn carried(
     model: &Model,
-    body: usize,
+    bodies: &[usize],
     prescribed: &[usize],
     change: impl Fn(usize) -> f64,
 ) -> Option<Vec<f64>> {
-    let body = &model.bodies[body];
-    let points: Vec<usize> = body.points.clone().collect();
-    let modes = match body.rigid {
-        Some(rigid) => motions(model, rigid.link),
-        None => rigid_modes(&model.mesh, &points, model.space),
-    };
+    let modes = together(model, bodies);
     let over = |a: &[f64], b: &[f64]| -> f64 { prescribed.iter().map(|&d| a[d] * b[d]).sum() };
     let mut left = vec![0.0; model.dofs.count()];
     prescribed.iter().for_each(|&dof| left[dof] = change(dof));

@@ -46,7 +46,7 @@ impl Clusters<'_> {
 
     fn members(&self, cluster: usize) -> impl Iterator<Item = &FreeBody> {
         let free = self.free.iter();
-        free.filter(move |f| self.of[f.body] == cluster)
+        free.filter(move |f| self.of[f.bodies[0]] == cluster)
     }
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn close(
         free,
     };
     for f in free.iter().filter(|f| !f.rubs(model, contact)) {
-        clusters.of[f.body] = f.body;
+        f.bodies.iter().for_each(|&b| clusters.of[b] = f.bodies[0]);
     }
     let pushes = pushes(model, external);
     let mut u = frame.state.u.clone();
@@ -96,10 +96,7 @@ pub(crate) fn close(
         if way == f64::INFINITY {
             let moving = |f: &&FreeBody| {
                 let dofs = model.dofs;
-                let points = model.bodies[f.body].points.clone();
-                w[dofs.of(points.start, 0)..dofs.of(points.end, 0)]
-                    .iter()
-                    .any(|w| *w != 0.0)
+                f.points(model).any(|p| norm(dofs.vector(&w, p)) != 0.0)
             };
             let all = free.iter().enumerate();
             adrift = all.filter(|(_, f)| moving(f)).map(|(k, _)| k).collect();
@@ -109,7 +106,10 @@ pub(crate) fn close(
     }
     let dofs = model.dofs;
     let moved = free.iter().map(|f| {
-        let points = model.bodies[f.body].points.clone();
+        let points = f
+            .bodies
+            .iter()
+            .flat_map(|&b| model.bodies[b].points.clone());
         points
             .map(|p| {
                 let (now, then) = (dofs.vector(&u, p), dofs.vector(&frame.state.u, p));
@@ -134,8 +134,8 @@ fn velocities(model: &Model, clusters: &Clusters, external: &[f64], pushes: &[Pu
             continue;
         }
         let (mut mass, mut force, mut size) = (0.0, [0.0; 3], 0.0);
-        for f in &members {
-            let push = &pushes[f.body];
+        for &b in members.iter().flat_map(|f| &f.bodies) {
+            let push = &pushes[b];
             mass += push.volume;
             force = add(force, push.force);
             size += push.size;
@@ -157,9 +157,7 @@ fn velocities(model: &Model, clusters: &Clusters, external: &[f64], pushes: &[Pu
         }
         let v = scale(1.0 / mass, along);
         for f in &members {
-            let body = &model.bodies[f.body];
-            let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
-            for p in body.points.clone().chain(hidden) {
+            for p in f.points(model) {
                 for (c, v) in v.iter().enumerate().take(dofs.dim) {
                     w[dofs.of(p, c)] = *v;
                 }
@@ -208,10 +206,9 @@ fn turn(free: &FreeBody, external: &[f64], mass: f64, w: &mut [f64]) {
 /// What the loads do to each body.
 pub(crate) fn pushes(model: &Model, external: &[f64]) -> Vec<Push> {
     let mut pushes = Vec::new();
-    for body in &model.bodies {
+    for (index, body) in model.bodies.iter().enumerate() {
         let mut push = Push::default();
-        let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
-        for p in body.points.clone().chain(hidden) {
+        for p in model.displaced_with(index) {
             let on = model.dofs.vector(external, p);
             push.force = add(push.force, on);
             push.size += norm(on);

@@ -70,7 +70,7 @@ impl Floating {
     /// Whether a body is among those that contact may hold in the step at hand.
     pub fn knows(&self, body: usize) -> bool {
         let known = self.known.iter().flat_map(|(_, bodies)| bodies);
-        known.into_iter().any(|free| free.body == body)
+        known.into_iter().any(|free| free.bodies.contains(&body))
     }
 
     /// Looks for floating bodies anew before the next increment.
@@ -261,7 +261,7 @@ impl Floating {
         let utmost = model.mesh.diameter() + origin.gaps + prescribed;
         let mut moved = prescribed;
         let held = model.bodies.iter().enumerate();
-        let held = held.filter(|(b, _)| bodies.iter().all(|free| free.body != *b));
+        let held = held.filter(|(b, _)| bodies.iter().all(|free| !free.bodies.contains(b)));
         for (_, body) in held {
             moved = body
                 .points
@@ -282,7 +282,8 @@ impl Floating {
             let most = (LEVER * (origin.gaps + moved + strained) + origin.size).min(utmost);
             if way > most || way.is_nan() {
                 return Some(Astray {
-                    body: free.body,
+                    body: free.bodies[0],
+                    name: free.name(model),
                     way,
                     most,
                 });
@@ -296,8 +297,8 @@ impl Floating {
         let Some(first) = self.bodies().first() else {
             return "a body".into();
         };
-        let drivers = scene.drivers(first.body, trial.to);
-        let name = &scene.model.bodies[first.body].name;
+        let drivers = scene.drivers(first.bodies[0], trial.to);
+        let name = first.name(scene.model);
         match drivers.is_empty() {
             true => format!("body {name}"),
             false => format!("body {name}, which {},", named(&drivers, "drives", "drive")),
@@ -307,8 +308,9 @@ impl Floating {
 
 /// A floating body that has gone too far in an increment.
 struct Astray {
-    /// Its index.
+    /// Its index, the first of those that are tied to it, and its name.
     body: usize,
+    name: String,
     /// How far it went, and how far it might `[m]`.
     way: f64,
     most: f64,
@@ -316,8 +318,12 @@ struct Astray {
 
 /// The failure of an increment in which a body went astray.
 fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
-    let Astray { body, way, most } = astray;
-    let name = &scene.model.bodies[body].name;
+    let Astray {
+        body,
+        name,
+        way,
+        most,
+    } = astray;
     let drivers = scene.drivers(body, trial.to);
     let by = match drivers.is_empty() {
         true => String::new(),

@@ -45,11 +45,10 @@ impl Solver {
         let dofs = model.dofs;
         let mut resisted = false;
         bodies.retain(|free| {
-            let points = &model.bodies[free.body].points;
             let mut met = false;
             for interface in &interfaces {
                 for (point, normal) in interface.normals() {
-                    if points.contains(&point) {
+                    if free.has(model, point) {
                         met = true;
                         resisted |= free.motions.iter().any(|(_, motion)| {
                             dot(dofs.vector(motion, point), normal).abs() > RESISTED
@@ -63,8 +62,10 @@ impl Solver {
             bodies.clear();
         }
         let place = |free: &FreeBody| {
-            let points = model.bodies[free.body].points.clone();
-            spread(&model.mesh, points, dofs.dim + 1)
+            let each = free.bodies.iter();
+            let each = each.map(|&b| model.bodies[b].points.clone());
+            each.flat_map(|points| spread(&model.mesh, points, dofs.dim + 1))
+                .collect()
         };
         self.floating = Floating {
             places: bodies.iter().map(place).collect(),
@@ -88,9 +89,9 @@ impl Solver {
             return false;
         }
         let untouched = |free: &FreeBody| {
-            let points = &model.bodies[free.body].points;
-            let mut all = contact.interfaces.iter();
-            all.all(|i| !i.touched() || !i.nodes.iter().any(|n| points.contains(n)))
+            // Glue is no touch: it holds what is loose to what is loose.
+            let mut all = contact.interfaces.iter().filter(|i| !i.laws.tied);
+            all.all(|i| !i.touched() || !i.nodes.iter().any(|&n| free.has(model, n)))
         };
         bodies.iter().any(untouched)
     }
@@ -139,7 +140,7 @@ impl Solver {
         let mut names = Vec::new();
         for (free, &moved) in bodies.iter().zip(&closure.moved) {
             if moved > 0.0 {
-                names.push(format!("{} by {moved:.3e}", model.bodies[free.body].name));
+                names.push(format!("{} by {moved:.3e}", free.name(model)));
             }
         }
         if let Some(origin) = &mut self.floating.origin {
@@ -197,10 +198,9 @@ impl Solver {
         let mut names = Vec::new();
         let floating = &self.floating;
         for (free, points) in floating.bodies().iter().zip(&floating.places) {
-            let body = &model.bodies[free.body];
             let (mut spring, mut size) = (0.0_f64, f64::INFINITY);
             for interface in &contact.interfaces {
-                if interface.nodes.iter().any(|n| body.points.contains(n)) {
+                if interface.nodes.iter().any(|&n| free.has(model, n)) {
                     let (k, h) = interface.typical();
                     spring = spring.max(k);
                     size = size.min(h);
@@ -215,7 +215,7 @@ impl Solver {
             };
             anchors.hold(points.clone(), &frame.state.u, hold);
             let motions: Vec<&str> = free.motions.iter().map(|(name, _)| name.as_str()).collect();
-            names.push(format!("{} ({})", body.name, motions.join(", ")));
+            names.push(format!("{} ({})", free.name(model), motions.join(", ")));
         }
         self.log.notes.push(format!(
             "followed until contact holds them: {}",
@@ -289,7 +289,7 @@ impl Solver {
         let mut names = Vec::new();
         for (k, free) in floating.bodies().iter().enumerate() {
             let way = rigid_part(free, &anchors.moved(k), model.dofs, &mut u);
-            names.push(format!("{} by {way:.3e}", model.bodies[free.body].name));
+            names.push(format!("{} by {way:.3e}", free.name(model)));
         }
         self.log.notes.push(format!(
             "moved without strain to where contact holds them: {}",

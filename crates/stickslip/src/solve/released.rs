@@ -45,9 +45,7 @@ impl Floating {
     /// The largest force at a point of each floating body.
     pub(super) fn pressed(&self, model: &Model, forces: &[f64]) -> Vec<f64> {
         let largest = |free: &FreeBody| {
-            let body = &model.bodies[free.body];
-            let hidden = body.rigid.map(|r| model.links.all()[r.link].hidden);
-            let points = body.points.clone().chain(hidden);
+            let points = free.points(model);
             points.fold(0.0, |m, p| f64::max(m, norm(model.dofs.vector(forces, p))))
         };
         self.bodies().iter().map(largest).collect()
@@ -97,16 +95,16 @@ impl Solver {
         let mut released = Vec::new();
         for (k, free) in floating.bodies().iter().enumerate() {
             let pressed = floating.pushed[k] > none || before[k] > none;
-            let told = floating.told.contains(&free.body);
+            let told = floating.told.contains(&free.bodies[0]);
             if pressed && !told && after[k] <= none {
-                released.push(free.body);
+                released.push((free.bodies[0], free.name(model)));
             }
         }
-        for body in released {
+        for (body, name) in released {
             floating.told.push(body);
             self.log.notes.push(format!(
-                "{}: nothing presses body {} any more at {:.6e}; it stays where it was",
-                model.steps[frame.step].name, model.bodies[body].name, accepted.state.t
+                "{}: nothing presses body {name} any more at {:.6e}; it stays where it was",
+                model.steps[frame.step].name, accepted.state.t
             ));
         }
     }

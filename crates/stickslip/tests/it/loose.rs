@@ -842,3 +842,65 @@ fn what_a_bolt_draws_down_is_held_against_less_than_its_force() {
         "{message}"
     );
 }
+
+/// A cap that is glued to a loose block which enters what it lies on, as meshed: both are one loose body.
+#[test]
+fn bodies_that_are_tied_are_followed_as_one() {
+    let glued = |y: f64| {
+        format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ to = [0.05, 0.02], cells = [10, 4] }}, material = "steel" }}
+body.upper = {{ generate.rectangle = {{ from = [0.01, 0.02], to = [0.04, 0.04], cells = [7, 5] }}, translate = [0, {y:?}], material = "steel" }}
+body.cap = {{ generate.rectangle = {{ from = [0.01, 0.04], to = [0.04, 0.05], cells = [6, 2] }}, translate = [0, {y:?}], material = "steel" }}
+material.steel.isotropic = {{ young = 210e9, poisson = 0.3 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+load.press = {{ set = "cap.top", pressure.value = 50e6 }}
+load.push = {{ set = "cap.left", traction.value = [2e6, 0] }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.5 }}
+interface.tie = {{ secondary = "cap.bottom", primary = "upper.top", tied = true }}
+step = [{{ increments.fixed = 2 }}]
+"#
+        )
+    };
+    for y in [-1e-5, 0.0, 1e-5] {
+        let outcome = run("glued", &glued(y));
+        assert!(outcome.summary.quality.met, "{y}");
+        let normal = outcome.last("joint.CFN2");
+        assert!((normal / 1.5e6 - 1.0).abs() < 1e-3, "{y}: {normal:e}");
+        let free = outcome.summary.notes.join(" ");
+        assert_eq!(
+            free.contains("cap and upper") || free.contains("upper and cap"),
+            y > 0.0,
+            "{free}"
+        );
+    }
+}
+
+/// A force on a reference point that a glued cap follows pushes both bodies: where it presses they are not taken for bodies that other loads lift.
+#[test]
+fn what_acts_on_a_reference_point_pushes_its_body() {
+    let outcome = run(
+        "headed",
+        r#"
+format = 1
+model.space = "plane-strain"
+body.lower = { generate.rectangle = { to = [0.05, 0.02], cells = [10, 4] }, material = "steel" }
+body.upper = { generate.rectangle = { from = [0.01, 0.02], to = [0.04, 0.04], cells = [7, 5] }, translate = [0, 1e-5], material = "steel" }
+body.cap = { generate.rectangle = { from = [0.01, 0.04], to = [0.04, 0.05], cells = [6, 2] }, translate = [0, 1e-5], material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+reference.head.point = [0.025, 0.05]
+coupling.head.kinematic = { reference = "head", set = "cap.top" }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.guide = { set = "head", x = 0, rotation-z = 0 }
+load.press = { set = "head", nodal-force.value = [0, -1.5e6] }
+load.lift = { set = "upper.right", traction.value = [0, 5e6] }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.5 }
+interface.tie = { secondary = "cap.bottom", primary = "upper.top", tied = true }
+step = [{ increments.fixed = 2 }]
+"#,
+    );
+    let normal = outcome.last("joint.CFN2");
+    assert!((normal / 1.4e6 - 1.0).abs() < 1e-3, "{normal:e}");
+}

@@ -60,10 +60,9 @@ impl Interface {
         committed.into_iter().any(|h| h.status != Status::Open)
     }
 
-    /// Whether any point is in contact at the last accepted state, and remembers what it was on: by friction or glue.
+    /// Whether any point is in contact at the last accepted state, and remembers by friction what it was on.
     pub fn rubs(&self) -> bool {
-        let remembers = self.laws.tied || self.laws.friction_law().frictional();
-        remembers && self.touched()
+        !self.laws.tied && self.laws.friction_law().frictional() && self.touched()
     }
 
     /// How far the obstacle moves between two times where points of the secondary are `[m]`; zero without one.
@@ -161,6 +160,8 @@ impl Interface {
         let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
         let smallest = self.points.iter().map(|p| p.size);
         let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
+        // Surfaces that have entered each other by part of a cell have not passed each other.
+        let entered = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
         let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
         for c in 0..self.dofs.dim {
             for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
@@ -168,6 +169,9 @@ impl Interface {
                 let fastest = v_lower[1][c] - v_upper[0][c];
                 let slowest = v_lower[0][c] - v_upper[1][c];
                 if apart > slack {
+                    if fastest <= SLIDING * largest && apart <= entered {
+                        continue;
+                    }
                     if fastest <= SLIDING * largest {
                         return None;
                     }
