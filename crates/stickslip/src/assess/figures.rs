@@ -45,7 +45,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 21] = [
+pub(crate) static ALL: [&Kind; 22] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -65,6 +65,7 @@ pub(crate) static ALL: [&Kind; 21] = [
     &STRAIN,
     &PRESTRESS,
     &DISPLACEMENT,
+    &EXPLICIT_OPENING,
     &SCHEME_DISSIPATION,
     &ENERGY,
 ];

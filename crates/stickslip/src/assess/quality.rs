@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::doctor::{Finding, Peak, Watch, longest_way};
 use super::figures::{
-    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_WEAR,
-    FALSE_SLIP, FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH,
+    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_OPENING,
+    EXPLICIT_WEAR, FALSE_SLIP, FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH,
     PENETRATION_TO_SIZE, SCHEME_DISSIPATION, Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
@@ -275,6 +275,14 @@ impl View<'_> {
             energy if energy > self.rounded_energy() => energy,
             _ => 0.0,
         };
+        let glued = self.contact.interfaces.iter();
+        let glued = glued.filter_map(|i| Some((format!("interface {}", i.name), i.glued_by()?)));
+        let coupled = self.contact.couplings.given_way().into_iter();
+        let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
+        for (place, stored) in glued.chain(coupled) {
+            let limit = limits.explicit_opening;
+            gate.note_in_motion(&EXPLICIT_OPENING, &place, [stored, energy], limit, t);
+        }
         for interface in &self.contact.interfaces {
             let q = interface.quality();
             let r = interface.resultant(&self.frame.state.u);

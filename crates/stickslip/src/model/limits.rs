@@ -102,6 +102,10 @@ pub struct Limits {
     /// motion bodies may fly as far as they like: there it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub displacement: f64,
+    /// In explicit steps, where springs hold what is tied or coupled: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
+    /// they give way over what the bodies do.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub explicit_opening: f64,
     /// Energy that the scheme has dissipated (`ALLND`), over the energies in play, at the end. What moves is slower for it, by half that part: at the limit by one in
     /// a hundred, as much as the balance of energies may be open. What the scheme feeds in counts in `energy`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -146,6 +150,7 @@ impl Default for Limits {
             strain: None,
             prestress: 0.05,
             displacement: 1.0,
+            explicit_opening: 0.05,
             scheme_dissipation: 0.02,
             energy: None,
         }

@@ -1201,6 +1201,43 @@ step = [{{ name = "fall", duration = 0.14, dynamic = {dynamic}, increments = {{ 
     assert!(figure(&good, "scheme-dissipation").value < 1e-3);
 }
 
+/// Two blocks that are glued, or held together by equations, swing in an explicit step: springs that are as soft as the cells beside them open, and the gate says by how much.
+#[test]
+fn what_springs_hold_in_an_explicit_step_has_a_limit() {
+    let swing = |cells: usize, joint: &str| {
+        run(&format!(
+            r#"format = 1
+model = {{ space = "plane-stress", thickness = 1 }}
+body.a = {{ generate.rectangle = {{ to = [1, 1], cells = [{cells}, {cells}] }}, material = "m" }}
+body.b = {{ generate.rectangle = {{ from = [0, 1], to = [1, 2], cells = [{cells}, {cells}] }}, material = "m" }}
+material.m.isotropic = {{ young = 1e6, poisson = 0.3, density = 1 }}
+{joint}
+support.base = {{ set = "a.bottom", x = 0, y = 0 }}
+load.pull = {{ set = "b.top", traction.value = [0, 100] }}
+step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
+"#
+        ))
+    };
+    let tied = "interface.tie = { secondary = \"b.bottom\", primary = \"a.top\", tied = true }";
+    let equal = |c: &str| {
+        format!(
+            "coupling.{c}.equation.terms = [{{ set = \"a.top\", component = \"{c}\" }}, {{ set = \"b.bottom\", component = \"{c}\", factor = -1 }}]"
+        )
+    };
+    let coupled = format!("{}\n{}", equal("x"), equal("y"));
+    for joint in [tied, &coupled] {
+        let coarse = swing(1, joint);
+        trips(&coarse, "explicit-opening");
+        let [few, many] =
+            [4, 16].map(|cells| figure(&swing(cells, joint), "explicit-opening").value);
+        let worst = figure(&coarse, "explicit-opening").value;
+        assert!(
+            worst > 2.0 * few && few > 2.0 * many && many > 0.0,
+            "{worst} {few} {many}"
+        );
+    }
+}
+
 /// Units explain what is far too large. How well a contact is resolved is no question of them.
 #[test]
 fn units_are_blamed_for_sizes_alone() {

@@ -20,6 +20,27 @@ impl Couplings {
         self.keep_forces()
     }
 
+    /// The couplings that springs stand for in an explicit step, with the energy by which these have given way at the last accepted state `[J]`.
+    pub fn given_way(&self) -> Vec<(&str, f64)> {
+        let mut out: Vec<(&str, f64)> = Vec::new();
+        for (i, coupling, _) in self.rows() {
+            let (hold, memory) = (self.hold[i], &self.memory);
+            if !self.explicit || !coupling.tie.firm() || hold.idle || hold.stiffness <= 0.0 {
+                continue;
+            }
+            let away = match memory.forces[i] == 0.0 {
+                true => 0.0,
+                false => memory.forces[i] - memory.multipliers[i],
+            };
+            let energy = away * away / (2.0 * hold.stiffness);
+            match out.last_mut().filter(|(name, _)| *name == coupling.name) {
+                Some((_, sum)) => *sum += energy,
+                None => out.push((&coupling.name, energy)),
+            }
+        }
+        out
+    }
+
     /// Stiffnesses of the springs in place of equations: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
     /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is.
     pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {

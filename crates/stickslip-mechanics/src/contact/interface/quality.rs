@@ -61,6 +61,12 @@ impl Interface {
         self.history.springs
     }
 
+    /// Energy of the springs that stand for glue in an explicit step `[J]`; `None` where there are none.
+    pub fn glued_by(&self) -> Option<f64> {
+        let springs = self.history.springs && self.laws.tied && self.laws.needs_normal_stiffness();
+        springs.then(|| self.stored_energy())
+    }
+
     /// Stiffness of the layer of cells beneath what presses, `Σ A k` `[N/m]`.
     fn pressed_stiffness(&self) -> f64 {
         let presses = |i: &usize| self.history.acting && self.history.points[*i].pressure > 0.0;

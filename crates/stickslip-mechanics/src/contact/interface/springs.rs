@@ -27,7 +27,7 @@ impl Interface {
             let points = self.points.iter().zip(&self.history.points);
             self.history.rest = points
                 .map(|(p, h)| {
-                    if h.pressure > 0.0 {
+                    if h.pressure > 0.0 || self.laws.tied && h.gap.is_finite() {
                         h.gap + h.pressure / p.stiffness
                     } else {
                         0.0
