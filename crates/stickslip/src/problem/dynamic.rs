@@ -21,8 +21,10 @@ pub struct Dynamic {
     /// left as meshed where it is compliant and in an explicit scheme. Tied surfaces keep theirs in any case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_mass: Option<ContactMass>,
-    /// Where in the increment the forces of the interfaces are taken.
-    pub contact_at: ContactAt,
+    /// Where in the increment the forces of the interfaces are taken. By default at its stage where the laws of all interfaces are compliant and
+    /// couplings are springs and dashpots only, else at its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_at: Option<ContactAt>,
     /// Largest local error of the displacements over an increment, relative to the motion since the start of the step; an increment with
     /// more is halved. Not checked if not given.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]

@@ -113,6 +113,11 @@ fn as_meshed(start: &Start) -> bool {
 }
 
 impl Interface {
+    /// Whether pressure follows from the gap: its surfaces are held by no multiplier along the normal.
+    pub fn is_compliant(&self) -> bool {
+        self.normal.as_dyn().pressure(0.0).is_some() && !self.tied
+    }
+
     /// How near points have to be at the start, if that is said.
     pub fn within(&self) -> Option<Within> {
         let distance = self.initial_distance.map(Within::Distance);

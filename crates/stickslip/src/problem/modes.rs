@@ -171,7 +171,7 @@ pub struct SteadySliding {
     /// slowly, without centrifugal and gyroscopic forces.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub turning: BTreeMap<String, Turning>,
-    /// Velocities `[length/time]` of surfaces of primaries in this step, by interface, beside their `primary-velocity`: `velocity.pad = [2, 0, 0]`.
+    /// Velocities `[length/time]` of surfaces of primaries in this step, by interface, beside their `primary-velocity`: `velocity = { pad = [2, 0, 0] }`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub velocity: BTreeMap<String, Vec<f64>>,
 }

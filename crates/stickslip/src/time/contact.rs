@@ -16,13 +16,12 @@ pub enum ContactMass {
 }
 
 /// Where in the increment the forces of the interfaces are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactAt {
-    /// At its end: nothing overlaps there and friction opposes the velocity there.
-    #[default]
+    /// At its end: nothing overlaps there and friction opposes the velocity there. Of first order; it dissipates.
     End,
-    /// As the mean over the increment with which the scheme weighs all other forces. For Newmark's method it is the same.
+    /// As the mean over the increment with which the scheme weighs all other forces: of second order where laws are compliant. For Newmark's method it is the same.
     Stage,
 }

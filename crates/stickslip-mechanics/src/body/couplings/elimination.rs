@@ -21,6 +21,8 @@ pub(super) struct Elimination {
     pub stiffness: Vec<f64>,
     /// Free displacements by row.
     pub held: Vec<Vec<Held>>,
+    /// How far points give way under a force, by dof `[m/N]`; nothing of those that are prescribed and of what has no stiffness.
+    pub give: Vec<f64>,
     /// What moves points of rigid bodies.
     pub links: Option<Links>,
     /// What contact adds, by dof `[N/m]`.
@@ -33,15 +35,22 @@ pub(super) fn compliance(held: &[Held], stiffness: impl Fn(&Held) -> f64) -> f64
     with.filter(|(_, k)| *k > 0.0).map(|(a, k)| a / k).sum()
 }
 
-/// Adds the diagonal of a tangent, parts of either sign alike, by dof.
-pub(super) fn add_diagonal(block: &ContactBlock, out: &mut Vec<f64>) {
+/// Adds, by dof, what a tangent resists a displacement with where the other points it joins give way each as their bodies let them: its springs in series with
+/// theirs. A tie between two soft bodies holds a point no more than the other body does, however firm it is itself.
+pub(super) fn add_stiffness(block: &ContactBlock, give: &[f64], out: &mut Vec<f64>) {
     let n = block.dofs.len();
-    for (k, &dof) in block.dofs.iter().enumerate() {
-        if out.len() <= dof {
-            out.resize(dof + 1, 0.0);
+    let most = block.dofs.iter().max().map_or(0, |dof| dof + 1);
+    if out.len() < most {
+        out.resize(most, 0.0);
+    }
+    let give = |k: usize| give.get(block.dofs[k]).copied().unwrap_or(0.0);
+    for q in 0..3 {
+        let (row, change) = (&block.rows[q * n..][..n], &block.change[q * n..][..n]);
+        let own = |k: usize| (row[k] * change[k]).abs();
+        // How far the springs of the points give way under the force that deforms this one by 1.
+        let all: f64 = (0..n).map(|k| own(k) * give(k)).sum();
+        for (k, &dof) in block.dofs.iter().enumerate() {
+            out[dof] += own(k) / (1.0 + all - own(k) * give(k));
         }
-        out[dof] += (0..3)
-            .map(|q| (block.rows[q * n + k] * block.change[q * n + k]).abs())
-            .sum::<f64>();
     }
 }

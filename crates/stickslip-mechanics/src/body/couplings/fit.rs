@@ -2,7 +2,7 @@
 
 use super::Couplings;
 use super::all::{Hold, moved_by};
-use super::elimination::{Elimination, FIRM, Held, add_diagonal, compliance};
+use super::elimination::{Elimination, FIRM, Held, add_stiffness, compliance};
 use crate::system::{ContactBlock, Links};
 
 impl Couplings {
@@ -48,6 +48,14 @@ impl Couplings {
             });
         }
         elimination.links = (!links.is_empty()).then(|| links.clone());
+        let give = diagonal
+            .iter()
+            .zip(fixed)
+            .map(|(&k, &fixed)| match k > 0.0 {
+                true if !fixed => 1.0 / k,
+                _ => 0.0,
+            });
+        elimination.give = give.collect();
         elimination.stiffness.clear();
         self.elimination = elimination;
         self.hold = hold;
@@ -60,6 +68,7 @@ impl Couplings {
         let Elimination {
             stiffness,
             held,
+            give,
             links,
             contact,
         } = &mut elimination;
@@ -69,7 +78,7 @@ impl Couplings {
             contact.clear();
             for block in blocks {
                 let moved = links.as_ref().and_then(|links| links.transform(block));
-                add_diagonal(moved.as_ref().unwrap_or(block), contact);
+                add_stiffness(moved.as_ref().unwrap_or(block), give, contact);
             }
             let beside = |dof: usize| contact.get(dof).copied().unwrap_or(0.0);
             for (stiffness, held) in stiffness.iter_mut().zip(held) {

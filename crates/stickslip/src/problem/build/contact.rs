@@ -381,10 +381,9 @@ fn chosen(table: &Table) -> Laws {
 
 /// Whether the laws give way under any pressure and shear, so that there may be more points than a face has freedoms.
 fn yields(table: &Table) -> bool {
-    let compliant = table.normal.as_dyn().pressure(0.0).is_some();
     let friction = table.friction.as_dyn().frictional() && table.slip.as_dyn().sticks();
     let springs = table.enforcement.as_dyn().multipliers() == Multipliers::None;
-    compliant && !table.tied && (springs || !friction)
+    table.is_compliant() && (springs || !friction)
 }
 
 fn belt(table: &Table) -> Vec<[f64; 4]> {

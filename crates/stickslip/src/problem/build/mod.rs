@@ -185,7 +185,7 @@ impl Problem {
         };
         let (mut couplings, leads) = couplings::build(self, &sets, ground, &timeline)?;
         let supports = supports(self, &sets, &rigid, &timeline)?;
-        let steps = timeline.steps(self);
+        let steps = timeline.steps(self, schedules::contact_at(self, &couplings));
         couplings::refuse_prescribed_stops(&couplings, &supports, &links, &steps)?;
         let said = references::Said {
             bodies: &bodies,

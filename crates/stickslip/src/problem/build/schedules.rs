@@ -1,7 +1,8 @@
 //! When what acts, and with which factor.
 
 use super::super::{Cycles, Kick, Problem, SteadySliding};
-use crate::model::{Cycling, Dynamic, Step};
+use crate::body::couplings::Coupling;
+use crate::model::{ContactAt, Cycling, Dynamic, Step};
 use crate::system::{Amplitude, Course, Piece, Schedule};
 use crate::time::Increments;
 
@@ -222,8 +223,9 @@ impl Timeline {
         })
     }
 
-    /// The steps, with the times on which increments land: ends, output times, rows of tables.
-    pub fn steps(&self, problem: &Problem) -> Vec<Step> {
+    /// The steps, with the times on which increments land: ends, output times, rows of tables. Implicit ones that do not say where in an increment
+    /// interfaces act take them at `contact_at`.
+    pub fn steps(&self, problem: &Problem, contact_at: ContactAt) -> Vec<Step> {
         let mut times: Vec<f64> = Vec::new();
         for amplitude in problem.amplitude.values() {
             let rows = self.unroll(&amplitude.table);
@@ -301,13 +303,26 @@ impl Timeline {
                         method: d.scheme.as_dyn().method(),
                         mass: d.mass,
                         contact_mass: d.contact_mass,
-                        contact_at: d.contact_at,
+                        contact_at: d.contact_at.unwrap_or(contact_at),
                         error: d.error,
                         events: d.events,
                     }),
                 }
             })
             .collect()
+    }
+}
+
+/// Where in an increment interfaces act unless a step says so: at its stage, which is of second order, where all laws are compliant. A multiplier there
+/// would have to be right on the mean over the increment, and would swing from end to end.
+pub(super) fn contact_at(problem: &Problem, couplings: &[Coupling]) -> ContactAt {
+    let gives_way = !problem.interface.is_empty()
+        && problem.interface.values().all(|i| i.is_compliant())
+        && problem.pretension.is_empty()
+        && couplings.iter().all(|c| !c.tie.firm());
+    match gives_way {
+        true => ContactAt::Stage,
+        false => ContactAt::End,
     }
 }
 
