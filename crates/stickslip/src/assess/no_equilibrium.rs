@@ -285,15 +285,8 @@ impl View<'_> {
 
     /// Adds the places of an interface where contact may push free motions; the smallest gap. `None` where that cannot be told.
     fn spots(&self, interface: &Interface, t: f64, holds: &mut Holds) -> Option<f64> {
-        let owner = |local: usize| {
-            let point = interface.nodes[local];
-            self.model
-                .bodies
-                .iter()
-                .position(|b| b.points.contains(&point))
-        };
-        let theirs = match &interface.primary {
-            Primary::Facets(facets) => owner(facets.first()?.nodes[0]),
+        let facing = match &interface.primary {
+            Primary::Facets(facets) => Some(interface.nodes[facets.first()?.nodes[0]]),
             Primary::Rigid(..) => None,
         };
         let mu = largest_friction(interface)?;
@@ -315,17 +308,13 @@ impl View<'_> {
                 Some(edge) => add(edge, interface.origin),
                 None => interface.place(point),
             };
-            let ours = owner(point.nodes[0]);
+            let own = interface.nodes[point.nodes[0]];
             let along = |d: Vec3| -> Vec<f64> {
                 let speed = |motion: &Unheld| -> f64 {
-                    let parts = holds.all.iter().zip(motion).map(|(m, c)| {
-                        let sign = match Some(m.body) {
-                            b if b == ours => 1.0,
-                            b if b == theirs => -1.0,
-                            _ => return 0.0,
-                        };
-                        sign * c * dot(d, m.velocity(x))
-                    });
+                    let parts = holds.all.iter().zip(motion);
+                    let parts = parts
+                        .filter(|(_, c)| **c != 0.0)
+                        .map(|(m, c)| m.apart(self.model, own, facing) * c * dot(d, m.velocity(x)));
                     parts.sum()
                 };
                 holds.motions.iter().map(speed).collect()

@@ -59,6 +59,12 @@ impl Mode {
         norm(self.turn)
     }
 
+    /// How it moves a point beside what that faces, of which another point is given: 1 or -1 where one of them goes along, 0 where both do or none does.
+    pub fn apart(&self, model: &Model, own: usize, facing: Option<usize>) -> f64 {
+        let goes = |point: usize| f64::from(u8::from(self.moves(model, point)));
+        goes(own) - facing.map_or(0.0, goes)
+    }
+
     /// Whether a point moves with it.
     fn moves(&self, model: &Model, point: usize) -> bool {
         let body = &model.bodies[self.body];
@@ -203,12 +209,8 @@ impl Resisted<'_> {
             for &d in directions {
                 let each = self.modes.iter().enumerate();
                 let values = each.filter_map(|(i, m)| {
-                    let sign = match Some(m.body) {
-                        b if b == ours && m.moves(model, own) => 1.0,
-                        b if b == theirs && facing.is_some_and(|p| m.moves(model, p)) => -1.0,
-                        _ => return None,
-                    };
-                    Some((i, sign * dot(d, m.velocity(x))))
+                    let sign = m.apart(model, own, facing);
+                    (sign != 0.0).then(|| (i, sign * dot(d, m.velocity(x))))
                 });
                 let values: Vec<_> = values.collect();
                 self.row(&values, weight);

@@ -843,6 +843,28 @@ fn what_a_bolt_draws_down_is_held_against_less_than_its_force() {
     );
 }
 
+/// A jack between a roof and a floor: the part below the cut is pushed down, and it alone touches the floor.
+#[test]
+fn what_a_jack_pushes_apart_is_held_by_what_touches() {
+    let outcome = run(
+        "jacked",
+        r#"
+format = 1
+model.space = "plane-strain"
+body.floor = { generate.rectangle = { to = [0.1, 0.02], cells = [20, 4] }, material = "steel" }
+body.jack = { generate.rectangle = { from = [0.03, 0.02], to = [0.07, 0.06], cells = [7, 6] }, material = "steel" }
+material.steel.isotropic = { young = 210e9, poisson = 0.3 }
+support.base = { set = "floor.bottom", x = 0, y = 0 }
+support.roof = { set = "jack.top", x = 0, y = 0 }
+interface.foot = { secondary = "jack.bottom", primary = "floor.top", friction.coulomb.mu = 0.3 }
+pretension.jack = { of = "jack", plane = { point = [0.05, 0.04], normal = [0, 1] } }
+step = [{ pretension.jack.force = -1e6, increments.fixed = 2 }]
+"#,
+    );
+    let pressed = outcome.last("foot.CFN2") + outcome.last("foot.CFS2");
+    assert!((pressed / 1e6 - 1.0).abs() < 1e-6, "{pressed:e}");
+}
+
 /// A cap that is glued to a loose block which enters what it lies on, as meshed: both are one loose body.
 #[test]
 fn bodies_that_are_tied_are_followed_as_one() {
