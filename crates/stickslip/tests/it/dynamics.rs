@@ -839,7 +839,7 @@ dynamic.scheme.hht.alpha = -0.05
             for c in 0..2 {
                 let off = said.normal[c] + said.shear[c] - acts(c);
                 assert!(
-                    off.abs() <= 1e-9 * largest,
+                    off.abs() <= 1e-13 * largest,
                     "{enforcement} at {}: {off:e} of {largest:e}",
                     view.frame.state.t
                 );

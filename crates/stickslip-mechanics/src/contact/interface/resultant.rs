@@ -1,6 +1,6 @@
 //! What an interface carries, and where.
 
-use super::definition::{Interface, Primary};
+use super::definition::Interface;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, norm, normalize, scale, sub};
 use crate::system::Tally;
@@ -49,11 +49,8 @@ impl Interface {
             }
             let area = self.area_of(i);
             let place = p.position(&x);
-            let normal = scale(h.pressure * area, h.normal);
             let shear = scale(area, h.shear);
-            r.normal = add(r.normal, normal);
             r.shear = add(r.shear, shear);
-            r.moment = add(r.moment, cross(place, add(normal, shear)));
             r.moment_of_shear = add(r.moment_of_shear, cross(place, shear));
             r.centre = add_scaled(r.centre, h.pressure * area, place);
             signed += h.pressure * area;
@@ -66,19 +63,26 @@ impl Interface {
             }
             r.peak = r.peak.max(h.pressure);
         }
-        let averaged = self.points.iter().any(|p| p.nodes.len() > 1);
-        if matches!(self.primary, Primary::Rigid(..)) && averaged {
-            // The mean of normals around a point is shorter than one: what nodes are given is the force.
-            let all = self.history.nodal.iter().fold([0.0; 3], |s, &f| add(s, f));
-            r.normal = sub(all, r.shear);
+        // What nodes are given is the force: the mean of normals around a point is shorter than one, and multipliers are met to a tolerance.
+        let mut all = [0.0; 3];
+        for (&force, &place) in self.history.nodal.iter().zip(&x).skip(self.primary_nodes) {
+            all = add(all, force);
+            r.moment = add(r.moment, cross(place, force));
         }
+        r.normal = sub(all, r.shear);
         r.centre = match signed.abs() > CANCELLED * r.total {
             true => add(scale(1.0 / signed, r.centre), self.origin),
             false => [0.0; 3],
         };
         // As the user counts.
-        r.moment = add(r.moment, cross(self.origin, add(r.normal, r.shear)));
-        for v in [&mut r.normal, &mut r.shear, &mut r.moment] {
+        r.moment = add(r.moment, cross(self.origin, all));
+        r.moment_of_shear = add(r.moment_of_shear, cross(self.origin, r.shear));
+        for v in [
+            &mut r.normal,
+            &mut r.shear,
+            &mut r.moment,
+            &mut r.moment_of_shear,
+        ] {
             *v = scale(self.named(), *v);
         }
         r
