@@ -148,7 +148,7 @@ fn forces_that_are_as_good_as_none_are_no_alarm() {
     for law in [
         "linear.c = 6e11",
         "power-law = { c = 2e22, m = 2.6 }",
-        "power-law = { c = 1e16, m = 2.0 }",
+        "power-law = { c = 1e17, m = 2.0 }",
     ] {
         let simulation = run(&PILE.replace("LAW", law));
         let gate = &simulation.summary.quality;
