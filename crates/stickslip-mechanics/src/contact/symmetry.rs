@@ -21,6 +21,15 @@ impl Across {
         std::array::from_fn(|c| if self.0[c] { 0.0 } else { v[c] })
     }
 
+    /// The axes about which a moment is not cancelled by that of the mirror images: all, the axis across, or none where there are two.
+    pub fn axes(self) -> [bool; 3] {
+        match self.0.iter().filter(|&&across| across).count() {
+            0 => [true; 3],
+            1 => self.0,
+            _ => [false; 3],
+        }
+    }
+
     /// The part of a rotation that leaves the planes where they are: about the axis across, and none where there are two.
     pub fn turn(self, turn: Mat3) -> Mat3 {
         if !self.any() {
@@ -63,6 +72,9 @@ mod tests {
     fn what_is_across_goes_and_the_rest_stays() {
         let across = Across([true, false, false]);
         assert!(across.any() && !Across::default().any());
+        assert_eq!(across.axes(), [true, false, false]);
+        assert_eq!(Across::default().axes(), [true; 3]);
+        assert_eq!(Across([true, false, true]).axes(), [false; 3]);
         assert_eq!(across.within([1.0, 2.0, 3.0]), [0.0, 2.0, 3.0]);
     }
 }

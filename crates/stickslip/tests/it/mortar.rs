@@ -511,3 +511,128 @@ step = [{ increments.fixed = 1 }]
         assert!(judged >= 5, "{set}: {judged}");
     }
 }
+
+/// Two blocks whose surfaces tilt and bend under pressure and shear, on a law so soft that they overlap by a twentieth of a cell: what is left of the forces of both
+/// sides and of their moment, relative to force and size.
+fn left_over(dim: usize, element: &str, interface: &str) -> [f64; 2] {
+    let (space, shape, fixed, moved) = match dim {
+        2 => (
+            "plane-strain",
+            "rectangle",
+            "x = 0, y = 0",
+            "x = 0.03, y = -0.02",
+        ),
+        _ => (
+            "solid",
+            "box",
+            "x = 0, y = 0, z = 0",
+            "x = 0.03, y = 0.01, z = -0.02",
+        ),
+    };
+    let block = |from: [f64; 3], to: [f64; 3], cells: [usize; 3]| {
+        let skip = 3 - dim;
+        let (from, to, cells) = (&from[skip..], &to[skip..], &cells[skip..]);
+        format!(
+            "generate.{shape} = {{ from = {from:?}, to = {to:?}, cells = {cells:?}, element = \"{element}\" }}"
+        )
+    };
+    let text = format!(
+        r#"
+format = 1
+model.space = "{space}"
+body.lower = {{ {}, material = "m" }}
+body.upper = {{ {}, material = "m" }}
+material.m.isotropic = {{ young = 1000.0, poisson = 0.3 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.3, normal.linear.c = 800.0, {interface} }}
+support.base = {{ set = "lower.bottom", {fixed} }}
+support.press = {{ set = "upper.top", {moved} }}
+step = [{{ increments.fixed = 2 }}]
+quality.gate = "off"
+"#,
+        block([-0.8, -1.0, -1.0], [1.1, 1.3, 0.0], [3, 4, 2]),
+        block([-0.5, -0.5, 0.0], [0.5, 0.6, 0.7], [2, 3, 2]),
+    );
+    let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+    let what = format!("{element}, {interface}");
+    (simulation.run(&mut [])).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let interface = &simulation.contact.interfaces[0];
+    let u = &simulation.frame.state.u;
+    let shear = stickslip::math::norm(interface.resultant(u).shear);
+    let b = interface.balance(u);
+    assert!(shear > 0.05 * b.scale, "{what}: {shear} of {}", b.scale);
+    let [force, moment] = [b.force, b.moment].map(stickslip::math::norm);
+    [force / b.scale, moment / (b.scale * b.size)]
+}
+
+#[test]
+fn shear_acts_on_both_sides_at_one_place_however_deep_they_overlap() {
+    for (dim, element) in [
+        (2, "quad4"),
+        (2, "quad8"),
+        (2, "tri3"),
+        (3, "hex8"),
+        (3, "hex20"),
+    ] {
+        for interface in [
+            "discretisation.mortar = {}",
+            "discretisation.node-to-facet = {}",
+        ] {
+            let left = left_over(dim, element, interface);
+            assert!(
+                left.iter().all(|l| *l < 1e-10),
+                "{element}, {interface}: {left:?}"
+            );
+        }
+    }
+}
+
+/// Between meshes that match a node has one opposite; on a plane of symmetry the moment about axes within it is the mirror image's.
+#[test]
+fn planes_of_symmetry_leave_what_the_whole_has() {
+    let block = |half: bool, z: [f64; 2], cells: usize| {
+        let x = if half { 0.0 } else { -1.0 };
+        let across = if half { cells } else { 2 * cells };
+        format!(
+            "generate.box = {{ from = [{x:?}, 0, {:?}], to = [1, 1, {:?}], cells = [{across}, 2, 1] }}",
+            z[0], z[1]
+        )
+    };
+    let forces = |half: bool, cells: usize| {
+        let mirror = match half {
+            true => {
+                "support.mirror = { set = \"lower.left\", x = 0 }\nsupport.image = { set = \"upper.left\", x = 0 }\n"
+            }
+            false => "",
+        };
+        let text = format!(
+            r#"
+format = 1
+model.space = "solid"
+body.lower = {{ {}, material = "m" }}
+body.upper = {{ {}, material = "m" }}
+material.m.isotropic = {{ young = 1000.0, poisson = 0.3 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.3, normal.linear.c = 800.0 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}
+support.press = {{ set = "upper.top", x = 0, y = 0.03, z = -0.02 }}
+{mirror}step = [{{ increments.fixed = 2 }}]
+solver.tolerance = 1e-12
+quality.gate = "off"
+"#,
+            block(half, [-1.0, 0.0], 2),
+            block(half, [0.0, 0.7], cells),
+        );
+        let mut simulation =
+            support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+        let interface = &simulation.contact.interfaces[0];
+        let r = interface.resultant(&simulation.frame.state.u);
+        let part = if half { 2.0 } else { 1.0 };
+        [r.normal[1], r.normal[2], r.shear[1], r.shear[2]].map(|f| part * f)
+    };
+    for cells in [2, 3] {
+        let (whole, half) = (forces(false, cells), forces(true, cells));
+        for (a, b) in whole.iter().zip(half) {
+            assert!((a - b).abs() < 1e-9 * whole[1].abs(), "{whole:?} {half:?}");
+        }
+    }
+}

@@ -475,3 +475,31 @@ fn what_bodies_that_turn_cannot_do_is_said_at_its_key() {
         "{said}"
     );
 }
+
+/// Bodies that rest on one axle and press and shear each other through a soft law are in equilibrium with themselves.
+#[test]
+fn an_assembly_on_a_soft_law_asks_for_no_torque() {
+    for cells in ["[2, 1]", "[3, 1]"] {
+        let (record, simulation) = run(&format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+reference.axle.point = [0, 0]
+body.lower = {{ generate.rectangle = {{ from = [-1, -1], to = [1, 0], cells = {cells} }}, material = "s", rotation.with = "axle" }}
+body.upper = {{ generate.rectangle = {{ from = [-0.5, 0], to = [0.5, 1], cells = [2, 2] }}, material = "s", rotation.with = "axle" }}
+material.s.isotropic = {{ young = 1e5, poisson = 0.3 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.5, normal.linear.c = 1e5 }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.press = {{ set = "upper.top", x = 1e-3, y = -1e-3 }}
+support.turn = {{ set = "axle", x = 0, y = 0, rotation-z = 1, amplitude = "turn" }}
+amplitude.turn.table = [[0, 0], [1, 0], [2, 1]]
+step = [{{ increments.fixed = 4 }}, {{ increments.fixed = 10 }}]
+"#
+        ));
+        let force = stickslip::math::norm(vector(&record, 3, "joint.CFN", 2));
+        let torque = column(&record, "axle.RM3");
+        let most = torque.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        assert!(most < 1e-12 * force, "{cells}: {most:e} of {force}");
+        assert!(simulation.summary.quality.met, "{cells}");
+    }
+}

@@ -1,6 +1,6 @@
 //! What an evaluation leaves: the outcome at each point, and the numbers of all of them in batches.
 
-use crate::contact::kinematics::{Stencil, carried_over};
+use crate::contact::kinematics::{NodeSums, Stencil, carried_over};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Response;
 use crate::math::{Vec3, add_scaled, dot, scale};
@@ -183,8 +183,8 @@ pub(super) struct Batch {
     pub stencil: Stencil,
     /// Gradients of the slip as friction sees it; empty where they are those of the slip.
     pub rated: [Vec<f64>; 2],
-    /// The gradient of the gap of a mortar's point by node.
-    pub gradients: Vec<Vec3>,
+    /// What the nodes of a mortar's point have beside their weights.
+    pub sums: Vec<NodeSums>,
     /// What laws are to be asked for all points at once.
     pub questions: Vec<Question>,
 }

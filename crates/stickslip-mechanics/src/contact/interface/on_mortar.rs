@@ -22,7 +22,7 @@ impl Interface {
             (mortar, &cache.integrals),
             (i, &point.nodes, point.across),
             &mut batch.sides,
-            &mut batch.gradients,
+            &mut batch.sums,
         );
         let covered = sums.area > LEAST_AREA * point.area;
         let Some(length) = covered.then(|| sums.length()).flatten() else {
@@ -50,10 +50,9 @@ impl Interface {
             never_in_contact: self.attempt.never_in_contact,
         };
         mean.stencil(
-            &sums,
-            length,
-            &mut batch.sides[sides..],
-            &mut batch.gradients,
+            (&sums, length),
+            (&mut batch.sides, sides),
+            &mut batch.sums,
             &mut batch.stencil,
         );
         let area = self.share * sums.area;

@@ -1,5 +1,6 @@
 //! Gap and slip of a point of a mortar: means over the faces around it.
 
+use super::moment::{self, NodeSums};
 use super::rigid::{carried_over, tangents};
 use super::stencil::Stencil;
 use super::turning;
@@ -26,21 +27,32 @@ pub struct Gathered {
     pub normal: Vec3,
 }
 
-/// Adds up what faces have integrated for point `i`, which hangs on `own` nodes: `nodes` and their weights, its own first, and the `gradients` of the gap with
-/// respect to them.
+/// Adds up what faces have integrated for point `i`, which hangs on `own` nodes: `nodes` and their weights, its own first, and what else they have in the `parts`.
 pub fn gather(
     (mortar, integrals): (&Mortar, &[FaceIntegral]),
     (i, own, across): (usize, &[usize], Across),
     nodes: &mut Vec<(usize, f64)>,
-    gradients: &mut Vec<Vec3>,
+    parts: &mut Vec<NodeSums>,
 ) -> Gathered {
     let mut sums = Gathered::default();
     let first = nodes.len();
-    gradients.clear();
-    for &node in own {
-        gradients.push([0.0; 3]);
-        nodes.push((node, 0.0));
-    }
+    parts.clear();
+    parts.resize(own.len(), NodeSums::default());
+    nodes.extend(own.iter().map(|&node| (node, 0.0)));
+    let mut enter = |node: usize, weight: f64, part: NodeSums| {
+        // So few that looking through them is faster than a map.
+        let known = nodes[first..].iter().position(|s| s.0 == node);
+        let k = known.unwrap_or_else(|| {
+            parts.push(NodeSums::default());
+            nodes.push((node, 0.0));
+            parts.len() - 1
+        });
+        nodes[first + k].1 += weight;
+        let sum = &mut parts[k];
+        sum.gradient = add(sum.gradient, part.gradient);
+        sum.lever = add(sum.lever, part.lever);
+        sum.reach += part.reach;
+    };
     let around = &mortar.around[i];
     let whole: f64 = around.iter().map(|&(f, a)| integrals[f].area[a]).sum();
     let least = NOTHING * whole;
@@ -50,28 +62,29 @@ pub fn gather(
         sums.gap += face.gap[a];
         let own = &mortar.faces[f].nodes;
         let secondary = face.secondary.chunks_exact(own.len()).nth(a).unwrap_or(&[]);
-        let primary = match face.nodes.len() {
-            0 => &[],
-            n => &face.primary[a * n..(a + 1) * n],
-        };
-        let entries = (own.iter().zip(secondary).map(|(n, e)| (n, e, 1.0)))
-            .chain(face.nodes.iter().zip(primary).map(|(n, e)| (n, e, -1.0)));
-        for (&node, entry, sign) in entries {
+        for (&node, entry) in own.iter().zip(secondary) {
             if entry.weight.abs() <= least && norm(entry.gradient) <= least {
                 continue;
             }
-            // So few that looking through them is faster than a map.
-            let known = nodes[first..].iter().position(|s| s.0 == node);
-            let k = known.unwrap_or_else(|| {
-                gradients.push([0.0; 3]);
-                nodes.push((node, 0.0));
-                gradients.len() - 1
-            });
-            nodes[first + k].1 += sign * entry.weight;
-            gradients[k] = add_scaled(gradients[k], sign, entry.gradient);
-            if sign > 0.0 {
-                sums.normal = add(sums.normal, entry.gradient);
+            sums.normal = add(sums.normal, entry.gradient);
+            let part = NodeSums {
+                gradient: entry.gradient,
+                ..NodeSums::default()
+            };
+            enter(node, entry.weight, part);
+        }
+        let count = face.nodes.len();
+        for (k, &node) in face.nodes.iter().enumerate() {
+            if face.reach[k] == 0.0 {
+                continue;
             }
+            let entry = &face.primary[a * count + k];
+            let part = NodeSums {
+                gradient: scale(-1.0, entry.gradient),
+                lever: face.levers[a * count + k],
+                reach: face.reach[k],
+            };
+            enter(node, -entry.weight, part);
         }
     }
     sums.normal = across.within(sums.normal);
@@ -120,22 +133,27 @@ pub struct MeanPoint<'a> {
 }
 
 impl MeanPoint<'_> {
-    /// Makes means of sums whose gradient has this mean `length`, and of these the stencil.
+    /// Makes means of sums whose gradient has this mean `length`, and of these the stencil. The nodes of the point are those from `first` on; those that turn out to
+    /// have no part in it are removed.
     pub fn stencil(
         &self,
-        sums: &Gathered,
-        length: f64,
-        nodes: &mut [(usize, f64)],
-        gradients: &mut [Vec3],
+        (sums, length): (&Gathered, f64),
+        (all, first): (&mut Vec<(usize, f64)>, usize),
+        parts: &mut [NodeSums],
         out: &mut Stencil,
     ) {
         let per_area = 1.0 / sums.area;
-        for ((_, weight), gradient) in nodes.iter_mut().zip(gradients.iter_mut()) {
+        for ((_, weight), part) in all[first..].iter_mut().zip(parts.iter_mut()) {
             *weight *= per_area;
-            *gradient = scale(per_area / length, *gradient);
+            if weight.abs() <= NOTHING {
+                *weight = 0.0;
+            }
+            part.gradient = scale(per_area / length, part.gradient);
+            part.lever = scale(per_area, part.lever);
         }
+        let nodes = &all[first..];
         let dim = self.dim;
-        out.reset(gradients.len() * dim);
+        out.reset(nodes.len() * dim);
         let normal = normalize(sums.normal).unwrap_or(sums.normal);
         let frame = tangents(normal, dim);
         let along = frame.map(|e| self.across.within(e));
@@ -150,21 +168,33 @@ impl MeanPoint<'_> {
         let mut gap = sums.gap * (per_area / length);
         let mut largest: f64 = 0.0;
         let (mut moved, mut arm) = ([0.0; 3], [0.0; 3]);
-        for (k, (&(node, w), gradient)) in nodes.iter().zip(gradients.iter()).enumerate() {
+        for (k, (&(node, w), part)) in nodes.iter().zip(&*parts).enumerate() {
             let x = self.x[node];
             moved = add_scaled(moved, w, sub(x, self.before[node]));
             arm = add_scaled(arm, w, self.before[node]);
             largest = largest.max(dot(x, x));
             if self.carried.is_none() {
-                gap += dot(*gradient, sub(x, self.reference[node]));
+                gap += dot(part.gradient, sub(x, self.reference[node]));
             }
             for c in 0..dim {
-                out.rows[0][k * dim + c] = gradient[c];
+                out.rows[0][k * dim + c] = part.gradient[c];
                 for (t, e) in along.iter().enumerate().take(dim - 1) {
                     out.rows[t + 1][k * dim + c] = w * e[c];
                 }
             }
         }
+        if self.carried.is_some() {
+            for (t, e) in along.iter().enumerate().take(dim - 1) {
+                moment::hand_over(*e, normal, parts, dim, &mut out.rows[t + 1]);
+            }
+            let axes = match dim {
+                2 if self.across.any() => [false; 3],
+                2 => [false, false, true],
+                _ => self.across.axes(),
+            };
+            moment::remove((nodes, parts, self.x), axes, dim, &mut out.rows);
+        }
+        remove_idle((all, first), parts, dim, out);
         [moved, arm] = [moved, arm].map(|v| self.across.within(v));
         if let Some(carried) = &self.carried {
             // The distance of the two sides turns with them, but for that which is no gap.
@@ -185,5 +215,33 @@ impl MeanPoint<'_> {
         out.frame_before = frame.map(|e| turning::back(&own, carried_over(e, normal, turned)));
         out.normal_before = normal_before;
         out.coordinate_scale = largest.sqrt();
+    }
+}
+
+/// Removes nodes of the primary that have a part neither in gap nor in slip.
+fn remove_idle(
+    (all, first): (&mut Vec<(usize, f64)>, usize),
+    parts: &[NodeSums],
+    dim: usize,
+    out: &mut Stencil,
+) {
+    let mut kept = 0;
+    for (k, part) in parts.iter().enumerate() {
+        let dofs = k * dim..(k + 1) * dim;
+        let entries = out.rows.iter().flat_map(|row| &row[dofs.clone()]);
+        let idle = entries.fold(all[first + k].1.abs(), |m, r| m.max(r.abs())) <= NOTHING;
+        if idle && part.reach > 0.0 {
+            continue;
+        }
+        all[first + kept] = all[first + k];
+        for row in &mut out.rows {
+            row.copy_within(dofs.clone(), kept * dim);
+        }
+        kept += 1;
+    }
+    all.truncate(first + kept);
+    out.n = kept * dim;
+    for row in &mut out.rows {
+        row.truncate(out.n);
     }
 }

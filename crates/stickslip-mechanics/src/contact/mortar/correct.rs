@@ -158,7 +158,8 @@ pub fn correct(sides: &Sides, faces: &[Face], integrals: &mut [FaceIntegral]) {
             integral,
         );
         let count = integral.nodes.len();
-        for piece in &integral.pieces {
+        // A facet that no place of the face meets has no share.
+        for piece in integral.pieces.iter().filter(|p| p.area > 0.0) {
             let Some(error) = &errors[piece.facet] else {
                 continue;
             };

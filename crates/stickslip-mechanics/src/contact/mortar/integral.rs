@@ -51,6 +51,10 @@ pub struct FaceIntegral {
     pub nodes: Vec<usize>,
     /// By node of the face and, within, by these nodes; to be subtracted.
     pub primary: Vec<Entry>,
+    /// `∫ Φ_a g ∇N_k` along the facets, ordered as these `[m²]`.
+    pub levers: Vec<Vec3>,
+    /// By node of the primary, its part of the areas opposite of the facets around it `[m²]`.
+    pub reach: Vec<f64>,
     /// By facet.
     pub pieces: Vec<Piece>,
 }
@@ -63,6 +67,8 @@ impl FaceIntegral {
         self.secondary.clear();
         self.nodes.clear();
         self.primary.clear();
+        self.levers.clear();
+        self.reach.clear();
         self.pieces.clear();
     }
 

@@ -48,6 +48,7 @@ pub(super) fn sum(
     let opposite = out.nodes.len();
     out.secondary.resize(n * n, Entry::default());
     out.primary.resize(n * opposite, Entry::default());
+    out.levers.resize(n * opposite, [0.0; 3]);
     for s in samples {
         let piece = &mut out.pieces[s.piece];
         let count = sides.facets[piece.facet].nodes.len();
@@ -72,10 +73,19 @@ pub(super) fn sum(
             for (b, entry) in out.secondary[a * n..(a + 1) * n].iter_mut().enumerate() {
                 entry.add(w * s.n[b], s.direction);
             }
-            let row = &mut out.primary[a * opposite..(a + 1) * opposite];
-            for (&k, n) in at.iter().zip(s.opposite) {
+            let row = a * opposite..(a + 1) * opposite;
+            let (row, levers) = (&mut out.primary[row.clone()], &mut out.levers[row]);
+            for ((&k, n), lever) in at.iter().zip(s.opposite).zip(s.levers) {
                 row[k].add(w * n, s.direction);
+                levers[k] = add_scaled(levers[k], w, lever);
             }
+        }
+    }
+    out.reach.resize(opposite, 0.0);
+    for (piece, at) in out.pieces.iter().zip(&places) {
+        let count = sides.facets[piece.facet].nodes.len();
+        for &k in &at[..count] {
+            out.reach[k] += piece.area / count as f64;
         }
     }
     let size = match face.kind.dim() {
@@ -149,6 +159,7 @@ mod tests {
             place: [0.0; 2],
             gap,
             direction: [0.0; 3],
+            levers: [[0.0; 3]; FACE_NODES],
         };
         let of = |gaps: &[f64]| {
             let samples: Vec<Sample> = gaps.iter().map(|g| sample(*g)).collect();

@@ -5,7 +5,9 @@ use super::dual::positive;
 use super::face::{FACE_NODES, Face};
 use super::rim::Rim;
 use crate::contact::projection::Patch;
-use crate::math::{Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, sub};
+use crate::math::{
+    Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, scale, sub,
+};
 use crate::shape::ElementKind;
 
 /// Cosine of the angle by which a facet has to look back at a face.
@@ -34,6 +36,8 @@ pub(super) struct Sample {
     pub gap: f64,
     /// Gradient of the gap with respect to the place on the secondary.
     pub direction: Vec3,
+    /// Gap times the gradients of the shape functions of the facet, along it.
+    pub levers: [Vec3; FACE_NODES],
 }
 
 /// Position, base vectors and shape functions of a facet.
@@ -122,6 +126,14 @@ fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2],
     None
 }
 
+/// `s` times the gradients along a facet with the base vectors `a` of what has these `slopes` in reference coordinates.
+fn levers(a: &[Vec3; 2], s: f64, slopes: &[Point; FACE_NODES]) -> [Vec3; FACE_NODES] {
+    let normal = cross(a[0], a[1]);
+    let s = s / dot(normal, normal);
+    let dual = [scale(s, cross(a[1], normal)), scale(s, cross(normal, a[0]))];
+    slopes.map(|[d, e]| add_scaled(scale(d, dual[0]), e, dual[1]))
+}
+
 /// What lies behind a facet.
 pub(super) struct Wall<'a> {
     /// Depth down to which it may be met `[m]`.
@@ -195,7 +207,7 @@ impl View<'_> {
             return;
         };
         let facing = -dot(normal, m);
-        let opposite = shapes(facet.kind, *start).0;
+        let (opposite, slopes) = shapes(facet.kind, *start);
         let beyond = gap * facing < -wall.depth && !self.enters((wall, m), &n, &opposite);
         if facing < LEAST_FACING || beyond {
             return;
@@ -211,6 +223,7 @@ impl View<'_> {
             place: *start,
             gap,
             direction: rim.direction((from, normal), (add_scaled(from, gap, normal), m)),
+            levers: levers(&a, gap, &slopes),
         });
     }
 
