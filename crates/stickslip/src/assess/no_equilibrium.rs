@@ -312,9 +312,9 @@ impl View<'_> {
             let along = |d: Vec3| -> Vec<f64> {
                 let speed = |motion: &Unheld| -> f64 {
                     let parts = holds.all.iter().zip(motion);
-                    let parts = parts
-                        .filter(|(_, c)| **c != 0.0)
-                        .map(|(m, c)| m.apart(self.model, own, facing) * c * dot(d, m.velocity(x)));
+                    let parts = parts.filter(|(_, c)| **c != 0.0).map(|(m, c)| {
+                        m.relative(self.model, own, facing) * c * dot(d, m.velocity(x))
+                    });
                     parts.sum()
                 };
                 holds.motions.iter().map(speed).collect()

@@ -275,11 +275,12 @@ impl View<'_> {
             energy if energy > self.rounded_energy() => energy,
             _ => 0.0,
         };
-        let glued = self.contact.interfaces.iter();
-        let glued = glued.filter_map(|i| Some((format!("interface {}", i.name), i.glued_by()?)));
-        let coupled = self.contact.couplings.given_way().into_iter();
+        let tied = self.contact.interfaces.iter();
+        let tied =
+            tied.filter_map(|i| Some((format!("interface {}", i.name), i.tie_spring_energy()?)));
+        let coupled = self.contact.couplings.spring_energies().into_iter();
         let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
-        for (place, stored) in glued.chain(coupled) {
+        for (place, stored) in tied.chain(coupled) {
             let limit = limits.explicit_opening;
             gate.note_in_motion(&EXPLICIT_OPENING, &place, [stored, energy], limit, t);
         }

@@ -10,10 +10,10 @@ use crate::contact::interface::Interface;
 use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
 use crate::system::Motion;
 
-/// What is left of a motion, relative to the stiffest, that counts as free.
+/// Resistance to a motion, relative to the largest, below which the motion is free.
 const FREE: f64 = 1e-10;
 
-/// Part of a motion from which on it gives its name.
+/// Part of a mode in a motion, relative to the largest, from which on the mode is named.
 const NAMED: f64 = 0.1;
 
 /// A body that supports and springs leave free to move, with those that ties make one with it.

@@ -59,8 +59,8 @@ impl Mode {
         norm(self.turn)
     }
 
-    /// How it moves a point beside what that faces, of which another point is given: 1 or -1 where one of them goes along, 0 where both do or none does.
-    pub fn apart(&self, model: &Model, own: usize, facing: Option<usize>) -> f64 {
+    /// Relative motion of a point against the point that it faces: 1 or -1 where one of them moves with the mode, 0 where both do or none does.
+    pub fn relative(&self, model: &Model, own: usize, facing: Option<usize>) -> f64 {
         let goes = |point: usize| f64::from(u8::from(self.moves(model, point)));
         goes(own) - facing.map_or(0.0, goes)
     }
@@ -209,7 +209,7 @@ impl Resisted<'_> {
             for &d in directions {
                 let each = self.modes.iter().enumerate();
                 let values = each.filter_map(|(i, m)| {
-                    let sign = m.apart(model, own, facing);
+                    let sign = m.relative(model, own, facing);
                     (sign != 0.0).then(|| (i, sign * dot(d, m.velocity(x))))
                 });
                 let values: Vec<_> = values.collect();

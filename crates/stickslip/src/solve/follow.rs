@@ -89,7 +89,7 @@ impl Solver {
             return false;
         }
         let untouched = |free: &FreeBody| {
-            // Glue is no touch: it holds what is loose to what is loose.
+            // A tie is no contact that holds: it joins loose bodies to each other.
             let mut all = contact.interfaces.iter().filter(|i| !i.laws.tied);
             all.all(|i| !i.touched() || !i.nodes.iter().any(|&n| free.has(model, n)))
         };

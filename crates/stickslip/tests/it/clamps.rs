@@ -142,12 +142,12 @@ support.head = {{ set = "head", x = 0, y = -0.03, rotation-z = 0 }}
 step = [{{ increments.fixed = 2 }}]
 "#
         ));
-        let [pressed, held] = ["joint.CFN2", "head.RF2"].map(|name| value(&row, name));
-        let rubbed = value(&row, "wall.CFS2") + value(&row, "joint.CFS2");
-        let off = pressed + rubbed + held;
+        let [normal, support] = ["joint.CFN2", "head.RF2"].map(|name| value(&row, name));
+        let shear = value(&row, "wall.CFS2") + value(&row, "joint.CFS2");
+        let off = normal + shear + support;
         assert!(
-            pressed > 1.0 && off.abs() < 1e-6 * pressed,
-            "{rigid}: {pressed} {rubbed} {held}"
+            normal > 1.0 && off.abs() < 1e-6 * normal,
+            "{rigid}: {normal} {shear} {support}"
         );
         let beside = value(&row, "wall.CFN1").abs();
         assert!(!rigid || beside == 0.0, "{beside}");

@@ -419,6 +419,48 @@ increments.fixed = 40
 dynamic = { DYNAMIC }
 "#;
 
+/// Compliant laws and springs act at the stage of an increment unless a step says otherwise; what is held by multipliers acts at its end.
+#[test]
+fn where_contact_acts_follows_from_the_laws() {
+    use stickslip::time::ContactAt::{End, Stage};
+    let drop = r#"format = 1
+model.space = "plane-strain"
+body.m = { generate.rectangle = { to = [1, 1], cells = [1, 1] }, material = "m" }
+material.m.isotropic = { young = 1e6, poisson = 0.3, density = 1 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.c = { secondary = "m.bottom", primary = "floor", LAW }
+set.left = { of = "m", point = [0, 1] }
+set.right = { of = "m", point = [1, 1] }
+step = [{ dynamic = { AT }, increments.fixed = 1 }]
+"#;
+    let terms = r#"terms = [{ set = "left", component = "x" }, { set = "right", component = "x", factor = -1 }]"#;
+    let spring = format!("coupling.a.spring = {{ stiffness = 1, {terms} }}\n");
+    let equation = format!("coupling.a.equation = {{ {terms} }}\n");
+    let stop = format!("coupling.a.gap = {{ clearance = 1, {terms} }}\n");
+    for (law, at, coupling, expected) in [
+        ("normal.linear.c = 1e6", "", "", Stage),
+        ("normal.power-law = { c = 1e6, m = 2 }", "", "", Stage),
+        ("normal.linear.c = 1e6", "", &*spring, Stage),
+        ("normal.linear.c = 1e6", "contact-at = \"end\"", "", End),
+        ("normal.linear.c = 1e6", "", &*equation, End),
+        ("normal.linear.c = 1e6", "", &*stop, End),
+        ("friction.coulomb.mu = 0.1", "", "", End),
+        (
+            "friction.coulomb.mu = 0.1",
+            "contact-at = \"stage\"",
+            "",
+            Stage,
+        ),
+    ] {
+        let text = drop.replace("LAW", law).replace("AT", at);
+        let (head, steps) = text.split_once("step =").expect("a step");
+        let text = format!("{head}{coupling}step ={steps}");
+        let simulation = support::build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        let dynamic = simulation.model.steps[0].dynamic.expect("in motion");
+        assert_eq!(dynamic.contact_at, expected, "{law}, {at}, {coupling}");
+    }
+}
+
 /// Friction and pressure act from the first instant: the path of the block is that of the closed solution from the first increment on, which is
 /// not shorter than the others.
 #[test]

@@ -512,9 +512,9 @@ step = [{ increments.fixed = 1 }]
     }
 }
 
-/// Two blocks whose surfaces tilt and bend under pressure and shear, on a law so soft that they overlap by a twentieth of a cell: what is left of the forces of both
-/// sides and of their moment, relative to force and size.
-fn left_over(dim: usize, element: &str, interface: &str) -> [f64; 2] {
+/// Resultant and moment of the contact forces of both sides, relative to force and size. Two blocks whose surfaces tilt and bend under pressure and shear, on a law
+/// so soft that they overlap by a twentieth of a cell.
+fn sums_over_both_sides(dim: usize, element: &str, interface: &str) -> [f64; 2] {
     let (space, shape, fixed, moved) = match dim {
         2 => (
             "plane-strain",
@@ -577,10 +577,10 @@ fn shear_acts_on_both_sides_at_one_place_however_deep_they_overlap() {
             "discretisation.mortar = {}",
             "discretisation.node-to-facet = {}",
         ] {
-            let left = left_over(dim, element, interface);
+            let sums = sums_over_both_sides(dim, element, interface);
             assert!(
-                left.iter().all(|l| *l < 1e-10),
-                "{element}, {interface}: {left:?}"
+                sums.iter().all(|sum| *sum < 1e-10),
+                "{element}, {interface}: {sums:?}"
             );
         }
     }

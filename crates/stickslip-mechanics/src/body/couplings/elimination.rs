@@ -35,8 +35,8 @@ pub(super) fn compliance(held: &[Held], stiffness: impl Fn(&Held) -> f64) -> f64
     with.filter(|(_, k)| *k > 0.0).map(|(a, k)| a / k).sum()
 }
 
-/// Adds, by dof, what a tangent resists a displacement with where the other points it joins give way each as their bodies let them: its springs in series with
-/// theirs. A tie between two soft bodies holds a point no more than the other body does, however firm it is itself.
+/// Adds, by dof, the stiffness with which contact resists a displacement while the other points of the block give way as their bodies let them: that of contact
+/// in series with theirs. A tie between two soft bodies holds a point no more than the other body does, however firm it is itself.
 pub(super) fn add_stiffness(block: &ContactBlock, give: &[f64], out: &mut Vec<f64>) {
     let n = block.dofs.len();
     let most = block.dofs.iter().max().map_or(0, |dof| dof + 1);
@@ -47,10 +47,37 @@ pub(super) fn add_stiffness(block: &ContactBlock, give: &[f64], out: &mut Vec<f6
     for q in 0..3 {
         let (row, change) = (&block.rows[q * n..][..n], &block.change[q * n..][..n]);
         let own = |k: usize| (row[k] * change[k]).abs();
-        // How far the springs of the points give way under the force that deforms this one by 1.
+        // For springs in series: stiffness of contact times compliance of the bodies, over all points.
         let all: f64 = (0..n).map(|k| own(k) * give(k)).sum();
         for (k, &dof) in block.dofs.iter().enumerate() {
             out[dof] += own(k) / (1.0 + all - own(k) * give(k));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_firm_tie_holds_a_point_no_more_than_the_other_body() {
+        let (tie, body) = (1e9, 4.0);
+        let block = ContactBlock {
+            dofs: vec![2, 5],
+            rows: vec![1.0, -1.0, 0.0, 0.0, 0.0, 0.0],
+            change: vec![tie, -tie, 0.0, 0.0, 0.0, 0.0],
+            hessian: Vec::new(),
+            surrogate: Vec::new(),
+        };
+        let mut give = vec![0.0; 6];
+        let mut out = Vec::new();
+        add_stiffness(&block, &give, &mut out);
+        assert_eq!([out[2], out[5]], [tie, tie]);
+        give[5] = 1.0 / body;
+        out.clear();
+        add_stiffness(&block, &give, &mut out);
+        let series = tie * body / (tie + body);
+        assert!((out[2] - series).abs() < 1e-9 * series, "{}", out[2]);
+        assert_eq!(out[5], tie);
     }
 }

@@ -20,8 +20,9 @@ impl Couplings {
         self.keep_forces()
     }
 
-    /// The couplings that springs stand for in an explicit step, with the energy by which these have given way at the last accepted state `[J]`.
-    pub fn given_way(&self) -> Vec<(&str, f64)> {
+    /// The couplings that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried
+    /// when the step began is in none of them.
+    pub fn spring_energies(&self) -> Vec<(&str, f64)> {
         let mut out: Vec<(&str, f64)> = Vec::new();
         for (i, coupling, _) in self.rows() {
             let (hold, memory) = (self.hold[i], &self.memory);

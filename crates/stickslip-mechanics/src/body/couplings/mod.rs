@@ -7,7 +7,7 @@
 //! Equations between displacements and springs between points (`body/couplings`) are rows `Σ factor · u` over a few dofs, all in one contact force, so that they
 //! may join bodies that are condensed one by one, come and go with steps, and work with every way to solve. A spring is a row with its stiffness. The force along the
 //! row of an equation is an unknown of Newton's method, eliminated with a stiffness of 10² times what holds its points, bodies and contact
-//! (`fit.rs`, from the diagonals of the matrix and of the tangent of contact), as in a method of multipliers with an update in every iteration: at equilibrium the equation holds to rounding,
+//! (`fit.rs`, from the diagonal of the matrix and from contact in series with what its other points rest on), as in a method of multipliers with an update in every iteration: at equilibrium the equation holds to rounding,
 //! and equations that say the same twice do no harm. Points of couplings are always candidates. At the start of motion `couplings/motion.rs` finds the forces with which
 //! accelerations obey the equations. Small motions about a state, modes and answers to harmonic forces, have no unknowns for what equations determine. In explicit steps equations are springs that have at most the highest frequency of the bodies. The energy of springs counts with that
 //! of the bodies, and the work of equations whose value changes with that of the supports.

@@ -61,8 +61,8 @@ impl Interface {
         self.history.springs
     }
 
-    /// Energy of the springs that stand for glue in an explicit step `[J]`; `None` where there are none.
-    pub fn glued_by(&self) -> Option<f64> {
+    /// Energy of the springs that stand for a tie in an explicit step `[J]`; `None` where there are none.
+    pub fn tie_spring_energy(&self) -> Option<f64> {
         let springs = self.history.springs && self.laws.tied && self.laws.needs_normal_stiffness();
         springs.then(|| self.stored_energy())
     }

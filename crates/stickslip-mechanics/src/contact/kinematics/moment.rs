@@ -22,21 +22,24 @@
 //!
 //! That the moment changes with the displacements is left out of the tangent: it is of the size of pressure over modulus, as is what else is left out there.
 
-use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, inverse, mat_vec, scale, sub};
+use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, inverse, mat_vec, norm, scale, sub};
 
 /// What a node has in the sums around a point, beside its weight.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NodeSums {
-    /// Gradient of the gap with respect to it.
+    /// Gradient of the gap with respect to it: first `[m²]`, summed over faces; then `[-]`, the mean.
     pub gradient: Vec3,
-    /// Gap times the gradient of its shape function along the primary: what takes the moment of a shear that acts on both sides, a gap apart.
+    /// Gap times the gradient of its shape function along the primary, the arm of the moment of shear: first `[m²]`, then `[-]`.
     pub lever: Vec3,
-    /// Its part of the areas opposite; zero on the secondary.
+    /// Its part of the areas opposite `[m²]`; zero on the secondary.
     pub reach: f64,
 }
 
+/// Part of the moments of single forces below which their sum is rounding.
+const ROUNDED: f64 = 1e-13;
+
 /// Adds `Σ_k (l_k·e) n` to the gradient of the slip along `e`.
-pub(super) fn hand_over(e: Vec3, normal: Vec3, parts: &[NodeSums], dim: usize, row: &mut [f64]) {
+pub(super) fn add_arm(e: Vec3, normal: Vec3, parts: &[NodeSums], dim: usize, row: &mut [f64]) {
     for (row, part) in row.chunks_exact_mut(dim).zip(parts) {
         add_to(row, scale(dot(part.lever, e), normal));
     }
@@ -53,6 +56,24 @@ pub(super) fn remove(
     let whole: f64 = parts.iter().map(|p| p.reach).sum();
     let centre = placed().fold([0.0; 3], |c, (x, p)| add_scaled(c, p.reach / whole, x));
     let kept = |v: Vec3| -> Vec3 { std::array::from_fn(|c| if axes[c] { v[c] } else { 0.0 }) };
+    // Flat surfaces that touch leave none: most points end here.
+    let moment = |row: &Vec<f64>| -> Option<Vec3> {
+        let (mut sum, mut size) = ([0.0; 3], 0.0);
+        for (force, (x, _)) in row.chunks_exact(dim).zip(placed()) {
+            let (force, arm) = (in_space(force), sub(x, centre));
+            sum = add(sum, cross(arm, force));
+            size += norm(arm) * norm(force);
+        }
+        let sum = kept(sum);
+        (norm(sum) > ROUNDED * size).then_some(sum)
+    };
+    let moments: [Option<Vec3>; 3] = std::array::from_fn(|q| match q < dim {
+        true => moment(&rows[q]),
+        false => None,
+    });
+    if moments.iter().all(Option::is_none) {
+        return;
+    }
     // Moments of f_k for unit θ about each axis; about those that are left alone anything will do.
     let inertia: Mat3 = std::array::from_fn(|c| {
         let mut axis = [0.0; 3];
@@ -68,12 +89,9 @@ pub(super) fn remove(
     let Some((inverse, _)) = inverse(&inertia) else {
         return;
     };
-    for row in rows.iter_mut().take(dim) {
-        let forces = row.chunks_exact(dim).zip(placed());
-        let moment = forces.fold([0.0; 3], |sum, (force, (x, _))| {
-            add(sum, cross(sub(x, centre), in_space(force)))
-        });
-        let turn = scale(-1.0, mat_vec(&inverse, kept(moment)));
+    for (row, moment) in rows.iter_mut().zip(moments) {
+        let Some(moment) = moment else { continue };
+        let turn = scale(-1.0, mat_vec(&inverse, moment));
         for (row, (x, part)) in row.chunks_exact_mut(dim).zip(placed()) {
             add_to(row, scale(part.reach, cross(turn, sub(x, centre))));
         }

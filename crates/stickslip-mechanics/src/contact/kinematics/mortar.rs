@@ -185,7 +185,7 @@ impl MeanPoint<'_> {
         }
         if self.carried.is_some() {
             for (t, e) in along.iter().enumerate().take(dim - 1) {
-                moment::hand_over(*e, normal, parts, dim, &mut out.rows[t + 1]);
+                moment::add_arm(*e, normal, parts, dim, &mut out.rows[t + 1]);
             }
             let axes = match dim {
                 2 if self.across.any() => [false; 3],

@@ -126,12 +126,16 @@ fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2],
     None
 }
 
-/// `s` times the gradients along a facet with the base vectors `a` of what has these `slopes` in reference coordinates.
-fn levers(a: &[Vec3; 2], s: f64, slopes: &[Point; FACE_NODES]) -> [Vec3; FACE_NODES] {
+/// Gap `s` times the gradients of shape functions along a facet with the base vectors `a`, of what has these `slopes` in reference coordinates.
+fn levers(a: &[Vec3; 2], s: f64, slopes: &[Point]) -> [Vec3; FACE_NODES] {
     let normal = cross(a[0], a[1]);
     let s = s / dot(normal, normal);
     let dual = [scale(s, cross(a[1], normal)), scale(s, cross(normal, a[0]))];
-    slopes.map(|[d, e]| add_scaled(scale(d, dual[0]), e, dual[1]))
+    let mut out = [[0.0; 3]; FACE_NODES];
+    for (lever, [d, e]) in out.iter_mut().zip(slopes) {
+        *lever = add_scaled(scale(*d, dual[0]), *e, dual[1]);
+    }
+    out
 }
 
 /// What lies behind a facet.
@@ -223,7 +227,7 @@ impl View<'_> {
             place: *start,
             gap,
             direction: rim.direction((from, normal), (add_scaled(from, gap, normal), m)),
-            levers: levers(&a, gap, &slopes),
+            levers: levers(&a, gap, &slopes[..facet.kind.node_count()]),
         });
     }
 
