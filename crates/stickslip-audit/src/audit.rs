@@ -8,7 +8,7 @@ use crate::contact::{self, Scale, at};
 use crate::energy;
 use crate::external::External;
 use crate::figure::Report;
-use crate::law::{Rubbing, laws, limit};
+use crate::law::{Rubbing, laws, limit, pressure};
 use crate::lone;
 use crate::motion;
 use crate::overlap;
@@ -112,6 +112,11 @@ fn scale(results: &Results, pair: &Pair, strain: &[f64]) -> Scale {
             }
         }
     }
+    // What the law says of rounding is no pressure.
+    let laws = laws(&results.case, &pair.name, 0);
+    let rounding = 1e-12 * results.mesh.size(None);
+    let floor = laws.and_then(|laws| pressure(laws.normal, -rounding));
+    scale.pressure = scale.pressure.max(floor.unwrap_or(0.0));
     // Where all points stick slips are rounding.
     scale.slip = if scale.slip > 0.0 {
         scale.slip.max(0.1 * scale.approach)

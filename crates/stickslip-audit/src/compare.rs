@@ -17,6 +17,8 @@ pub struct Trace {
     pub forces: BTreeMap<String, Vec<f64>>,
     /// Strain energy.
     pub energy: Vec<f64>,
+    /// Points that are open, stick and slip at the end.
+    pub statuses: [f64; 3],
     /// Frequencies of modes, by file.
     pub frequencies: BTreeMap<String, Vec<f64>>,
 }
@@ -42,22 +44,34 @@ pub fn trace(folder: &Path, [length, modulus, time]: [f64; 3]) -> Result<Trace, 
     let steps = history.column("STEP").unwrap_or(&[]);
     let moving = |s: &f64| case.steps.get(*s as usize - 1).is_some_and(|s| s.dynamic());
     trace.moving = steps.iter().map(moving).collect();
+    let mut components = BTreeMap::new();
     for (head, values) in &history.columns {
         let stem = head.trim_end_matches(|c: char| c.is_ascii_digit());
         let kind = stem.rsplit('.').next().unwrap_or_default();
         if !stem.contains('.') || stem == head || !["CFN", "CFS", "RF"].contains(&kind) {
             continue;
         }
-        let squares = trace
-            .forces
-            .entry(stem.to_string())
+        // A body that is cut in two has two parts of its plane of symmetry.
+        let axis = &head[stem.len()..];
+        let stem = stem.replace("axis-under", "axis-lower");
+        let sums = components
+            .entry((stem, axis))
             .or_insert_with(|| vec![0.0; rows]);
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += value / (modulus * area);
+        }
+    }
+    for ((stem, _), values) in components {
+        let squares = trace.forces.entry(stem).or_insert_with(|| vec![0.0; rows]);
         for (square, value) in squares.iter_mut().zip(values) {
-            *square += (value / (modulus * area)).powi(2);
+            *square += value * value;
         }
     }
     let roots = trace.forces.values_mut().flatten();
     roots.for_each(|square| *square = square.sqrt());
+    trace.statuses = ["OPEN", "STICK", "SLIP"]
+        .map(|name| history.column(name).and_then(|c| c.last().copied()))
+        .map(|last| last.unwrap_or(0.0));
     let energy = history.column("ALLSE").unwrap_or(&[]).iter();
     trace.energy = energy.map(|e| e / (modulus * area * length)).collect();
     let files = std::fs::read_dir(folder).map_err(|e| e.to_string())?;
@@ -120,7 +134,9 @@ pub fn difference(a: &Trace, b: &Trace, moving: bool) -> (f64, String) {
             ),
         );
     }
-    for (file, values) in &a.frequencies {
+    // Of a point at the limit of friction rounding says whether it sticks, and so what moves with it.
+    let alike = a.statuses == b.statuses;
+    for (file, values) in a.frequencies.iter().filter(|_| alike) {
         let Some(others) = b.frequencies.get(file) else {
             continue;
         };

@@ -155,7 +155,8 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
             let inertia = results.case.steps[step].dynamic();
             let turn = turned(results, i);
             // In explicit steps it is springs that hold them.
-            let hard = laws.normal.0 == "unilateral" && !results.case.steps[step].explicit();
+            let springs = results.case.steps[step].explicit();
+            let hard = laws.normal.0 == "unilateral" && !springs;
             if hard && !pair.damped && !pair.two_sided {
                 let depths = nodes.iter().filter(|n| now[**n].pressure > 0.0);
                 let deepest = depths.fold(0.0_f64, |m, n| m.max(-now[*n].gap));
@@ -167,7 +168,7 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
                     &laws,
                     &now[*node],
                     last,
-                    (dt, inertia, turn),
+                    (dt, inertia, turn, springs),
                     pair,
                     scale,
                     state.t,
@@ -180,9 +181,11 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
     if let (Some(table), Some(state), false) =
         (results.tables.get(name), results.states.last(), pair.tied)
     {
-        let Some(laws) = laws(&results.case, name, results.case.step_at(state.t)) else {
+        let step = results.case.step_at(state.t);
+        let Some(laws) = laws(&results.case, name, step) else {
             return;
         };
+        let springs = results.case.steps[step].explicit();
         for row in 0..table.rows() {
             let of = |head: &str| table.at(head, row);
             let point = Point {
@@ -196,7 +199,7 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
                 &laws,
                 &point,
                 None,
-                (results.at("DT", state), true, 0.0),
+                (results.at("DT", state), true, 0.0, springs),
                 pair,
                 scale,
                 state.t,
@@ -223,7 +226,7 @@ fn turned(results: &Results, i: usize) -> f64 {
     turns.fold(0.0, f64::max)
 }
 
-/// One point at one time. Without a state before only the bounds that hold at any speed are asked.
+/// One point at one time. Without a state before only the bounds that hold at any speed are asked. Springs press where surfaces are about to part, as far as they give way.
 #[expect(
     clippy::too_many_arguments,
     reason = "one formula after the other, all of one point"
@@ -232,7 +235,7 @@ fn one(
     laws: &Laws,
     point: &Point,
     last: Option<Point>,
-    (dt, inertia, turn): (f64, bool, f64),
+    (dt, inertia, turn, springs): (f64, bool, f64, bool),
     pair: &Pair,
     scale: &Scale,
     t: f64,
@@ -252,7 +255,7 @@ fn one(
     if laws.normal.0 == "unilateral" {
         // A dashpot may press before surfaces touch.
         let product = p / scale.pressure * open.max(0.0) / scale.approach;
-        if !pair.damped && !pair.two_sided {
+        if !pair.damped && !pair.two_sided && !springs {
             report.note("complementarity", name, product, t);
         }
     } else if let (Some(law), false) = (
@@ -496,7 +499,7 @@ mod tests {
                 &laws,
                 &point,
                 before,
-                (1.1e-7, true, 0.0),
+                (1.1e-7, true, 0.0, false),
                 &pair,
                 &scale,
                 1.0,
@@ -541,7 +544,7 @@ mod tests {
         let (before, now) = (at([3.7105e-3, -7.562e-4]), at([3.8293e-3, -7.243e-4]));
         let judge = |turn: f64| {
             let mut report = Report::default();
-            let (pair, when) = (Pair::bare("joint"), (0.25, false, turn));
+            let (pair, when) = (Pair::bare("joint"), (0.25, false, turn, false));
             one(
                 &laws,
                 &now,

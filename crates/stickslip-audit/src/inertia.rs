@@ -53,10 +53,11 @@ fn free_nodes(
         return None;
     }
     let (contact, reaction) = (state.grid.vector("CFORCE"), state.grid.vector("RF"));
-    let pressure = state.grid.scalar("CPRESS");
+    let [pressure, pull] = ["CPRESS", "TNORMAL"].map(|name| state.grid.scalar(name));
     let mut free: Vec<bool> = (0..state.u.len())
         .map(|i| {
-            let loaded = contact[i] != [0.0; 3] || reaction[i] != [0.0; 3] || !pressure[i].is_nan();
+            let there = !pressure[i].is_nan() || !pull[i].is_nan();
+            let loaded = contact[i] != [0.0; 3] || reaction[i] != [0.0; 3] || there;
             !loaded && !bulk.rigid[results.mesh.body[i]]
         })
         .collect();

@@ -239,11 +239,7 @@ pub const FEATURES: &[Feature] = &[
 
 /// A force along the direction of pressing as a number.
 pub fn scalar(s: &Sheet, part: f64) -> String {
-    let unit = match s.space {
-        super::sheet::Space::Strain | super::sheet::Space::Stress => s.view.modulus * s.view.length,
-        _ => s.view.force(),
-    };
-    number(part * unit)
+    number(part * s.force_unit())
 }
 
 /// The area of the section of a body.
@@ -349,7 +345,7 @@ fn head(s: &mut Sheet, how: &str) {
     let mut keys = format!("point = {at}");
     if s.has("explicit") || s.has("implicit-explicit") {
         let solid = s.solid();
-        let unit = s.view.length.powi(if solid || s.half { 3 } else { 2 });
+        let unit = s.view.length.powi(if s.plane() { 2 } else { 3 });
         let mass = 0.2 * s.view.density * unit;
         let turns = number(0.05 * mass * s.view.length * s.view.length);
         let turns = if solid {

@@ -166,12 +166,7 @@ pub const FEATURES: &[Feature] = &[
 
 /// A stiffness.
 fn stiffness(s: &Sheet, part: f64) -> String {
-    let unit = if s.solid() || s.half {
-        s.view.modulus * s.view.length
-    } else {
-        s.view.modulus
-    };
-    number(part * unit)
+    number(part * s.force_unit() / s.view.length)
 }
 
 /// A corner of a body: the upper one on the right, or the lower one on the right.

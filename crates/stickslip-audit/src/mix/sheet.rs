@@ -249,14 +249,22 @@ impl Sheet {
         }
     }
 
-    /// A force, in the plane for the thickness 1, with the size of a pressure on an area.
+    /// Whether it is a problem in the plane: without a thickness forces and masses are those of one unit of length of the file.
+    pub fn plane(&self) -> bool {
+        matches!(self.space, Space::Strain | Space::Stress)
+    }
+
+    /// The unit of force, in the plane for the thickness 1: a pressure on an area.
+    pub fn force_unit(&self) -> f64 {
+        match self.plane() {
+            true => self.view.modulus * self.view.length,
+            false => self.view.force(),
+        }
+    }
+
+    /// A force with the size of a pressure on an area.
     pub fn force(&self, part: [f64; 2]) -> String {
-        // Without a thickness that is a force per unit of length of the file.
-        let unit = match self.space {
-            Space::Strain | Space::Stress => self.view.modulus * self.view.length,
-            _ => self.view.force(),
-        };
-        self.vector(part, unit)
+        self.vector(part, self.force_unit())
     }
 
     /// Adds a table or a line.
