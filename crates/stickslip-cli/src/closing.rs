@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use stickslip::assess::doctor::Finding;
-use stickslip::assess::{Figure, Gate, InterfaceSummary};
+use stickslip::assess::{Figure, Gate, InterfaceSummary, Peak};
 use stickslip::math::norm;
 use stickslip::model::GateMode;
 use stickslip::results::{Analysis, Summary};
@@ -66,26 +66,29 @@ fn effort(s: &Summary) -> String {
 
 /// What an interface carries, in the units of the problem.
 fn physics(i: &InterfaceSummary, (dim, size): (usize, f64), time: &str) -> Vec<String> {
+    let kind = if i.tied { "tie" } else { "interface" };
     let mut lines = vec![format!(
         "{} {} at time {time}, forces on its secondary",
-        paint(Look::Strong, "interface"),
+        paint(Look::Strong, kind),
         style::short(&i.name, 50)
     )];
     let mut line = |what: &str, text: String| lines.push(format!("  {what:<15}{text}"));
-    let peak = &i.peak_pressure;
-    line(
-        "peak pressure",
-        match peak.value > 0.0 {
-            true => format!(
-                "{} at {}, time {}; now {}",
-                figure(peak.value),
-                vector(&peak.at[..dim], HERE * size),
-                digits(peak.time, 6),
-                figure(i.pressure)
-            ),
-            false => "none: it never pressed".into(),
-        },
-    );
+    let most = |peak: &Peak, now: f64, never: &str| match peak.value > 0.0 {
+        true => format!(
+            "{} at {}, time {}; now {}",
+            figure(peak.value),
+            vector(&peak.at[..dim], HERE * size),
+            digits(peak.time, 6),
+            figure(now)
+        ),
+        false => never.into(),
+    };
+    if let (Some(peak), Some(now)) = (&i.peak_pressure, i.pressure) {
+        line("peak pressure", most(peak, now, "none: it never pressed"));
+    }
+    if let (Some(peak), Some(now)) = (&i.peak_traction, i.traction) {
+        line("peak traction", most(peak, now, "none"));
+    }
     let all = norm(i.normal_force).max(norm(i.shear_force));
     let force = |f: [f64; 3]| match norm(f) > NOTHING * all {
         true => format!("{} {}", figure(norm(f)), vector(&f[..dim], all)),
@@ -93,13 +96,15 @@ fn physics(i: &InterfaceSummary, (dim, size): (usize, f64), time: &str) -> Vec<S
     };
     line("normal force", force(i.normal_force));
     line("shear force", force(i.shear_force));
-    line("contact area", figure(i.area));
-    let p = &i.points;
-    line(
-        "points",
-        format!("{} stick, {} slip, {} open", p.stick, p.slip, p.open),
-    );
-    line("friction work", figure(i.friction_work));
+    let area = if i.tied { "tied area" } else { "contact area" };
+    line(area, figure(i.area));
+    if let Some(p) = i.points {
+        let points = format!("{} stick, {} slip, {} open", p.stick, p.slip, p.open);
+        line("points", points);
+    }
+    if let Some(work) = i.friction_work {
+        line("friction work", figure(work));
+    }
     lines
 }
 

@@ -24,6 +24,8 @@ const WORDS: &[(&str, &str)] = &[
     ("CSLIP", "slip"),
     ("CDISS", "dissipated per area"),
     ("CWEAR", "depth worn off"),
+    ("TNORMAL", "normal traction of a tie"),
+    ("TSHEAR", "shear traction of a tie"),
     ("CFORCE", "contact force"),
     ("MISES", "von Mises stress"),
     ("RF", "reaction"),
@@ -36,8 +38,8 @@ const WORDS: &[(&str, &str)] = &[
 /// Names of fields and components that results mostly have.
 pub const NAMES: &[&str] = &[
     "CPRESS", "CSTATUS", "COPEN", "CSHEAR1", "CSHEAR2", "CSLIP1", "CSLIP2", "CDISS", "CWEAR",
-    "CFORCE", "MISES", "S11", "S22", "S33", "S12", "S23", "S13", "U", "U1", "U2", "U3", "V", "A",
-    "RF",
+    "CFORCE", "TNORMAL", "TSHEAR1", "TSHEAR2", "MISES", "S11", "S22", "S33", "S12", "S23", "S13",
+    "U", "U1", "U2", "U3", "V", "A", "RF",
 ];
 
 /// The field that holds the status of contact: 0 open, 1 stick, 2 slip.
@@ -62,7 +64,7 @@ impl Field {
     /// Whether its sign changes where the model is mirrored along an axis. Directions along a surface are x laid into it, and the one across.
     pub fn turns(&self, axis: usize) -> bool {
         match (self.stem(), self.component) {
-            ("CSHEAR" | "CSLIP", _) => self.name.ends_with('1') == (axis == 0),
+            ("CSHEAR" | "CSLIP" | "TSHEAR", _) => self.name.ends_with('1') == (axis == 0),
             ("U" | "V" | "A" | "RF" | "CFORCE", Some(c)) => c == axis,
             ("S", Some(c)) => [[3, 5], [3, 4], [4, 5]][axis].contains(&c),
             _ => false,
@@ -133,7 +135,7 @@ pub fn fields(arrays: &BTreeMap<String, PointArray>) -> Vec<Field> {
     let order = |field: &Field| {
         let places = [
             "CPRESS", "CSHEAR1", "CSHEAR2", "CSTATUS", "COPEN", "CSLIP1", "CSLIP2", "CDISS",
-            "CWEAR", "U", "MISES", "S", "V", "A", "RF", "CFORCE",
+            "CWEAR", "U", "MISES", "TNORMAL", "TSHEAR1", "TSHEAR2", "S", "V", "A", "RF", "CFORCE",
         ];
         let found = places.iter().position(|p| *p == field.array);
         found.unwrap_or(places.len())

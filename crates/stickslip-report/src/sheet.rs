@@ -38,6 +38,16 @@ impl Sheet {
         }
     }
 
+    /// Whether its surfaces are tied: then it has tractions, and no pressure or status.
+    pub fn tied(&self) -> bool {
+        self.grid.points.arrays.contains_key("TNORMAL")
+    }
+
+    /// The shear traction on the secondary at a point.
+    pub fn shear(&self, point: usize) -> [f64; 3] {
+        self.vector(if self.tied() { "TSHEAR" } else { "CSHEAR" }, point)
+    }
+
     /// Where a point is, displacements taken so many times.
     pub fn place(&self, point: usize, scale: f64) -> [f64; 3] {
         let (x, u) = (self.grid.points.points[point], self.vector("U", point));

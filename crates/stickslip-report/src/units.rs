@@ -54,7 +54,7 @@ impl Units {
     /// The unit of a field; empty if it is not known.
     pub fn of_field(&self, field: &Field) -> &str {
         match field.stem() {
-            "CPRESS" | "CSHEAR" | "MISES" | "S" => &self.stress,
+            "CPRESS" | "CSHEAR" | "TNORMAL" | "TSHEAR" | "MISES" | "S" => &self.stress,
             "U" | "COPEN" | "CSLIP" | "CWEAR" => &self.length,
             _ => "",
         }

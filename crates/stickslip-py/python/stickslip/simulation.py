@@ -482,13 +482,14 @@ def told(summary: dict[str, Any]) -> list[tuple[str, Any]]:
     """What a summary says of the physics and of how good it is, a line an interface."""
     rows: list[tuple[str, Any]] = []
     for interface in summary.get("interfaces", []):
-        points, peak = interface.get("points", {}), interface.get("peak-pressure", {})
+        tied = interface.get("tied", False)
+        points, peak = interface.get("points", {}), interface.get("peak-traction" if tied else "peak-pressure", {})
+        counts = "" if tied else f"; {points.get('stick', 0)} stick, {points.get('slip', 0)} slip, {points.get('open', 0)} open"
         rows.append(
             (
-                f"interface {interface.get('name')}",
-                f"peak pressure {peak.get('value', 0.0):.4g} at time {peak.get('time', 0.0):g}; "
-                f"normal force {_size(interface.get('normal-force'))}, shear force {_size(interface.get('shear-force'))}; "
-                f"{points.get('stick', 0)} stick, {points.get('slip', 0)} slip, {points.get('open', 0)} open",
+                f"{'tie' if tied else 'interface'} {interface.get('name')}",
+                f"peak {'traction' if tied else 'pressure'} {peak.get('value', 0.0):.4g} at time {peak.get('time', 0.0):g}; "
+                f"normal force {_size(interface.get('normal-force'))}, shear force {_size(interface.get('shear-force'))}{counts}",
             )
         )
     quality = summary.get("quality", {})

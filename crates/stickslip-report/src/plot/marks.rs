@@ -68,7 +68,7 @@ pub fn arrow(from: [f64; 2], to: [f64; 2], ink: Rgb, em: f64, canvas: &mut dyn C
     canvas.fill(&[to, sides[0], sides[1]], ink);
 }
 
-/// Draws the tractions on the secondary, the longest a tenth of the drawing, in the colour of stick and slip. In a plane they end at the surface that they
+/// Draws the tractions of contact on the secondary, the longest a tenth of the drawing, in the colour of stick and slip. In a plane they end at the surface that they
 /// press on; in space, where pressure would stand on the eye, they are the shear tractions and begin at their points.
 pub fn arrows(sheets: &[Sheet], drawn: &Drawn, dim: usize, canvas: &mut dyn Canvas) {
     let name = if dim == 2 { "CTRACTION" } else { "CSHEAR" };
@@ -174,14 +174,15 @@ pub fn peak(
     canvas.text([start, up + 0.15 * em], text, em, Anchor::Start, INK, false);
 }
 
-/// The traction at the point of an interface that is nearest to a place.
+/// The traction at the point of contact that is nearest to a place.
 fn nearest(sheets: &[Sheet], x: [f64; 3], scale: f64) -> [f64; 3] {
+    let sheets = sheets.iter().filter(|s| !s.tied());
     let away = |(sheet, i): &(&Sheet, usize)| {
         let p = sheet.place(*i, scale);
         (0..3).map(|c| (p[c] - x[c]).powi(2)).sum::<f64>()
     };
     let points = |s: &Sheet| 0..s.grid.points.points.len();
-    let all = sheets.iter().flat_map(|s| points(s).map(move |i| (s, i)));
+    let all = sheets.flat_map(|s| points(s).map(move |i| (s, i)));
     let best = all.min_by(|a, b| away(a).total_cmp(&away(b)));
     best.map_or([0.0; 3], |(sheet, i)| sheet.vector("CTRACTION", i))
 }

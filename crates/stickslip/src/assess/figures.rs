@@ -45,7 +45,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 22] = [
+pub(crate) static ALL: [&Kind; 24] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
@@ -62,10 +62,12 @@ pub(crate) static ALL: [&Kind; 22] = [
     &ROTATION,
     &ROTATION_TO_APPROACH,
     &LOCAL_ROTATION,
+    &FALSE_SHEAR,
     &STRAIN,
     &PRESTRESS,
     &DISPLACEMENT,
     &EXPLICIT_OPENING,
+    &EXPLICIT_PENETRATION,
     &SCHEME_DISSIPATION,
     &ENERGY,
 ];
@@ -235,6 +237,14 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
     help: "nothing holds it back: support it, lower what drives it, or look for a load in the wrong unit; if it is meant to go there, raise `quality.displacement`",
 };
 
+pub(crate) static FALSE_SHEAR: Kind = Kind {
+    name: "false-shear",
+    own: LEAST,
+    model: TRACE,
+    what: "the surfaces have turned and `small-sliding` keeps the normals of the start: pressure has this part of the limit of friction along them, of itself where there is no friction",
+    help: "leave out `kinematics.small-sliding` of the interface: the default follows the surfaces",
+};
+
 // Of energies, as penetration.
 pub(crate) static EXPLICIT_OPENING: Kind = Kind {
     name: "explicit-opening",
@@ -242,6 +252,14 @@ pub(crate) static EXPLICIT_OPENING: Kind = Kind {
     model: TRACE * TRACE,
     what: "in an explicit step springs hold what is tied or coupled, and they give way by this part of what the bodies do",
     help: "refine the cells beside it, whose mass and size bound these springs, mesh both sides as one body, or take an implicit scheme, which ties without springs",
+};
+
+pub(crate) static EXPLICIT_PENETRATION: Kind = Kind {
+    name: "explicit-penetration",
+    own: LEAST * LEAST,
+    model: TRACE * TRACE,
+    what: "in an explicit step springs as stiff as the cells beneath keep surfaces apart and in stick, and they give way by this part of what the bodies do",
+    help: "refine the cells at the surfaces, whose mass and size bound these springs, give the interface a law that is compliant, or take an implicit scheme",
 };
 
 pub(crate) static SCHEME_DISSIPATION: Kind = Kind {

@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::doctor::{Finding, Peak, Watch, longest_way};
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_OPENING,
-    EXPLICIT_WEAR, FALSE_SLIP, FRICTION_LAW, Kind, MOMENT, OSCILLATION, PENETRATION_TO_APPROACH,
-    PENETRATION_TO_SIZE, SCHEME_DISSIPATION, Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+    EXPLICIT_PENETRATION, EXPLICIT_WEAR, FALSE_SHEAR, FALSE_SLIP, FRICTION_LAW, Kind, MOMENT,
+    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, SCHEME_DISSIPATION, Track,
+    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
@@ -298,6 +299,11 @@ impl View<'_> {
             if r.carried <= 0.0 {
                 continue;
             }
+            if interface.on_springs() && !interface.laws.tied {
+                let pair = [0.5 * q.violation_work, energy];
+                let limit = limits.explicit_penetration;
+                gate.note_in_motion(&EXPLICIT_PENETRATION, &place, pair, limit, t);
+            }
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
             if !interface.on_springs() {
                 let size = [q.relative_to_size, 1.0];
@@ -322,6 +328,9 @@ impl View<'_> {
             if let Some(limit) = longest_way(self.model, interface) {
                 let way = [interface.slid(), limit];
                 note(&EXPLICIT_WEAR, way, limits.explicit_wear);
+            }
+            if let Some(pair) = interface.false_shear(&self.frame.state.u) {
+                note(&FALSE_SHEAR, pair, limits.false_shear);
             }
             let excess = [q.excess_shear * q.limit, q.limit];
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
@@ -412,10 +421,20 @@ pub struct InterfaceSummary {
     ///
     /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
     pub exchanged: bool,
+    /// Whether its surfaces are tied: then it has tractions, and no pressure, no points that stick, slip or open and no friction.
+    pub tied: bool,
     /// The largest pressure of the whole run, with its place and time.
-    pub peak_pressure: Peak,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_pressure: Option<Peak>,
     /// The largest pressure at the end `[Pa]`.
-    pub pressure: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
+    /// The largest traction of tied surfaces over the whole run, with its place and time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_traction: Option<Peak>,
+    /// The largest traction of tied surfaces at the end `[Pa]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub traction: Option<f64>,
     /// Sum of pressure forces on the secondary, as it is named, at the end `[N]`.
     pub normal_force: Vec3,
     /// Sum of shear forces on it at the end `[N]`.
@@ -423,9 +442,11 @@ pub struct InterfaceSummary {
     /// Area in contact at the end `[m²]`.
     pub area: f64,
     /// Contact points by what they do at the end.
-    pub points: Points,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<Points>,
     /// What friction took over the whole run `[J]`.
-    pub friction_work: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
     /// Largest unwanted penetration and false slip.
     pub quality: Quality,
     /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
@@ -486,16 +507,20 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
         let strain = view.frame.ledger.strain;
         let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
         let factor = interface.numerical_factor();
+        let tied = interface.laws.tied;
         InterfaceSummary {
             name: interface.name.clone(),
             exchanged: interface.exchanged,
-            peak_pressure: watch.peak(),
-            pressure: r.peak,
+            tied,
+            peak_pressure: (!tied).then(|| watch.peak()),
+            pressure: (!tied).then_some(r.peak),
+            peak_traction: tied.then(|| watch.peak()),
+            traction: tied.then_some(r.peak),
             normal_force: r.normal,
             shear_force: r.shear,
             area: r.area,
-            points: interface.committed_tally().into(),
-            friction_work: interface.energy().dissipated,
+            points: (!tied).then(|| interface.committed_tally().into()),
+            friction_work: (!tied).then(|| interface.energy().dissipated),
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),

@@ -271,6 +271,7 @@ impl Explicit {
         }
         let couplings = &mut contact.couplings;
         couplings.use_springs(true);
+        couplings.start_springs(frame.state.t, &frame.state.u);
         let most = (soon, explicit.frequency);
         couplings.fit_springs(most, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.

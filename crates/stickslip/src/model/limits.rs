@@ -102,6 +102,14 @@ pub struct Limits {
     /// motion bodies may fly as far as they like: there it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub displacement: f64,
+    /// In explicit steps, where springs as stiff as the cells beneath keep surfaces apart and in stick: work of their forces along what they give way, halved, over the elastic energy of all
+    /// bodies, the largest so far of both.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub explicit_penetration: f64,
+    /// What the pressure of an interface with `small-sliding` has along its surfaces, which have turned while its normals stayed: beside the limit of friction, or beside itself where there is no
+    /// friction. It is shear that is not there.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub false_shear: f64,
     /// In explicit steps, where springs hold what is tied or coupled: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
     /// they give way over what the bodies do.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -150,7 +158,9 @@ impl Default for Limits {
             strain: None,
             prestress: 0.05,
             displacement: 1.0,
+            false_shear: 0.25,
             explicit_opening: 0.05,
+            explicit_penetration: 0.25,
             scheme_dissipation: 0.02,
             energy: None,
         }

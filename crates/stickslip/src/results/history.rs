@@ -99,10 +99,15 @@ pub(crate) fn row(
     for interface in &view.contact.interfaces {
         let r = interface.resultant(&view.frame.state.u);
         push_resultant(&mut row, &interface.name, &r, dim);
+        // Tied surfaces pull as well as they press, and do not slide.
+        let (name, tied) = (&interface.name, interface.laws.tied);
         row.push(
-            format!("{}.ALLFD", interface.name),
-            interface.energy().dissipated,
+            format!("{name}.{}", if tied { "TMAX" } else { "CPRESSMAX" }),
+            r.peak,
         );
+        if !tied {
+            row.push(format!("{name}.ALLFD"), interface.energy().dissipated);
+        }
         if let Some(wear) = interface.wear() {
             let [own, other] = wear.depth;
             row.push(format!("{}.CWEARMAX", interface.name), own.max(other));
@@ -196,7 +201,6 @@ fn push_resultant(row: &mut Row, name: &str, r: &Resultant, dim: usize) {
         row.push(format!("{name}.XN{}", c + 1), r.centre[c]);
     }
     row.push(format!("{name}.CAREA"), r.area);
-    row.push(format!("{name}.CPRESSMAX"), r.peak);
 }
 
 fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {

@@ -186,6 +186,10 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
             s if s > 0.0 => 1.0,
             _ => 0.0,
         };
+        // Tied surfaces do not rub.
+        if interface.laws.tied {
+            continue;
+        }
         let mut push = |name: &str, value: f64| {
             row.push(format!("{}.{name}", interface.name), value);
         };

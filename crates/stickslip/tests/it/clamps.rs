@@ -153,3 +153,30 @@ step = [{{ increments.fixed = 2 }}]
         assert!(!rigid || beside == 0.0, "{beside}");
     }
 }
+
+/// A block on an obstacle that a support holds inside it at a corner: no force parts the two there, and none is made up.
+#[test]
+fn a_corner_that_is_clamped_inside_an_obstacle_carries_nothing() {
+    let block = |raised: f64| {
+        format!(
+            "format = 1\nmodel.space = \"plane-strain\"\n\
+             material.m.isotropic = {{ young = 1e7, poisson = 0.3 }}\n\
+             body.b = {{ generate.rectangle = {{ to = [3, 1], cells = [12, 4] }}, material = \"m\" }}\n\
+             obstacle.floor.plane = {{ point = [0, {raised}], normal = [0, 1] }}\n\
+             interface.c = {{ secondary = \"b.bottom\", primary = \"floor\", initial = \"ramp\", friction.coulomb.mu = 0.3 }}\n\
+             support.clamp = {{ set = \"b.right\", x = 0, y = 0 }}\n\
+             load.p = {{ set = \"b.top\", pressure.value = 1e4 }}\n\
+             quality.gate = \"warn\"\nstep = [{{}}]\n"
+        )
+    };
+    let [flush, inside] = [0.0, 1e-4].map(|raised| end(&block(raised)));
+    // Lifted by a ten-thousandth of its height the block bends at the clamp: far less than a force that would part the corner from the floor.
+    let lift = 0.5 * 1e7 * 1e-4;
+    for (row, more) in [(&flush, 0.0), (&inside, lift)] {
+        let carried = value(row, "c.CFN2");
+        assert!((0.0..3e4 + 3.0 * more).contains(&carried), "{carried}");
+        let sum = carried + value(row, "clamp.RF2");
+        assert!((sum - 3e4).abs() < 1e-4 * 3e4, "{sum}");
+    }
+    assert!(value(&inside, "c.CPRESSMAX") < 10.0 * value(&flush, "c.CPRESSMAX"));
+}

@@ -520,7 +520,28 @@ fn small_sliding_says_by_how_much_surfaces_have_turned() {
         (said / (widest / 8.0) - 1.0).abs() < 0.15,
         "{finding} {widest}"
     );
-    assert!(turned(&discs("")).is_none());
+    // Pressure has as much along the surface: in the mean of what presses, beside a limit of a fifth of the pressure.
+    let figure = |simulation: &Simulation| {
+        let figures = simulation.summary.quality.figures.iter();
+        let mut figures = figures.filter(|f| f.figure == "false-shear");
+        figures.next().cloned()
+    };
+    let figure_of = |simulation| figure(simulation).expect("a figure");
+    let [along, force] = column("x")
+        .iter()
+        .zip(column("CNORMF"))
+        .fold([0.0; 2], |[along, force]: [f64; 2], (x, f)| {
+            [along + f * x.abs() / 8.0, force + f]
+        });
+    let judged = figure_of(&simulation);
+    let strict = discs(", kinematics.small-sliding = {} }\nquality.false-shear = 0.1 #");
+    assert!(!figure_of(&strict).met && !strict.summary.quality.met);
+    let expected = along / (0.2 * force);
+    assert!(
+        (judged.value / expected - 1.0).abs() < 0.1,
+        "{judged:?} {expected}"
+    );
+    assert!(turned(&discs("")).is_none() && figure(&discs("")).is_none());
 }
 
 #[test]
@@ -994,7 +1015,11 @@ const FRAMED: [&str; 2] = [
 
 #[test]
 fn a_shaft_that_turns_by_a_small_rotation_is_judged_beside_its_interference() {
-    let peak = |simulation: &Simulation| simulation.summary.interfaces[0].pressure;
+    let peak = |simulation: &Simulation| {
+        simulation.summary.interfaces[0]
+            .pressure
+            .expect("a pressure")
+    };
     let rest = run(&turned_fit(0.0, TIED));
     assert!(rest.summary.quality.met);
     // It grows by R θ² / 2: at 0.04 by 16 on 10 micrometres of interference, whose approach becomes 26.

@@ -144,3 +144,57 @@ fn surfaces_carry_what_the_history_and_the_tables_say() {
         }
     }
 }
+
+#[test]
+fn tied_surfaces_show_tractions_and_are_in_no_count_of_contact() {
+    let text = r#"format = 1
+model.space = "plane-strain"
+body.low = { generate.rectangle = { to = [2, 1], cells = [4, 2] }, material = "m" }
+body.up = { generate.rectangle = { from = [0, 1], to = [2, 2], cells = [3, 2] }, material = "m" }
+material.m.isotropic = { young = 1e3, poisson = 0 }
+interface.glue = { secondary = "up.bottom", primary = "low.top", tied = true }
+support.base = { set = "low.bottom", x = 0, y = 0 }
+load.pull = { set = "up.top", traction.value = [0, 7] }
+step = [{}]
+"#;
+    let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
+    simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
+    let interface = &simulation.contact.interfaces[0];
+    let frame = &simulation.frame.state;
+    let sheet = interface.sheet(&frame.u, frame.t);
+    let names: Vec<&str> = sheet.fields.all.iter().map(|f| f.name.as_str()).collect();
+    assert!(
+        !names.iter().any(|n| n.starts_with('C') && *n != "CNORMAL"),
+        "{names:?}"
+    );
+    let all = stickslip::results::fields(&simulation.view());
+    assert!(
+        all.all
+            .iter()
+            .all(|f| !["CPRESS", "CSTATUS", "COPEN"].contains(&f.name.as_str()))
+    );
+    let of = |fields: &[stickslip::system::Field]| {
+        let field = fields
+            .iter()
+            .find(|f| f.name == "TNORMAL")
+            .expect("tractions");
+        let known: Vec<f64> = field
+            .values
+            .iter()
+            .copied()
+            .filter(|v| !v.is_nan())
+            .collect();
+        assert!(
+            known.len() >= 4 && known.iter().all(|v| (v - 7.0).abs() < 1e-6),
+            "{known:?}"
+        );
+    };
+    of(&sheet.fields.all);
+    of(&all.all);
+    let summary = &simulation.summary.interfaces[0];
+    assert!(summary.tied && summary.pressure.is_none() && summary.points.is_none());
+    assert!(summary.traction.is_some_and(|t| (t - 7.0).abs() < 1e-6));
+    let last = &simulation.summary.last;
+    assert_eq!([last["OPEN"], last["STICK"], last["SLIP"]], [0.0; 3]);
+    assert!((last["glue.TMAX"] - 7.0).abs() < 1e-6 && !last.contains_key("glue.CPRESSMAX"));
+}

@@ -147,6 +147,8 @@ pub struct CouplingsMemory {
     pub(super) forces: Vec<f64>,
     /// What the sums of equations had to be, the stiffness of springs and the coefficient of dashpots, by row.
     pub(super) targets: Vec<f64>,
+    /// By how much the sums of equations were off when springs took their place in an explicit step, by row; empty before one.
+    pub(super) rest: Vec<f64>,
     /// Energy in springs `[J]`.
     pub(super) stored: f64,
     /// Work over the increment of equations whose value changes, and of springs whose stiffness does `[J]`.

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::all::{Act, Hold};
-use super::{Couplings, Row, Tie};
+use super::{Coupling, Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
 impl Couplings {
-    /// Enforces equations by springs, or by multipliers again. The springs start where their force is that of the multiplier. The energy `[J]` that they
-    /// had and that is forgotten now is returned, negative.
+    /// Enforces equations by springs, or by multipliers again. The energy `[J]` that the springs had and that is forgotten now is returned, negative.
     pub fn use_springs(&mut self, springs: bool) -> f64 {
         if self.explicit == springs {
             return 0.0;
@@ -18,6 +17,24 @@ impl Couplings {
             return 0.0;
         }
         self.keep_forces()
+    }
+
+    /// Lets springs in place of equations start at displacements `u` of the time `t` with the force of the multiplier: what an equation is off by there stretches no spring. Springs are stiff,
+    /// and what the tolerance of Newton's method leaves of an equation would be a jolt.
+    pub fn start_springs(&mut self, t: f64, u: &[f64]) {
+        let rest = self.rows().map(|(i, coupling, row)| {
+            match (self.act(i, coupling, t), self.memory.forces[i] != 0.0) {
+                (Act::Held(target), true) => row.sum(u) - target,
+                (Act::Stopped(clearance), true) => row.sum(u) + clearance,
+                _ => 0.0,
+            }
+        });
+        self.memory.rest = rest.collect();
+    }
+
+    /// By how much a row was off when a spring took the place of its equation.
+    pub(super) fn rest(&self, i: usize) -> f64 {
+        self.memory.rest.get(i).copied().unwrap_or(0.0)
     }
 
     /// The couplings that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried
@@ -45,80 +62,73 @@ impl Couplings {
     /// Stiffnesses of the springs in place of equations: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
     /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is.
     pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {
-        let mut hold = std::mem::take(&mut self.hold);
-        // Equations at the same place, or on the same rigid body, share what there is: by how much a unit of stiffness of all of them raises the squared frequency.
-        let mut met = BTreeMap::<(bool, usize), f64>::new();
-        let place = |dof: usize| match links.of_point(dof / self.dim) {
-            Some(body) => (true, body),
-            None => (false, dof),
+        let held = |i: usize, c: &Coupling| {
+            let holds = matches!(self.act(i, c, t), Act::Held(_) | Act::Stopped(_));
+            if holds { 1.0 } else { 0.0 }
         };
-        for (i, coupling, row) in self.rows() {
-            if matches!(self.act(i, coupling, t), Act::Held(_) | Act::Stopped(_)) {
-                let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
-                for (dof, a) in row.terms() {
-                    *met.entry(place(dof)).or_default() += a.abs() * all * inverse_mass[dof];
-                }
-            }
-        }
-        for (i, _, row) in self.rows() {
-            let shared = row.terms().filter_map(|(dof, _)| met.get(&place(dof)));
-            let unit = shared.copied().fold(0.0, f64::max);
-            hold[i] = Hold {
-                stiffness: if unit > 0.0 { highest / unit } else { 0.0 },
-                idle: unit == 0.0,
-            };
-        }
-        self.hold = hold;
+        let units = self.squared_frequencies(&held, inverse_mass, links);
+        let fit = |unit: f64| Hold {
+            stiffness: if unit > 0.0 { highest / unit } else { 0.0 },
+            idle: unit == 0.0,
+        };
+        self.hold = units.into_iter().map(fit).collect();
     }
 
-    /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof: by the rows of the
-    /// stiffness (Gershgorin).
+    /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof.
     pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
-        let mut rows = BTreeMap::new();
-        for (i, coupling, row) in self.rows() {
-            let stiffness = match self.act(i, coupling, t) {
-                Act::Idle | Act::Pulled(_) | Act::Damped(_) => continue,
-                Act::Sprung(_) => coupling.tie.stiffness() * most(&coupling.schedule),
-                Act::Held(_) | Act::Stopped(_) => self.hold[i].stiffness,
-            };
-            add_row(&mut rows, row, stiffness);
-        }
-        self.largest(rows, inverse_mass, links)
+        let stiffness = |i: usize, coupling: &Coupling| match self.act(i, coupling, t) {
+            Act::Idle | Act::Pulled(_) | Act::Damped(_) => 0.0,
+            Act::Sprung(_) => coupling.tie.stiffness() * most(&coupling.schedule),
+            Act::Held(_) | Act::Stopped(_) => self.hold[i].stiffness,
+        };
+        let all = self.squared_frequencies(&stiffness, inverse_mass, links);
+        all.into_iter().fold(0.0, f64::max)
     }
 
     /// An upper bound of the rate `[1/s]` at which all dashpots that act from `t` on take velocity away, found alike.
     pub fn highest_rate(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
-        let mut rows = BTreeMap::new();
-        for (_, coupling, row) in self.rows() {
-            if let Tie::Dashpot { coefficient } = coupling.tie
-                && coupling.schedule.active(t)
-            {
-                add_row(&mut rows, row, coefficient * most(&coupling.schedule));
+        let rate = |_: usize, coupling: &Coupling| match coupling.tie {
+            Tie::Dashpot { coefficient } if coupling.schedule.active(t) => {
+                coefficient * most(&coupling.schedule)
             }
-        }
-        self.largest(rows, inverse_mass, links)
+            _ => 0.0,
+        };
+        let all = self.squared_frequencies(&rate, inverse_mass, links);
+        all.into_iter().fold(0.0, f64::max)
     }
 
-    /// The largest sum of a row of a matrix over the mass, those of a rigid body together.
-    fn largest(&self, rows: BTreeMap<usize, f64>, inverse_mass: &[f64], links: &Links) -> f64 {
-        let mut highest = 0.0_f64;
-        let mut rigid = vec![0.0; links.all().len()];
-        for (dof, k) in rows {
-            let squared = k * inverse_mass[dof];
-            match links.of_point(dof / self.dim) {
-                None => highest = highest.max(squared),
-                Some(body) => rigid[body] += squared,
+    /// By row `i` a bound of its part in the squared frequencies that springs with these stiffnesses make with inverse masses `w` by dof: those of `Aᵀ K A u = ω² M u` are the
+    /// eigenvalues of `K A M⁻¹ Aᵀ`, none of which is above the largest of `k_i Σ_d |a_id| w_d Σ_j |a_jd|` (Gershgorin), the sum over `j` being one of the rows that have a stiffness. A factor that is
+    /// rounding counts as much as it is. Dofs of a rigid body move together, and count as if they were one.
+    fn squared_frequencies(
+        &self,
+        stiffness: &dyn Fn(usize, &Coupling) -> f64,
+        inverse_mass: &[f64],
+        links: &Links,
+    ) -> Vec<f64> {
+        let place = |dof: usize| match links.of_point(dof / self.dim) {
+            Some(body) => (true, body),
+            None => (false, dof),
+        };
+        let gives = |dof: usize, a: f64| a.abs() * inverse_mass[dof].sqrt();
+        let mut met = BTreeMap::<(bool, usize), f64>::new();
+        let acting = self.rows().map(|(i, c, row)| (stiffness(i, c), row));
+        let acting: Vec<(f64, &Row)> = acting.collect();
+        for (_, row) in acting.iter().filter(|(k, _)| *k != 0.0) {
+            for (dof, a) in row.terms() {
+                *met.entry(place(dof)).or_default() += gives(dof, a);
             }
         }
-        rigid.into_iter().fold(highest, f64::max)
-    }
-}
-
-/// Adds the sizes in the rows of the matrix of one row with a stiffness.
-fn add_row(rows: &mut BTreeMap<usize, f64>, row: &Row, stiffness: f64) {
-    let all: f64 = row.terms().map(|(_, a)| a.abs()).sum();
-    for (dof, a) in row.terms() {
-        *rows.entry(dof).or_default() += stiffness * a.abs() * all;
+        let of = |(k, row): &(f64, &Row)| match *k != 0.0 {
+            true => {
+                k * row
+                    .terms()
+                    .map(|(dof, a)| gives(dof, a) * met[&place(dof)])
+                    .sum::<f64>()
+            }
+            false => 0.0,
+        };
+        acting.iter().map(of).collect()
     }
 }
 

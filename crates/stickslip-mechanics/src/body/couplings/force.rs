@@ -72,7 +72,8 @@ impl Force for Couplings {
                         true => hold.stiffness,
                         false => self.eliminated_by(i),
                     };
-                    let pull = stiffness * off;
+                    let rest = if self.explicit { self.rest(i) } else { 0.0 };
+                    let pull = stiffness * (off - rest);
                     let known = match self.explicit {
                         true => self.memory.multipliers[i],
                         false => now[i],
@@ -156,14 +157,15 @@ impl Force for Couplings {
             let was = std::mem::replace(&mut memory.targets[i], target);
             match act {
                 Act::Held(_) => {
-                    let pull = self.hold[i].stiffness * (sum - target);
+                    let stretch = sum - target - memory.rest.get(i).unwrap_or(&0.0);
+                    let pull = self.hold[i].stiffness * stretch;
                     let force = match self.explicit {
                         true => memory.multipliers[i] + pull,
                         false => self.iterate.now[i],
                     };
                     if self.explicit && !self.hold[i].idle {
                         // the spring, and the force with which it started
-                        memory.stored += (sum - target) * (memory.multipliers[i] + 0.5 * pull);
+                        memory.stored += stretch * (memory.multipliers[i] + 0.5 * pull);
                     } else {
                         memory.multipliers[i] = force;
                     }
@@ -186,9 +188,12 @@ impl Force for Couplings {
                 }
                 Act::Stopped(clearance) => {
                     let (held, hold) = (memory.multipliers[i], self.hold[i]);
+                    let rest = memory.rest.get(i).copied().unwrap_or(0.0);
                     let force = match (hold.idle, self.explicit) {
                         (true, _) => 0.0,
-                        (false, true) => (held + hold.stiffness * (sum + clearance)).min(0.0),
+                        (false, true) => {
+                            (held + hold.stiffness * (sum + clearance - rest)).min(0.0)
+                        }
                         (false, false) => self.iterate.now[i],
                     };
                     if self.explicit && !hold.idle && hold.stiffness > 0.0 {

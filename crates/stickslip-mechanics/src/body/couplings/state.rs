@@ -7,6 +7,7 @@ crate::keep!(CouplingsMemory {
     multipliers,
     forces,
     targets,
+    rest,
     stored,
     work,
     damped

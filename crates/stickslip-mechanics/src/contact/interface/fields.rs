@@ -17,14 +17,14 @@ struct Sums {
 }
 
 impl Interface {
-    /// Adds the fields of the last committed state: CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, CFORCE, the force on each node, and
+    /// Adds the fields of the last committed state: CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip) on both sides, of tied surfaces TNORMAL, positive in tension, and TSHEAR1/2 instead, CFORCE, the force on each node, and
     /// what sliding leaves: CDISS and CWEAR. A value at a node is the mean of the points that hang on it or lie over it, weighted by
     /// their areas there; where both surfaces are secondary only of those that hang on it, as slip and shear of the other half have the other sign. Where no
     /// interface is the values are NaN, except for forces, which are zero.
     pub fn fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let sums = self.sums();
-        for (k, (name, _)) in MEANS.into_iter().enumerate() {
+        for (k, &(name, _)) in self.shown_means().iter().enumerate() {
             if dim == 2 && name.ends_with('2') {
                 continue;
             }
@@ -35,10 +35,12 @@ impl Interface {
                 }
             }
         }
-        let field = out.shared("CSTATUS", Location::Point, 1, points, f64::NAN);
-        for (sum, &node) in sums.iter().zip(&self.nodes) {
-            if sum.share > 0.0 {
-                field.values[node] = sum.status;
+        if !self.laws.tied {
+            let field = out.shared("CSTATUS", Location::Point, 1, points, f64::NAN);
+            for (sum, &node) in sums.iter().zip(&self.nodes) {
+                if sum.share > 0.0 {
+                    field.values[node] = sum.status;
+                }
             }
         }
         let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);
@@ -70,12 +72,12 @@ impl Interface {
             }
             let opposite = self.history.opposite.of(i).iter().filter(|_| !half);
             for (node, w) in self.own_weights(i).chain(opposite.copied()) {
-                let share = values.area * w.max(0.0);
+                let share = values.share * w.max(0.0);
                 if share <= 0.0 {
                     continue;
                 }
                 let at = &mut sums[node];
-                for (sum, (_, value)) in at.values.iter_mut().zip(MEANS) {
+                for (sum, (_, value)) in at.values.iter_mut().zip(self.shown_means()) {
                     *sum += share * value(&values);
                 }
                 let [_, shear, slip] = values.vectors;

@@ -102,7 +102,9 @@ impl Force for Interface {
             changed: self.attempt.changed,
             ..Tally::default()
         };
-        for e in &self.cache.last.points {
+        // Tied surfaces neither stick nor slip.
+        let points = self.cache.last.points.iter().filter(|_| !self.laws.tied);
+        for e in points {
             match e.response.status {
                 Status::Open => tally.open += 1,
                 Status::Stick => tally.stick += 1,

@@ -20,9 +20,9 @@ pub struct Resultant {
     pub moment_of_shear: Vec3,
     /// Area in contact `[m²]`.
     pub area: f64,
-    /// Largest pressure `[Pa]`.
+    /// Largest pressure; of tied surfaces the largest magnitude of the traction `[Pa]`.
     pub peak: f64,
-    /// Where it is `[m]`, displaced; of points that press alike the first. The origin where nothing presses.
+    /// Where it is `[m]`, displaced; of points that are alike the first. The origin where nothing acts.
     pub peak_at: Vec3,
     /// Sum of the magnitudes of pressure forces, whatever their directions `[N]`.
     pub total: f64,
@@ -55,13 +55,18 @@ impl Interface {
             r.centre = add_scaled(r.centre, h.pressure * area, place);
             signed += h.pressure * area;
             r.total += h.pressure.abs() * area;
-            r.carried += h.pressure.hypot(norm(h.shear)) * area;
+            let traction = h.pressure.hypot(norm(h.shear));
+            r.carried += traction * area;
             r.area += area;
+            let most = match self.laws.tied {
+                true => traction,
+                false => h.pressure,
+            };
             // What is larger by rounding only is no other place.
-            if h.pressure > (1.0 + ALIKE) * r.peak {
+            if most > (1.0 + ALIKE) * r.peak {
                 r.peak_at = add(place, self.origin);
             }
-            r.peak = r.peak.max(h.pressure);
+            r.peak = r.peak.max(most);
         }
         // What nodes are given is the force: the mean of normals around a point is shorter than one, and multipliers are met to a tolerance.
         let mut all = [0.0; 3];

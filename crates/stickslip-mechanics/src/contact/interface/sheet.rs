@@ -47,7 +47,7 @@ struct Shown {
 
 impl Interface {
     /// The surface with U, UREL, by how much it has moved more than what lies opposite now (not a number where nothing does), CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip), CDISS, CWEAR, and as vectors CNORMAL, out of the primary,
-    /// CTRACTION, what acts on the secondary, CSHEAR, the part of it along the surface, and CSLIP. Where gaps are weighted over faces a corner is a contact point,
+    /// CTRACTION, what acts on the secondary, CSHEAR, the part of it along the surface, and CSLIP. Tied surfaces have TNORMAL, positive in tension, TSHEAR1/2, and the vectors TTRACTION and TSHEAR instead. Where gaps are weighted over faces a corner is a contact point,
     /// so that both sides of a sharp edge have values of their own; elsewhere it is a node, with the mean of the points that hang on it.
     ///
     /// `u`: displacements; `t`: time, at which a rigid obstacle is where its motion has it.
@@ -67,17 +67,23 @@ impl Interface {
         push("U", 3, corners.iter().flat_map(|c| c.moved).collect());
         let relative = corners.iter().flat_map(|c| self.relative(c, &moved, t));
         push("UREL", 3, relative.collect());
-        for (k, (name, _)) in MEANS.into_iter().enumerate() {
+        for (k, &(name, _)) in self.shown_means().iter().enumerate() {
             if self.dofs.dim == 3 || !name.ends_with('2') {
                 push(name, 1, shown.iter().map(|s| s.values[k]).collect());
             }
         }
-        push("CSTATUS", 1, shown.iter().map(|s| s.status).collect());
         push("CNORMAL", 3, shown.iter().flat_map(|s| s.normal).collect());
-        for (k, name) in ["CTRACTION", "CSHEAR", "CSLIP"].into_iter().enumerate() {
+        let vectors: &[&str] = match self.laws.tied {
+            true => &["TTRACTION", "TSHEAR"],
+            false => &["CTRACTION", "CSHEAR", "CSLIP"],
+        };
+        for (k, name) in vectors.iter().enumerate() {
             push(name, 3, shown.iter().flat_map(|s| s.vectors[k]).collect());
         }
-        push("CDISS", 1, shown.iter().map(|s| s.dissipated).collect());
+        if !self.laws.tied {
+            push("CSTATUS", 1, shown.iter().map(|s| s.status).collect());
+            push("CDISS", 1, shown.iter().map(|s| s.dissipated).collect());
+        }
         if self.laws.wear.as_dyn().active() {
             push("CWEAR", 1, shown.iter().map(|s| s.worn).collect());
         }
@@ -187,7 +193,7 @@ impl Interface {
             }
             let faces = values.gap.is_finite();
             facing += if faces { w } else { 0.0 };
-            for (total, (name, value)) in shown.values.iter_mut().zip(MEANS) {
+            for (total, &(name, value)) in shown.values.iter_mut().zip(self.shown_means()) {
                 // A gap to nothing is no distance.
                 if faces || name != GAP {
                     *total += w * value(&values);
@@ -199,7 +205,7 @@ impl Interface {
         }
         shown.normal = normalize(shown.normal).unwrap_or_default();
         // Divided by nothing, what is not known is not a number.
-        for (total, (name, _)) in shown.values.iter_mut().zip(MEANS) {
+        for (total, &(name, _)) in shown.values.iter_mut().zip(self.shown_means()) {
             *total /= if name == GAP { facing } else { sum };
         }
         for total in &mut shown.vectors {

@@ -14,30 +14,44 @@ impl Interface {
     ///
     /// It has two parts: by how much the secondary has turned there, and by how much the primary turns over the path that the point has slid.
     pub fn normals_turned(&self, u: &[f64]) -> f64 {
+        let points = &self.history.points;
+        let most = points.iter().map(|h| h.pressure).fold(0.0, f64::max);
+        let turns = self.turns_of_normals(u).into_iter();
+        let pressed = turns.filter(|(i, _)| points[*i].pressure > PRESSED * most);
+        pressed.map(|(_, turn)| turn).fold(0.0, f64::max)
+    }
+
+    /// Force that pressure has along the surfaces as they are now, as normals are those of the reference configuration, and what it is judged beside: the limit of friction, or the
+    /// force of pressure where there is none, `Σ A p sin θ` and `Σ A q` or `Σ A p` `[N]`; `None` unless normals are those of the reference configuration.
+    pub fn false_shear(&self, u: &[f64]) -> Option<[f64; 2]> {
+        let turns = self.turns_of_normals(u);
+        let frictional = self.laws.friction_law().frictional();
+        let sum = turns.iter().fold([0.0; 2], |[along, beside], &(i, turn)| {
+            let h = &self.history.points[i];
+            let most = if frictional { h.limit } else { h.pressure };
+            let area = self.area_of(i);
+            [along + area * h.pressure * turn.sin(), beside + area * most]
+        });
+        (!turns.is_empty()).then_some(sum)
+    }
+
+    /// The points that press, and by how much the normal of each differs from what it is now; none unless normals are those of the reference configuration.
+    fn turns_of_normals(&self, u: &[f64]) -> Vec<(usize, f64)> {
         let committed = &self.history.points;
-        if !self.kinematics.as_dyn().frozen()
-            || self.rigid()
-            || committed.len() != self.points.len()
-        {
-            return 0.0;
+        let frozen = self.kinematics.as_dyn().frozen() && !self.rigid() && !self.laws.tied;
+        if !frozen || committed.len() != self.points.len() {
+            return Vec::new();
         }
-        let most = committed.iter().map(|h| h.pressure).fold(0.0, f64::max);
-        if most <= 0.0 {
-            return 0.0;
-        }
-        let (before, now) = (
-            self.means(&self.reference),
-            self.means(&self.coordinates(u)),
-        );
+        let [before, now] = [&self.reference, &self.coordinates(u)].map(|x| self.mean_normals(x));
         let bend = self.bend();
-        let pressed = (committed.iter().enumerate()).filter(|(_, h)| h.pressure > PRESSED * most);
+        let pressed = (committed.iter().enumerate()).filter(|(_, h)| h.pressure > 0.0);
         pressed
-            .map(|(i, h)| angle(before[i], now[i]).max(bend * norm(h.slip)))
-            .fold(0.0, f64::max)
+            .map(|(i, h)| (i, angle(before[i], now[i]).max(bend * norm(h.slip))))
+            .collect()
     }
 
     /// Sums of the normals of the faces around each point of the secondary.
-    fn means(&self, x: &[Vec3]) -> Vec<Vec3> {
+    fn mean_normals(&self, x: &[Vec3]) -> Vec<Vec3> {
         let mut sums = vec![[0.0; 3]; self.points.len()];
         for skin in &self.skin {
             let nodes: Vec<Vec3> = skin.facet.nodes.iter().map(|&n| x[n]).collect();

@@ -1,6 +1,7 @@
 //! What is shown of a contact point, in fields and in the table: one list of names and values.
 
 use super::definition::Interface;
+use crate::contact::mortar::heirs;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale};
 
@@ -19,12 +20,14 @@ pub(super) struct PointValues {
     /// 0 open, 1 stick, 2 slip.
     pub status: f64,
     pub area: f64,
+    /// What it counts in means at nodes: its area, and without a multiplier that of its node.
+    pub share: f64,
 }
 
 /// A name and the value that goes by it.
 pub(super) type Shown = (&'static str, fn(&PointValues) -> f64);
 
-/// What is shown as a mean at nodes.
+/// What is shown of contact as a mean at nodes.
 pub(super) const MEANS: [Shown; 6] = [
     ("CPRESS", |v| v.pressure),
     ("CSHEAR1", |v| v.shear[0]),
@@ -32,6 +35,13 @@ pub(super) const MEANS: [Shown; 6] = [
     ("COPEN", |v| v.gap),
     ("CSLIP1", |v| v.slip[0]),
     ("CSLIP2", |v| v.slip[1]),
+];
+
+/// What is shown of tied surfaces as a mean at nodes: they pull as well as they press, and neither part nor slide.
+const TRACTIONS: [Shown; 3] = [
+    ("TNORMAL", |v| -v.pressure),
+    ("TSHEAR1", |v| v.shear[0]),
+    ("TSHEAR2", |v| v.shear[1]),
 ];
 
 /// Two output directions in a surface: the x axis (or y, z where the normal is along it) laid into it, and the one across.
@@ -48,8 +58,41 @@ fn output_frame(normal: Vec3, dim: usize) -> [Vec3; 2] {
 }
 
 impl Interface {
-    /// What is shown of a point.
+    /// What is shown as a mean at nodes.
+    pub(super) fn shown_means(&self) -> &'static [Shown] {
+        match self.laws.tied {
+            true => &TRACTIONS,
+            false => &MEANS,
+        }
+    }
+
+    /// What is shown of a point. One without a multiplier, as its motion is given, shows the mean of those that took its part.
     pub(super) fn values(&self, i: usize) -> PointValues {
+        let own = self.own_values(i);
+        let heirs = match &self.mortar {
+            Some(mortar) => heirs(mortar, i),
+            None => Vec::new(),
+        };
+        let of: Vec<PointValues> = heirs.into_iter().map(|k| self.own_values(k)).collect();
+        let Some(first) = of.first() else {
+            return own;
+        };
+        let part = 1.0 / of.len() as f64;
+        let mean = |of_one: &dyn Fn(&PointValues) -> f64| of.iter().map(|v| part * of_one(v)).sum();
+        PointValues {
+            pressure: mean(&|v| v.pressure),
+            shear: [0, 1].map(|c| mean(&|v| v.shear[c])),
+            slip: [0, 1].map(|c| mean(&|v| v.slip[c])),
+            gap: mean(&|v| v.gap),
+            vectors: [0, 1, 2].map(|k| [0, 1, 2].map(|c| mean(&|v| v.vectors[k][c]))),
+            status: first.status,
+            share: self.points[i].area * self.share,
+            ..own
+        }
+    }
+
+    /// What a point itself has.
+    fn own_values(&self, i: usize) -> PointValues {
         let h = &self.history.points[i];
         let normal = match h.normal == [0.0; 3] {
             true => scale(-1.0, self.points[i].normal),
@@ -70,6 +113,7 @@ impl Interface {
                 Status::Slip => 2.0,
             },
             area: self.area_of(i),
+            share: self.area_of(i),
         }
     }
 }

@@ -7,7 +7,7 @@
 //! points of a line; [Puso and Laursen 2004](stickslip_base::references::puso_2004)). A node beyond the edge of the primary has a function that is small everywhere on the
 //! part that is covered. What its constraint asks for would act on next to no area. Its part is taken by the neighbours as well.
 
-use super::face::{FACE_NODES, Face};
+use super::face::{FACE_NODES, Face, Mortar};
 use crate::shape::ElementKind;
 
 /// Which nodes of a face have no multiplier: a bit a node.
@@ -35,6 +35,27 @@ pub fn merged(faces: &[Face], covered: &[f64]) -> Vec<Merged> {
             .fold(0, |m, (a, _)| m | 1 << a)
     };
     faces.iter().map(of).collect()
+}
+
+/// The points that take the part of a point whose own motion is given on all faces around it, once for each face that they share; none where it keeps its multiplier.
+pub fn heirs(mortar: &Mortar, point: usize) -> Vec<usize> {
+    let around = &mortar.around[point];
+    let gives = |&(f, a): &(usize, usize)| {
+        let held = &mortar.faces[f].held;
+        held[a] && held.contains(&false)
+    };
+    if !around.iter().all(gives) {
+        return Vec::new();
+    }
+    let of = |&(f, a): &(usize, usize)| {
+        let face = &mortar.faces[f];
+        let bits = face.held.iter().enumerate().filter(|(_, held)| **held);
+        let merged = bits.fold(0, |m, (k, _)| m | 1 << k);
+        nearest(face.kind, merged, a)
+            .into_iter()
+            .map(|k| face.points[k])
+    };
+    around.iter().flat_map(of).collect()
 }
 
 /// Nodes beside each other along the edges of a face.

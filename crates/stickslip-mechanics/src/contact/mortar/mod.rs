@@ -36,5 +36,5 @@ pub use dual::{mean_weights, positive, positive_areas};
 pub use face::{FACE_NODES, Face, Mortar};
 pub use integral::{FaceIntegral, Piece};
 pub use integrate::{Scratch, integrate};
-pub use merge::{Merged, merged};
+pub use merge::{Merged, heirs, merged};
 pub use sides::Sides;

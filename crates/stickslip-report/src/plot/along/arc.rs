@@ -99,14 +99,14 @@ impl Arc {
             let (a, b) = (x(i.saturating_sub(1)), x((i + 1).min(last)));
             let t = [0, 1, 2].map(|c| b[c] - a[c]);
             let length = t.iter().map(|v| v * v).sum::<f64>().sqrt();
-            let shear = sheet.vector("CSHEAR", self.points[i]);
+            let shear = sheet.shear(self.points[i]);
             (0..3).map(|c| shear[c] * t[c]).sum::<f64>() / length
         };
         (0..self.points.len()).map(along).collect()
     }
 }
 
-/// Draws pressure and shear over the arc, with the status below.
+/// Draws pressure and shear over the arc, with the status below; of a tie the normal traction and shear.
 pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), String> {
     let arc = Arc::of(sheet);
     // A break is a point without a value, so that lines are parted there.
@@ -126,11 +126,19 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
         out
     };
     let s = with_breaks(&arc.s, 0.0);
-    let [pressure, status] = ["CPRESS", "CSTATUS"].map(|name| with_breaks(&column(name), f64::NAN));
+    let tied = sheet.tied();
+    let name = if tied { "TNORMAL" } else { "CPRESS" };
+    let normal = with_breaks(&column(name), f64::NAN);
+    let status = match tied {
+        true => Vec::new(),
+        false => with_breaks(&column("CSTATUS"), f64::NAN),
+    };
     let shear = with_breaks(&arc.shear(sheet), f64::NAN);
+    // A tie carries everywhere.
+    let pressure: &[f64] = if tied { &[] } else { &normal };
     let most = pressure.iter().copied().fold(0.0, f64::max);
     let end = s.last().copied().unwrap_or(0.0);
-    let pressing = s.iter().zip(&pressure).filter(|(_, p)| **p > 1e-3 * most);
+    let pressing = s.iter().zip(pressure).filter(|(_, p)| **p > 1e-3 * most);
     let patch = crate::field::range(pressing.map(|(s, _)| *s));
     let [from, to] = match (page.zoom, patch) {
         (Zoom::Contact, None) => {
@@ -150,7 +158,10 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
     };
     let stress = behind(&page.units.stress);
     let names = [
-        format!("contact pressure CPRESS{stress}"),
+        match tied {
+            true => format!("normal traction TNORMAL{stress}"),
+            false => format!("contact pressure CPRESS{stress}"),
+        },
         format!("shear traction along it{stress}"),
     ];
     let chart = Chart {
@@ -160,7 +171,7 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
         along: &format!("length along the surface{}", behind(&page.units.length)),
         from,
         to,
-        lines: vec![(&names[0], &pressure), (&names[1], &shear)],
+        lines: vec![(&names[0], &normal), (&names[1], &shear)],
         statuses: &status,
     };
     let nothing = || "the surface has no values at this time".to_string();

@@ -1,4 +1,4 @@
-//! Maps of a surface in space: its pressure, and beside it stick and slip with the shear as arrows.
+//! Maps of a surface in space: its pressure, and beside it stick and slip with the shear as arrows; of a tie the normal and the shear traction.
 
 use super::super::camera::Frame;
 use super::super::marks::{Drawn, arrow, ink};
@@ -75,7 +75,11 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
         true => (beside, [fit(beside) * wide + 3.0 * em + bar + margin, 0.0]),
         false => (above, [0.0, above[1] + 4.0 * em]),
     };
-    for (k, name) in ["CPRESS", STATUS].into_iter().enumerate() {
+    let names = match sheet.tied() {
+        true => ["TNORMAL", "TSHEAR"],
+        false => ["CPRESS", STATUS],
+    };
+    for (k, name) in names.into_iter().enumerate() {
         let at = [0, 1].map(|c| [margin + 3.0 * em, 5.6 * em][c] + k as f64 * step[c]);
         let room = [room[0] - 3.0 * em, room[1]];
         let one = Panel {
@@ -87,7 +91,7 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
             bar,
             em,
         };
-        one.draw(name, page, canvas);
+        one.draw(name, k == 1, page, canvas);
     }
     Ok(())
 }
@@ -104,32 +108,36 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    fn draw(&self, name: &str, page: &Page, canvas: &mut dyn Canvas) {
+    /// Draws a field, a vector by its magnitude, and arrows of the shear if they are wanted.
+    fn draw(&self, name: &str, arrows: bool, page: &Page, canvas: &mut dyn Canvas) {
         let em = self.em;
         let fine = FINE as f64;
         let span = [0, 1].map(|c| (self.seen[1][c] - self.seen[0][c]).max(1e-300));
         let zoom = (self.room[0] / span[0]).min(self.room[1] / span[1]);
         let area = span.map(|s| (s * zoom).max(2.0 * em));
         let frame = Frame::fit(self.seen[0], self.seen[1], [0.0; 2], area.map(|a| a * fine));
+        let array = self.sheet.grid.points.arrays.get(name);
         let field = Field {
             name: name.into(),
             array: name.into(),
-            component: Some(0),
+            component: array.filter(|a| a.components == 1).map(|_| 0),
         };
-        let values = self.sheet.numbers(name);
-        let high = values
-            .iter()
-            .copied()
-            .filter(|v| v.is_finite())
-            .fold(0.0, f64::max);
+        let count = self.plan.len();
+        let values: Vec<f64> = match array {
+            Some(array) => (0..count).map(|i| field.value(array, i)).collect(),
+            None => vec![f64::NAN; count],
+        };
+        let [low, high] = crate::field::range(values.iter().copied()).unwrap_or([0.0; 2]);
+        let signed = low < 0.0;
+        let most = high.max(-low);
         let colours = Scale {
-            range: [0.0, high],
-            signed: false,
+            range: [if signed { -most } else { 0.0 }, most],
+            signed,
             status: name == STATUS,
-            carried: true,
+            carried: !signed,
         };
         let mut raster = Raster::new(area.map(|a| (a * fine) as usize));
-        self.paint(values, &colours, &frame, &mut raster);
+        self.paint(&values, &colours, &frame, &mut raster);
         canvas.picture(
             self.at,
             area.map(|a| (a * fine) as usize),
@@ -137,19 +145,18 @@ impl Panel<'_> {
             &raster.pixels,
         );
         self.axes(area, &frame, canvas);
-        let shown: Vec<f64> = values.to_vec();
         let unit = behind(page.units.of_field(&field));
         let place = [self.at[0] + area[0] + 1.2 * em, self.at[1]];
         legend::bar(
             (&field, &unit),
             &colours,
-            &shown,
+            &values,
             place,
             [self.bar - 1.2 * em, area[1].max(12.0 * em)],
             em,
             canvas,
         );
-        if name == STATUS {
+        if arrows {
             self.arrows(area, &frame, canvas);
         }
     }
@@ -228,15 +235,9 @@ impl Panel<'_> {
     fn arrows(&self, area: [f64; 2], frame: &Frame, canvas: &mut dyn Canvas) {
         let em = self.em;
         let count = self.plan.len();
-        let most = self
-            .sheet
-            .numbers("CSHEAR1")
-            .iter()
-            .zip(self.sheet.numbers("CSHEAR2"));
-        let most = most
-            .map(|(a, b)| a.hypot(*b))
-            .filter(|v| v.is_finite())
-            .fold(0.0, f64::max);
+        let size = |t: [f64; 3]| t.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let sizes = (0..count).map(|i| size(self.sheet.shear(i)));
+        let most = sizes.filter(|v| v.is_finite()).fold(0.0, f64::max);
         if most <= 0.0 {
             return;
         }
@@ -254,8 +255,8 @@ impl Panel<'_> {
             let Some(p) = drawn.place([self.plan[i][0], self.plan[i][1], 0.0]) else {
                 continue;
             };
-            let t = self.sheet.vector("CSHEAR", i);
-            let size = t.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let t = self.sheet.shear(i);
+            let size = size(t);
             let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < 1.9 * em;
             if size.is_nan() || size <= 0.03 * most || taken.iter().any(near) {
                 continue;

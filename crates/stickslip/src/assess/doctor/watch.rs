@@ -21,18 +21,18 @@ pub(crate) struct Watch {
     /// The largest turn of normals that small sliding leaves out so far `[rad]`, and its time.
     turn: f64,
     turned_at: f64,
-    /// The largest pressure so far.
+    /// The largest pressure so far, of tied surfaces the largest traction.
     peak: Peak,
     /// When it carried something last, and the points that did.
     carried_at: f64,
     carriers: Vec<usize>,
 }
 
-/// The largest pressure of an interface over a run.
+/// The largest pressure of an interface over a run, or the largest traction of tied surfaces.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Peak {
-    /// The pressure `[Pa]`; 0 where nothing ever pressed.
+    /// The pressure or traction `[Pa]`; 0 where nothing ever acted.
     pub value: f64,
     /// The contact point that carried it `[m]`, displaced.
     pub at: Vec3,

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::body::couplings::{Coupling, Tie};
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::Interface;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
 use crate::system::{Course, Dofs, Link, Links};
@@ -83,14 +83,14 @@ impl<'a> HeldNodes<'a> {
         std::array::from_fn(|c| c < self.dofs.dim && !free && among[self.dofs.of(point, c)])
     }
 
-    /// Whether it is prescribed along each axis how a point moves, in all steps: because it follows, or over a body also by supports.
-    fn clamped(&self, point: usize, over_body: bool) -> [bool; 3] {
+    /// Whether it is prescribed along each axis how a point moves, in all steps: by supports, or because it follows.
+    fn clamped(&self, point: usize) -> [bool; 3] {
         let by_support = self.of(point, &self.always);
         let follows = |c: usize| match self.links.of_point(point) {
             Some(link) => self.led.bodies.contains(&link),
             None => self.led.dofs.contains(&self.dofs.of(point, c)),
         };
-        std::array::from_fn(|c| c < self.dofs.dim && (over_body && by_support[c] || follows(c)))
+        std::array::from_fn(|c| c < self.dofs.dim && (by_support[c] || follows(c)))
     }
 
     /// Marks the nodes of all interfaces: those of ties first, as a node that is tied twice follows once.
@@ -103,10 +103,7 @@ impl<'a> HeldNodes<'a> {
 
     fn mark_one(&mut self, interface: &mut Interface) {
         let (tied, dim) = (interface.laws.tied, self.dofs.dim);
-        let over_body = matches!(interface.primary, Primary::Facets(_));
-        interface.clamped = (interface.nodes.iter())
-            .map(|&n| self.clamped(n, over_body))
-            .collect();
+        interface.clamped = (interface.nodes.iter()).map(|&n| self.clamped(n)).collect();
         let Some(mortar) = &mut interface.mortar else {
             return;
         };
