@@ -13,6 +13,9 @@ pub const APART: &[(&str, &str, &str)] = &[
         "The corner is one of a rigid body.",
     ),
     ("stop-across", "floor", "There is no lower corner."),
+    ("dashpot-across", "floor", "There is no lower corner."),
+    ("spring-across", "floor", "There is no lower corner."),
+    ("turning", "multigrid", "Grids know of no frame that turns."),
     (
         "clamp",
         "displaced",

@@ -53,7 +53,7 @@ pub const FEATURES: &[Feature] = &[
         0.7,
         &["implicit", "explicit", "complex-modes"],
         |s, _| {
-            let c = number(0.05 * s.view.modulus * s.view.length * s.view.time());
+            let c = number(0.05 * s.force_unit() / s.view.length * s.view.time());
             s.table(format!(
                 "coupling.across.dashpot = {{ {}, coefficient = {c} }}",
                 across(s)

@@ -24,23 +24,28 @@ impl Interface {
     pub fn fields(&self, out: &mut Fields) {
         let (points, dim) = (self.dofs.points, self.dofs.dim);
         let sums = self.sums();
-        for (k, &(name, _)) in self.shown_means().iter().enumerate() {
+        // A node of several interfaces shows the one that carries most there.
+        let means = self.shown_means();
+        let field = out.shared(means[0].0, Location::Point, 1, points, f64::NAN);
+        let shows = |(sum, node): &(&Sums, usize)| {
+            let (carried, other) = (sum.values[0] / sum.share, field.values[*node]);
+            sum.share > 0.0 && (other.is_nan() || carried.abs() >= other.abs())
+        };
+        let all = sums.iter().zip(self.nodes.iter().copied());
+        let shown: Vec<(&Sums, usize)> = all.filter(shows).collect();
+        for (k, &(name, _)) in means.iter().enumerate() {
             if dim == 2 && name.ends_with('2') {
                 continue;
             }
             let field = out.shared(name, Location::Point, 1, points, f64::NAN);
-            for (sum, &node) in sums.iter().zip(&self.nodes) {
-                if sum.share > 0.0 {
-                    field.values[node] = sum.values[k] / sum.share;
-                }
+            for (sum, node) in &shown {
+                field.values[*node] = sum.values[k] / sum.share;
             }
         }
         if !self.laws.tied {
             let field = out.shared("CSTATUS", Location::Point, 1, points, f64::NAN);
-            for (sum, &node) in sums.iter().zip(&self.nodes) {
-                if sum.share > 0.0 {
-                    field.values[node] = sum.status;
-                }
+            for (sum, node) in &shown {
+                field.values[*node] = sum.status;
             }
         }
         let field = out.shared("CFORCE", Location::Point, 3, points, 0.0);

@@ -66,28 +66,24 @@ impl Interface {
         }
     }
 
-    /// What is shown of a point. One without a multiplier, as its motion is given, shows the mean of those that took its part.
+    /// What is shown of a point. One without a multiplier, as its motion is given, shows what the one of those that took its part has that presses most.
     pub(super) fn values(&self, i: usize) -> PointValues {
         let own = self.own_values(i);
         let heirs = match &self.mortar {
             Some(mortar) => heirs(mortar, i),
             None => Vec::new(),
         };
-        let of: Vec<PointValues> = heirs.into_iter().map(|k| self.own_values(k)).collect();
-        let Some(first) = of.first() else {
-            return own;
-        };
-        let part = 1.0 / of.len() as f64;
-        let mean = |of_one: &dyn Fn(&PointValues) -> f64| of.iter().map(|v| part * of_one(v)).sum();
-        PointValues {
-            pressure: mean(&|v| v.pressure),
-            shear: [0, 1].map(|c| mean(&|v| v.shear[c])),
-            slip: [0, 1].map(|c| mean(&|v| v.slip[c])),
-            gap: mean(&|v| v.gap),
-            vectors: [0, 1, 2].map(|k| [0, 1, 2].map(|c| mean(&|v| v.vectors[k][c]))),
-            status: first.status,
-            share: self.points[i].area * self.share,
-            ..own
+        let of = heirs.into_iter().map(|k| self.own_values(k));
+        // Over nothing there is nothing to show.
+        let of = of.filter(|v| v.gap.is_finite());
+        match of.max_by(|a, b| a.pressure.abs().total_cmp(&b.pressure.abs())) {
+            Some(heir) => PointValues {
+                normal: own.normal,
+                area: own.area,
+                share: self.points[i].area * self.share,
+                ..heir
+            },
+            None => own,
         }
     }
 

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::body::couplings::{Coupling, Tie};
+use crate::body::couplings::{Coupling, Row, Tie};
 use crate::contact::interface::Interface;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
@@ -28,6 +28,8 @@ pub(super) struct HeldNodes<'a> {
     always: Vec<bool>,
     /// What follows that.
     led: Led,
+    /// Dofs that equations keep equal in all steps, as at the ends of a period.
+    equal: Vec<[usize; 2]>,
     /// Points of secondaries of ties so far.
     tied: BTreeSet<usize>,
 }
@@ -48,8 +50,8 @@ impl<'a> HeldNodes<'a> {
                 *always &= now;
             }
         }
-        // Points of bodies follow the reference point that the last term of a row is of. Equations between points of surfaces are no such case: what each carries
-        // is their sum's to share, which the elimination of their forces does (`couplings/fit.rs`).
+        // Points of bodies follow the reference point that the last term of a row is of. Of equations between points of surfaces only those count that make one motion of
+        // two (`equal`): what others carry is their sum's to share, which the elimination of their forces does (`couplings/fit.rs`).
         let followers = couplings
             .iter()
             .filter(|c| c.referred && matches!(c.tie, Tie::Equation { .. }));
@@ -73,6 +75,7 @@ impl<'a> HeldNodes<'a> {
             held,
             always,
             led,
+            equal: equal(couplings),
             tied: BTreeSet::new(),
         }
     }
@@ -101,8 +104,52 @@ impl<'a> HeldNodes<'a> {
         }
     }
 
+    /// Nodes of the secondary, with an axis, that move as another one of it where nodes of the primary do as well, as at the ends of a period that both bodies have: one of the two has
+    /// a motion of its own. With a multiplier each only the sum of the two would be known, or, where meshes do not match, their difference by next to nothing.
+    fn repeated(&self, interface: &Interface) -> BTreeSet<(usize, usize)> {
+        let (theirs, own) = interface.nodes.split_at(interface.primary_nodes);
+        let [theirs, own] =
+            [theirs, own].map(|nodes| nodes.iter().copied().collect::<BTreeSet<_>>());
+        let places = self
+            .equal
+            .iter()
+            .map(|pair| pair.map(|dof| self.dofs.locate(dof)));
+        let places: Vec<[(usize, usize); 2]> = places.filter(|[a, b]| a.1 == b.1).collect();
+        let both = |nodes: &BTreeSet<usize>, pair: &[(usize, usize); 2]| {
+            pair.iter().all(|(node, _)| nodes.contains(node))
+        };
+        let along = |c: usize| {
+            places
+                .iter()
+                .any(|pair| pair[0].1 == c && both(&theirs, pair))
+        };
+        let met = (0..self.dofs.dim)
+            .filter(|&c| along(c))
+            .collect::<BTreeSet<_>>();
+        // By node the one that it moves as.
+        let mut first = BTreeMap::<(usize, usize), (usize, usize)>::new();
+        let mut repeated = BTreeSet::new();
+        for pair in places
+            .iter()
+            .filter(|pair| met.contains(&pair[0].1) && both(&own, pair))
+        {
+            let ends = pair.map(|mut place| {
+                while let Some(&next) = first.get(&place) {
+                    place = next;
+                }
+                place
+            });
+            if ends[0] != ends[1] {
+                first.insert(ends[1], ends[0]);
+                repeated.insert(ends[1]);
+            }
+        }
+        repeated
+    }
+
     fn mark_one(&mut self, interface: &mut Interface) {
         let (tied, dim) = (interface.laws.tied, self.dofs.dim);
+        let repeated = self.repeated(interface);
         interface.clamped = (interface.nodes.iter()).map(|&n| self.clamped(n)).collect();
         let Some(mortar) = &mut interface.mortar else {
             return;
@@ -114,6 +161,7 @@ impl<'a> HeldNodes<'a> {
                     true => [true; 3],
                     false => self.of(node, &self.held),
                 };
+                axes = std::array::from_fn(|c| axes[c] || repeated.contains(&(node, c)));
                 let across = interface.points[face.points[a]].across.0;
                 axes = std::array::from_fn(|c| axes[c] && !across[c]);
                 *held = match tied {
@@ -127,6 +175,22 @@ impl<'a> HeldNodes<'a> {
             self.tied.extend(own);
         }
     }
+}
+
+/// Dofs of bodies that equations keep equal in all steps.
+fn equal(couplings: &[Coupling]) -> Vec<[usize; 2]> {
+    let acts = |c: &&Coupling| c.schedule.pieces.iter().all(|p| p.course != Course::Off);
+    let plain = |c: &&Coupling| !c.referred && c.tie == Tie::Equation { value: 0.0 };
+    let rows = couplings.iter().filter(plain).filter(acts);
+    let rows = rows.flat_map(|c| &c.rows);
+    let pair = |row: &Row| {
+        let terms: Vec<(usize, f64)> = row.terms().filter(|(_, a)| *a != 0.0).collect();
+        match terms[..] {
+            [(a, f), (b, g)] if f == -g => Some([a, b]),
+            _ => None,
+        }
+    };
+    rows.filter_map(pair).collect()
 }
 
 /// What follows, in all steps, reference points whose motions are prescribed in all steps. Two multipliers, of contact and of a coupling, would act on one motion that
