@@ -114,11 +114,14 @@ fn at_rest(
 }
 
 fn equations(results: &Results, external: &External, state: &State, report: &mut Report) {
-    let largest = state
-        .u
-        .iter()
-        .map(|u| norm(*u))
-        .fold(f64::MIN_POSITIVE, f64::max);
+    let most = |s: &State| {
+        s.u.iter()
+            .map(|u| norm(*u))
+            .fold(f64::MIN_POSITIVE, f64::max)
+    };
+    // Where all loads are gone displacements are what tolerances leave of those before.
+    let before = results.states.iter().map(most).fold(0.0, f64::max);
+    let largest = most(state).max(1e-6 * before);
     for coupling in external.couplings.iter().filter(|c| c.stiffness.is_none()) {
         let Some(table) = results.case.of("coupling", &coupling.name) else {
             continue;
