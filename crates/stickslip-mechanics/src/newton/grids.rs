@@ -165,6 +165,11 @@ impl Made {
                 self.gaps.transpose(v);
                 self.levels.cycle(v);
                 self.gaps.apply(v);
+                // What is prescribed stays where it is, whatever follows it in a gap.
+                let fixed = v.iter_mut().zip(operator.fixed);
+                fixed
+                    .filter(|(_, fixed)| **fixed)
+                    .for_each(|(v, _)| *v = 0.0);
             },
             b,
             x,
