@@ -165,7 +165,7 @@ impl Made {
                 self.gaps.transpose(v);
                 self.levels.cycle(v);
                 self.gaps.apply(v);
-                // What is prescribed stays where it is, whatever follows it in a gap.
+                // Gap variables reach prescribed dofs too, and the operator takes what is there for zero in its rows only.
                 let fixed = v.iter_mut().zip(operator.fixed);
                 fixed
                     .filter(|(_, fixed)| **fixed)

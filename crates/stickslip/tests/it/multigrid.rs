@@ -225,3 +225,36 @@ fn what_nothing_holds_is_singular() {
     let complaint = support::complaint(&format!("{before}{load}{after}"));
     assert!(complaint.contains("there is no equilibrium"), "{complaint}");
 }
+
+/// Interfaces that meet at a node, beside axes that supports hold: no answer moves a support.
+#[test]
+fn supports_stay_where_they_are_where_interfaces_meet() {
+    let last = |method: &str| {
+        let text = format!(
+            r#"format = 1
+model.space = "axisymmetric"
+solver.method = "{method}"
+body.lower = {{ generate.rectangle = {{ from = [0, -0.02], to = [0.02, 0], cells = [4, 5] }}, material = "m" }}
+body.upper = {{ generate.rectangle = {{ from = [0, 0], to = [0.02, 0.02], cells = [5, 5] }}, material = "m" }}
+body.side = {{ generate.rectangle = {{ from = [0.02, -0.02], to = [0.03, 0.015], cells = [2, 6] }}, material = "m" }}
+material.m.isotropic = {{ young = 1.8e7, poisson = 0.3 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.3 }}
+interface.low = {{ secondary = "lower.right", primary = "side.left", friction.coulomb.mu = 0.3 }}
+interface.up = {{ secondary = "upper.right", primary = "side.left", friction.coulomb.mu = 0.3 }}
+support.side = {{ set = "side.right", x = -6e-5, y = 0 }}
+support.base = {{ set = "lower.bottom", y = 0 }}
+support.axis-lower = {{ set = "lower.left", x = 0 }}
+support.axis-upper = {{ set = "upper.left", x = 0 }}
+support.press = {{ set = "upper.top", y = -1.5e-4 }}
+step = [{{ increments.fixed = 2 }}]
+"#
+        );
+        let record = support::run(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
+        record.increments.last().expect("a row").1.clone()
+    };
+    let [grids, factor] = ["multigrid", "sparse"].map(last);
+    for name in ["base.RF2", "side.RF1", "joint.CFN2", "ALLSE"] {
+        let [a, b] = [&grids, &factor].map(|row| row.get(name).expect("a column"));
+        assert!((a / b - 1.0).abs() < 1e-6, "{name}: {a} for {b}");
+    }
+}
