@@ -45,10 +45,11 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 }
 
 /// All figures.
-pub(crate) static ALL: [&Kind; 24] = [
+pub(crate) static ALL: [&Kind; 25] = [
     &PENETRATION_TO_SIZE,
     &UNSEEN_TO_SIZE,
     &UNSEEN_TO_APPROACH,
+    &TIE_OPENING,
     &PENETRATION_TO_APPROACH,
     &FALSE_SLIP,
     &COMPLEMENTARITY,
@@ -126,6 +127,14 @@ pub(crate) static UNSEEN_TO_APPROACH: Kind = Kind {
     model: 0.0,
     what: "contact points miss this part of the way by which the bodies approach, and forces are wrong by about as much",
     help: "choose the finer surface as secondary, or refine both where they touch",
+};
+
+pub(crate) static TIE_OPENING: Kind = Kind {
+    name: "tie-opening",
+    own: 0.0,
+    model: 0.0,
+    what: "between the points or means that a tie holds, its surfaces come apart or slide by this part of what the bodies do",
+    help: "choose as secondary the finer surface, and one that no support holds at its edge, or refine the secondary",
 };
 
 pub(crate) static OSCILLATION: Kind = Kind {

@@ -6,8 +6,8 @@ use super::doctor::{Finding, Peak, Watch, longest_way};
 use super::figures::{
     self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_OPENING,
     EXPLICIT_PENETRATION, EXPLICIT_WEAR, FALSE_SHEAR, FALSE_SLIP, FRICTION_LAW, Kind, MOMENT,
-    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, SCHEME_DISSIPATION, Track,
-    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, SCHEME_DISSIPATION, TIE_OPENING,
+    Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
 use crate::contact::interface::{Between, Interface, Quality};
@@ -285,6 +285,8 @@ impl View<'_> {
             let limit = limits.explicit_opening;
             gate.note_in_motion(&EXPLICIT_OPENING, &place, [stored, energy], limit, t);
         }
+        let ways = self.model.bodies.iter().map(|body| self.way(body));
+        let way = ways.fold(0.0, f64::max);
         for interface in &self.contact.interfaces {
             let q = interface.quality();
             let r = interface.resultant(&self.frame.state.u);
@@ -294,6 +296,10 @@ impl View<'_> {
                 true => whole.max(q.layer),
                 false => 0.0,
             };
+            if interface.laws.tied && approach > 0.0 {
+                let pair = [interface.opening(&self.frame.state.u), approach.min(way)];
+                gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
+            }
             let between = interface.between(&self.frame.state.u, t);
             judge_between(interface, (between, approach), limits, (gate, &place, t));
             if r.carried <= 0.0 {

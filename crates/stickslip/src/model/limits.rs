@@ -48,6 +48,10 @@ pub struct Limits {
     /// apart. The largest so far of both are compared.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub unseen_to_approach: f64,
+    /// By how much tied surfaces come apart or slide, as the root of the mean square over places all over the secondary: over the elastic approach, or the largest displacement where
+    /// that is less. Measured from the geometry alone, as a tie holds points or means over faces. The largest so far of both are compared.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub tie_opening: f64,
     /// Oscillation index of the pressure: the part of it that goes up and down from each point of the secondary to the next, over its mean;
     /// 1 for a checkerboard of zero and twice the mean.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -145,6 +149,7 @@ impl Default for Limits {
             complementarity: 1e-3,
             unseen_to_size: 0.02,
             unseen_to_approach: 0.15,
+            tie_opening: 0.05,
             oscillation: 0.25,
             explicit_wear: 1.0,
             excess_shear: 1e-3,

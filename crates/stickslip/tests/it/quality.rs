@@ -1263,6 +1263,42 @@ step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
     }
 }
 
+/// A stiff cap that is tied to a soft block by means over its two faces: the block bulges between them. With the finer side as secondary, or a finer cap, the tie holds.
+#[test]
+fn a_tie_that_opens_between_its_points_has_a_limit() {
+    let pressed = |cells: usize, secondary: &str, primary: &str| {
+        run(&format!(
+            r#"format = 1
+model = {{ space = "plane-strain" }}
+body.block = {{ generate.rectangle = {{ to = [2, 1], cells = [16, 8] }}, material = "soft" }}
+body.cap = {{ generate.rectangle = {{ from = [0, 1], to = [2, 1.5], cells = [{cells}, 1] }}, material = "stiff" }}
+material.soft.isotropic = {{ young = 1e6, poisson = 0.3 }}
+material.stiff.isotropic = {{ young = 1e7, poisson = 0.3 }}
+interface.tie = {{ secondary = "{secondary}", primary = "{primary}", tied = true }}
+support.base = {{ set = "block.bottom", x = 0, y = 0 }}
+load.push = {{ set = "cap.top", traction.value = [1e3, 0] }}
+step = [{{}}]
+"#
+        ))
+    };
+    let coarse = pressed(1, "cap.bottom", "block.top");
+    trips(&coarse, "tie-opening");
+    let value = |s: &Simulation| figure(s, "tie-opening").value;
+    let [swapped, fine] = [
+        pressed(1, "block.top", "cap.bottom"),
+        pressed(16, "cap.bottom", "block.top"),
+    ];
+    assert!(
+        value(&swapped) < 1e-6 && value(&fine) < 1e-6,
+        "{} {}",
+        value(&swapped),
+        value(&fine)
+    );
+    let half = pressed(4, "cap.bottom", "block.top");
+    assert!(half.summary.quality.met, "{:#?}", violated(&half));
+    assert!(value(&half) < 0.5 * value(&coarse), "{}", value(&half));
+}
+
 /// Units explain what is far too large. How well a contact is resolved is no question of them.
 #[test]
 fn units_are_blamed_for_sizes_alone() {

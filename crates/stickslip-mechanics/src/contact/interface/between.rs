@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::definition::{Interface, Primary};
+use super::initial::GLUE;
 use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
-use crate::contact::projection::facet_distance;
+use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin, hollows};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
@@ -121,6 +122,16 @@ impl<'a> Side<'a> {
         self.gap(&place, &mut Vec::new())
     }
 
+    /// The place opposite another, and its facet; `None` beyond the edge.
+    fn foot(&self, place: &Place, found: &mut Vec<usize>) -> Option<(usize, Foot)> {
+        let (f, _) = self.gap(place, found)?;
+        let patch = &self.bounds[f].patch;
+        let foot = patch.project(place.x)?;
+        let facet = self.facets[f];
+        let size = distance(self.x[facet.nodes[0]], self.x[facet.nodes[1]]);
+        (patch.beyond(&foot).distance <= EDGE * size).then_some((f, foot))
+    }
+
     /// The nearest facet that faces a place, and the gap; `None` where there is none, or where the place lies beneath facets but beside all of
     /// them.
     fn gap(&self, place: &Place, found: &mut Vec<usize>) -> Option<(usize, f64)> {
@@ -201,7 +212,7 @@ fn place(facet: &Facet, x: &[Vec3], reference: &[Vec3], xi: [f64; 2]) -> Place {
 
 impl Interface {
     /// What lies between contact points at the last accepted state, with displacements `u` of the mesh points, at time `t`. Nothing of tied
-    /// surfaces, which stay as they are.
+    /// surfaces, see [`opening`](Self::opening).
     pub fn between(&self, u: &[f64], t: f64) -> Between {
         if self.laws.tied || self.skin.is_empty() || !self.schedule.active(t) {
             return Between::default();
@@ -210,6 +221,41 @@ impl Interface {
         let lowest = self.lowest(&x, t);
         let skin: Vec<&Facet> = self.skin.iter().map(|s| &s.facet).collect();
         self.compare(&lowest, &hollows(&skin, &x), t)
+    }
+
+    /// By how much tied surfaces have come apart or slid at the last accepted state, with displacements `u` of the mesh points: the root of the mean square over places all over the
+    /// secondary, each beside what lies opposite in the meshes, as near as what is glued `[m]`. Multipliers hold points or means over faces; what is between them may open.
+    pub fn opening(&self, u: &[f64]) -> f64 {
+        let (rest, facets) = (&self.reference, self.facets());
+        let theirs = Side::new(facets.iter().collect(), (Vec::new(), 0.0), rest, rest);
+        let within = self.initial.within.unwrap_or(GLUE);
+        let glued = |&i: &usize| self.history.start.glued.get(i).is_some_and(|g| !g.is_nan());
+        let x = self.coordinates(u);
+        let of = |skin: &Skin, found: &mut Vec<usize>| {
+            let reach = within.of(self.size_of(skin));
+            let both = places(&skin.facet, rest, rest).zip(places(&skin.facet, &x, rest));
+            let squares = both.filter_map(|(before, now)| {
+                let (f, foot) = theirs.foot(&before, found)?;
+                let gap = dot(sub(before.x, foot.x), foot.normal);
+                let mut nodes = [[0.0; 3]; FACET_NODES];
+                let nodes = facets[f].gather(&x, &mut nodes);
+                let beneath = evaluate(facets[f].kind, nodes, foot.xi);
+                let place = add_scaled(beneath.x, gap, beneath.normal);
+                let moved = sub(now.x, place);
+                (gap.abs() <= reach).then(|| dot(moved, moved))
+            });
+            squares.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0))
+        };
+        let sums: Vec<(f64, f64)> = (self.skin.par_chunks(CHUNK))
+            .flat_map_iter(|skins| {
+                let mut found = Vec::new();
+                let held = skins.iter().filter(|s| s.points.iter().any(glued));
+                held.map(|skin| of(skin, &mut found)).collect::<Vec<_>>()
+            })
+            .collect();
+        let add = |a: (f64, f64), b: &(f64, f64)| (a.0 + b.0, a.1 + b.1);
+        let (sum, count) = sums.iter().fold((0.0, 0.0), add);
+        f64::sqrt(sum / f64::max(count, 1.0))
     }
 
     /// The same of the meshes, before anything has moved: depth of what overlaps.
