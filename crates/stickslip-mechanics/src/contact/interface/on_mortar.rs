@@ -36,8 +36,6 @@ impl Interface {
         let carried = || Carried {
             turns: self.turned(i, scene),
             normal: self.history.points[i].normal,
-            apart: self.history.start.glued.get(i).copied().unwrap_or(0.0)
-                + self.offset(i, scene.t),
         };
         let mean = MeanPoint {
             dim: self.dofs.dim,

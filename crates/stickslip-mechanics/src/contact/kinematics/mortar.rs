@@ -107,8 +107,6 @@ pub struct Carried {
     pub turns: [Mat3; 2],
     /// The normal; zero where there was none.
     pub normal: Vec3,
-    /// Distance of the two sides that is no gap `[m]`.
-    pub apart: f64,
 }
 
 /// A point whose sums are known.
@@ -196,9 +194,8 @@ impl MeanPoint<'_> {
         }
         remove_idle((all, first), parts, dim, out);
         [moved, arm] = [moved, arm].map(|v| self.across.within(v));
-        if let Some(carried) = &self.carried {
-            // The distance of the two sides turns with them, but for that which is no gap.
-            let arm = add_scaled(arm, -carried.apart, normal_before);
+        if self.carried.is_some() {
+            // The distance of the two sides turns with them, be it gap or what counts as none.
             moved = turning::slid(sub(moved, turning::swung(&own, arm)), &own, &other);
         }
         out.slip = frame.map(|e| dot(e, moved));
