@@ -72,10 +72,13 @@ impl Interface {
             true => Status::Stick,
             false => e.response.status,
         };
-        if status == Status::Open {
+        // Where surfaces have just parted, rounding would close them.
+        let before = self.history.points[i].status;
+        let parted = self.history.acting && !self.laws.tied && before == Status::Open;
+        if status == Status::Open || parted {
             return None;
         }
-        let slid = !self.laws.tied && self.history.points[i].status == Status::Slip;
+        let slid = !self.laws.tied && before == Status::Slip;
         let (stiffness, damping) = self.parts(i, e, (slid, dt));
         let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
         (self.cache.in_space).gradients(&mut dofs, &mut rows);
