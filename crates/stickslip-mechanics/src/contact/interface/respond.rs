@@ -138,11 +138,7 @@ impl Interface {
             true => self.spring(enforcement.normal(), own),
             false => f64::INFINITY,
         };
-        let tangential = match self.laws.needs_tangential_stiffness() {
-            true => self.spring(enforcement.tangential(), own),
-            false if self.laws.lends_spring(self.history.springs) => own,
-            false => f64::INFINITY,
-        };
+        let tangential = self.sticking(own);
         let touches = self.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
         Stiffnesses {
             normal,

@@ -35,6 +35,12 @@ impl Interface {
                 })
                 .collect();
         }
+        let points = self.points.iter().zip(&self.history.points);
+        let sheared = points.map(|(p, h)| self.sheared(self.sticking(p.stiffness), h.shear));
+        let sheared: Vec<f64> = sheared.collect();
+        for (h, sheared) in self.history.points.iter_mut().zip(sheared) {
+            h.sheared = sheared;
+        }
         self.history.energy.stored = self.stored_energy();
         self.history.energy.stored - before
     }

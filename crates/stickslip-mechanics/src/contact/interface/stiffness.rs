@@ -50,4 +50,13 @@ impl Interface {
         let raised = start * 10_f64.powi(self.attempt.tightened as i32);
         raised.min(STIFFEST * own).max(start)
     }
+
+    /// How stiffly a point sticks that has this stiffness of its `own`; infinite where nothing gives way.
+    pub(super) fn sticking(&self, own: f64) -> f64 {
+        match self.laws.needs_tangential_stiffness() {
+            true => self.spring(self.laws.enforcement.as_dyn().tangential(), own),
+            false if self.laws.lends_spring(self.history.springs) => own,
+            false => f64::INFINITY,
+        }
+    }
 }
