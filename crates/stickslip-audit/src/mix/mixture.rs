@@ -193,7 +193,8 @@ mod tests {
         let needs = features().flat_map(|f| f.needs.iter().copied());
         let relations = RELATIONS
             .iter()
-            .flat_map(|r| r.needs.iter().chain(r.not_with).copied());
+            .flat_map(|r| r.needs.iter().chain(r.not_with))
+            .flat_map(|names| names.split(' '));
         let unknown: Vec<&str> = pairs
             .chain(needs)
             .chain(relations)

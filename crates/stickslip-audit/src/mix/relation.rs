@@ -35,7 +35,7 @@ pub struct Relation {
     pub again: Again,
     /// What has to agree.
     pub agreement: Agreement,
-    /// Features with which the relation does not hold.
+    /// Features with which the relation does not hold; of words apart, all of them together.
     pub not_with: &'static [&'static str],
     /// Features of which it needs one, if any are named.
     pub needs: &'static [&'static str],
@@ -44,7 +44,8 @@ pub struct Relation {
 impl Relation {
     /// Whether it holds for a mix.
     pub fn fits(&self, features: &BTreeSet<&'static str>) -> bool {
-        let any = |names: &[&str]| names.iter().any(|name| features.contains(name));
+        let all = |names: &str| names.split(' ').all(|name| features.contains(name));
+        let any = |names: &[&str]| names.iter().any(|names| all(names));
         !any(self.not_with) && (self.needs.is_empty() || any(self.needs))
     }
 }
@@ -135,6 +136,9 @@ pub const RELATIONS: &[Relation] = &[
         Again::Text(|v| v.remeshed = true),
         Agreement::Mesh,
         &[
+            // A load between the clamp of the upper body and the surface below, which ends before it, is shared by distances of a few cells.
+            "clamp overhang",
+            "clamp wider",
             "roughness",
             "bed-of-springs",
             "modes",
@@ -150,6 +154,8 @@ pub const RELATIONS: &[Relation] = &[
         Again::Text(|v| v.swapped = true),
         Agreement::Mesh,
         &[
+            "clamp overhang",
+            "clamp wider",
             "roughness",
             "belt",
             "wears",
@@ -180,6 +186,8 @@ pub const RELATIONS: &[Relation] = &[
             "bolt",
             "turning",
             "simplices",
+            // Masses of points in contact are given to eight layers of cells, as far as their body goes.
+            "implicit",
             "explicit",
             "implicit-explicit",
             "centrifugal",
