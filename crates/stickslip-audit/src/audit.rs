@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::balance;
 use crate::bulk::Bulk;
+use crate::case::{kind, number};
 use crate::contact::{self, Scale, at};
 use crate::energy;
 use crate::external::External;
@@ -62,15 +63,28 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
             .iter()
             .find(|key| changed(key))
         {
-            Some(key) => report.skip(format!(
-                "where the surfaces of {} are, with `{key}`",
-                pair.name
-            )),
+            Some(key) => {
+                if let Some(height) = table.and_then(waves).filter(|_| *key == "roughness") {
+                    overlap::penetration(&results, pair, (&scale, height), &mut report);
+                }
+                report.skip(format!(
+                    "where the surfaces of {} are, with `{key}`",
+                    pair.name
+                ));
+            }
             None => overlap::check(&results, pair, &scale, bulk.as_ref().ok(), &mut report),
         }
         coarse(&results, pair, &mut report);
     }
     Ok(report)
+}
+
+/// How high the waves of a rough surface are, where it has nothing but waves.
+fn waves(interface: &toml::Table) -> Option<f64> {
+    let (model, table) = kind(interface, "roughness")?;
+    (model == "wave")
+        .then(|| number(table, "amplitude"))
+        .flatten()
 }
 
 /// What the figures of an interface are relative to.

@@ -147,6 +147,12 @@ pub const KINDS: &[Kind] = &[
         "depth of points of either side in the other beyond what the law has, of the approach",
     ),
     kind(
+        "between",
+        0.05,
+        f64::INFINITY,
+        "depth of an obstacle in faces between nodes beyond that of nodes, of the approach",
+    ),
+    kind(
         "yielding",
         5e-3,
         0.1,

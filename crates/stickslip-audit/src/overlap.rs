@@ -23,6 +23,19 @@ pub fn check(
     if pair.tied {
         return tied(results, pair, report);
     }
+    penetration(results, pair, (sizes, 0.0), report);
+    gaps(results, pair, sizes, report);
+    apart(results, pair, sizes, report);
+    slips(results, pair, sizes, bulk, report);
+}
+
+/// How deep the surfaces lie in each other beyond what points and laws say. Of a rough surface the real one is up to `rough` off the mesh.
+pub fn penetration(
+    results: &Results,
+    pair: &Pair,
+    (sizes, rough): (&Scale, f64),
+    report: &mut Report,
+) {
     let started = depths(results, pair, None);
     for (i, state) in results.states.iter().enumerate() {
         let step = &results.case.steps[results.case.step_at(state.t)];
@@ -45,14 +58,15 @@ pub fn check(
             Some(laws) if most > 0.0 && !pair.damped && !pair.two_sided => depth(laws.normal, most),
             _ => 0.0,
         };
-        let allowed = own.fold(deepest, f64::max);
+        let allowed = own.fold(deepest, f64::max) + rough;
         let floor = 1e-9 * results.mesh.size(None);
         let beyond = if deep > floor { deep - allowed } else { 0.0 };
         report.note("penetration", &pair.name, beyond / sizes.approach, state.t);
+        let beyond = between(results, pair, i) - deep.max(allowed);
+        if beyond > floor {
+            report.note("between", &pair.name, beyond / sizes.approach, state.t);
+        }
     }
-    gaps(results, pair, sizes, report);
-    apart(results, pair, sizes, report);
-    slips(results, pair, sizes, bulk, report);
 }
 
 /// Where everything is at a state, or at the start.
@@ -96,6 +110,22 @@ fn depths(results: &Results, pair: &Pair, state: Option<usize>) -> f64 {
             each.fold(0.0, f64::max)
         }
     }
+}
+
+/// The largest depth of places all over the faces in an obstacle, which may enter between nodes.
+fn between(results: &Results, pair: &Pair, state: usize) -> f64 {
+    let (Side::Body { facets, .. }, Side::Rigid(obstacle)) = (&pair.secondary, &pair.primary)
+    else {
+        return 0.0;
+    };
+    let (x, t) = places(results, Some(state));
+    let of = |facet: &crate::mesh::Facet| {
+        let corners: Vec<Vec3> = facet.nodes.iter().map(|n| x[*n]).collect();
+        let here = |xi| crate::loads::place(facet.kind, &corners, xi);
+        let depth = |xi| obstacle.foot(here(xi), t).map_or(0.0, |foot| -foot.gap);
+        grid(facet.kind).into_iter().map(depth).fold(0.0, f64::max)
+    };
+    facets.iter().map(of).fold(0.0, f64::max)
 }
 
 /// Own distances of the points of node-to-facet contact and of obstacles.
