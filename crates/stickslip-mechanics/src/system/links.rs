@@ -14,6 +14,7 @@
 //! A rigid body that turns by any angle has a frame ([`BodyFrames`](super::BodyFrames)) that its hidden points carry. Its points stand still in that, so that here
 //! they follow nothing: the rows of `T` are zero, and what acts on the points has been handed to the frame before.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::{ContactBlock, Dofs, Motion};
@@ -219,6 +220,26 @@ impl Links {
         let (point, component) = self.dofs.locate(dof);
         let link = &self.all[self.of_point(point)?];
         Some(link.row(self.dofs, point, component))
+    }
+
+    /// Terms of a sum of displacements by the dofs that move them: those of points of rigid bodies by hidden ones.
+    pub fn moved(&self, terms: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+        let mut out: Vec<(usize, f64)> = Vec::new();
+        let mut known = BTreeMap::new();
+        let mut add = |dof: usize, a: f64| {
+            let at = *known.entry(dof).or_insert_with(|| {
+                out.push((dof, 0.0));
+                out.len() - 1
+            });
+            out[at].1 += a;
+        };
+        for (dof, a) in terms {
+            match self.row(dof) {
+                None => add(dof, a),
+                Some(hidden) => hidden.into_iter().for_each(|(d, f)| add(d, f * a)),
+            }
+        }
+        out
     }
 
     /// The same where the body has not turned yet: velocities and supports at the start.

@@ -259,8 +259,8 @@ pub(crate) static EXPLICIT_OPENING: Kind = Kind {
     name: "explicit-opening",
     own: LEAST * LEAST,
     model: TRACE * TRACE,
-    what: "in an explicit step springs hold what is tied or coupled, and they give way by this part of what the bodies do",
-    help: "refine the cells beside it, whose mass and size bound these springs, mesh both sides as one body, or take an implicit scheme, which ties without springs",
+    what: "in an explicit step springs stand for rigid stops and for ties by a penalty, and they give way by this part of what the bodies do",
+    help: "refine the cells beside it, whose mass and size bound these springs, tie by multipliers, which explicit steps hold exactly, or take an implicit scheme",
 };
 
 pub(crate) static EXPLICIT_PENETRATION: Kind = Kind {

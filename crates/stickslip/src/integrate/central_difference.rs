@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::drift::Drift;
+use super::exact::Exact;
 use super::explicit::{Explicit, unstable};
 use super::integrator::Integrator;
 use super::sight::{enter_here, leave};
@@ -49,8 +50,9 @@ impl Integrator for Explicit {
             None => Arc::new(frame.constraints(model, trial.to)),
         };
         let mut at = predict(model, frame, &constraints, trial);
-        let drift = Drift::new(model, frame, &constraints);
+        let mut drift = Drift::new(model, frame, &constraints);
         drift.predict(self, (&constraints.fixed, dt), &mut at);
+        let more = self.correct((model, &*contact), &constraints, &mut drift, (&mut at, dt))?;
         let u = drift.place(&at.u);
         self.evaluate((model, frame), contact, (&at, dt), &u)?;
         let external = if !self.loaded {
@@ -65,6 +67,12 @@ impl Integrator for Explicit {
         if !there.is_empty() {
             there.into_axes(acting.to_mut());
         }
+        self.hold(
+            (model, &mut *contact),
+            (&constraints, &drift),
+            (&acting, &more),
+            &at,
+        )?;
         let end = End {
             from: drift.from(),
             constraints: &constraints,
@@ -74,6 +82,9 @@ impl Integrator for Explicit {
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
         self.turn(&end, &mut at, (&mut forces, &drift), &mut total);
+        let mut exact = std::mem::take(&mut self.exact_after);
+        exact.show(&more, &constraints.fixed, contact, &mut forces);
+        self.exact_after = exact;
         let none = vec![0.0; u.len()];
         there.outward(&none, &mut forces);
         let mut acted = self.out.residual.clone();
@@ -111,6 +122,7 @@ impl Integrator for Explicit {
     fn accept(&mut self) {
         // Damping as it is now is what it was before the next increment.
         std::mem::swap(&mut self.damped, &mut self.damped_before);
+        self.exact = std::mem::take(&mut self.exact_after);
     }
 
     fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
@@ -229,6 +241,57 @@ impl Explicit {
         assembled?;
         contact.couplings.assemble(&stage, &mut self.out)?;
         model.links.transfer(&mut self.out.residual);
+        Ok(())
+    }
+
+    /// Leads what is held exactly to where it holds at the end of the increment; the forces that rows had more for that, from the start on.
+    fn correct(
+        &mut self,
+        (model, contact): (&Model, &Contact),
+        constraints: &Constraints,
+        drift: &mut Drift,
+        (at, dt): (&mut State, f64),
+    ) -> Result<Vec<f64>, StepFailure> {
+        self.exact.lead(&model.links, contact, at.t);
+        if self.exact.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mobility = self.mobility(constraints);
+        let placed = drift.place(&at.u);
+        let from = &drift.from().state.u;
+        let moved = (&mut at.u[..], &mut at.v[..]);
+        let more = (self.exact).correct(&mobility, (&model.links, dt), (from, &placed), moved)?;
+        self.exact.restart(&mobility, &more, drift);
+        Ok(more)
+    }
+
+    /// Lets what is held exactly go on holding: finds its forces, which balance those of all else at the end of the increment.
+    fn hold(
+        &mut self,
+        (model, contact): (&Model, &mut Contact),
+        (constraints, drift): (&Constraints, &Drift),
+        (external, more): (&[f64], &[f64]),
+        at: &State,
+    ) -> Result<(), StepFailure> {
+        let mut exact = Exact::gather(model, contact, at.t, &self.exact);
+        if !exact.is_empty() {
+            let mobility = self.mobility(constraints);
+            let balance = |i: usize| external[i] - self.force[i] - self.out.residual[i];
+            let mut forces: Vec<f64> = (0..external.len()).map(balance).collect();
+            forces
+                .iter_mut()
+                .zip(&self.damped)
+                .for_each(|(f, d)| *f -= d);
+            for spin in &self.spins {
+                let turning = drift.turning(spin, &at.v);
+                spin.range().zip(turning).for_each(|(i, m)| forces[i] -= m);
+            }
+            let a = exact.accelerations(&mobility, &forces);
+            exact.balance(&mobility, &a)?;
+            let before = (&self.exact, more);
+            exact.act(before, (contact, &model.links), &mut self.out);
+        }
+        self.exact_after = exact;
         Ok(())
     }
 

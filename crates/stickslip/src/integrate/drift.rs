@@ -19,7 +19,7 @@ use crate::solve::spin::Spin;
 use crate::system::{Constraints, Dofs, Spinning, State};
 
 /// The rigid bodies that turn freely in space over an explicit increment.
-pub(super) struct Drift<'a> {
+pub(crate) struct Drift<'a> {
     dofs: Dofs,
     spinning: Spinning,
     /// The hidden points of those whose rotations nothing holds.
@@ -57,6 +57,20 @@ impl<'a> Drift<'a> {
     /// The start of the increment as it is seen.
     pub fn from(&self) -> &Frame {
         &self.from
+    }
+
+    /// The same, to be changed.
+    pub fn start(&mut self) -> &mut Frame {
+        self.from.to_mut()
+    }
+
+    /// What the rate of a body makes of its moment of momentum, where it turns freely: no moment is needed for that.
+    pub fn turning(&self, spin: &Spin, v: &[f64]) -> Vec3 {
+        if !self.has(spin) {
+            return [0.0; 3];
+        }
+        let rate = spin.of(v);
+        cross(scale(1.0 / self.length(spin), rate), spin.force(rate))
     }
 
     /// Whether it is one of these.

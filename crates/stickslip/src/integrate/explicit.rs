@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::exact::{Exact, Mobility};
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::Interface;
@@ -49,6 +50,9 @@ pub(crate) struct Explicit {
     pub at_start: f64,
     /// Whether any load acts.
     pub(crate) loaded: bool,
+    /// What is held exactly, at the last accepted state and after the attempt.
+    pub(super) exact: Exact,
+    pub(super) exact_after: Exact,
 }
 
 impl Explicit {
@@ -115,6 +119,8 @@ impl Explicit {
             mass_added: 0.0,
             at_start: 0.0,
             loaded: true,
+            exact: Exact::default(),
+            exact_after: Exact::default(),
             mass,
         }
     }
@@ -271,7 +277,7 @@ impl Explicit {
         }
         let couplings = &mut contact.couplings;
         couplings.use_springs(true);
-        couplings.start_springs(frame.state.t, &frame.state.u);
+        couplings.start_explicit(frame.state.t, &frame.state.u);
         let most = (soon, explicit.frequency);
         couplings.fit_springs(most, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
@@ -290,6 +296,7 @@ impl Explicit {
         frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
         explicit.start_forces(model, frame, contact);
         explicit.start_acceleration(model, frame, &constraints);
+        explicit.start_exactly(model, frame, contact, &constraints)?;
         std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
         explicit.still = still.then(|| Arc::new(constraints));
         Ok(explicit)
@@ -343,6 +350,47 @@ impl Explicit {
         frame.forces = forces;
     }
 
+    /// Lets all that is held exactly go along with the accelerations at the start.
+    fn start_exactly(
+        &mut self,
+        model: &Model,
+        frame: &mut Frame,
+        contact: &mut Contact,
+        constraints: &Constraints,
+    ) -> Result<(), Error> {
+        let step = &model.steps[frame.step];
+        let soon = step.start + AFTER * (step.end - step.start);
+        let mut exact = Exact::gather(model, contact, soon, &Exact::default());
+        if exact.is_empty() {
+            return Ok(());
+        }
+        let acting = exact.begin();
+        let found = exact.balance(&self.mobility(constraints), &frame.state.a);
+        found.map_err(|e| e.at(soon))?;
+        let mut more = Assembler::new(frame.contact.len());
+        exact.act((&Exact::default(), &[]), (contact, &model.links), &mut more);
+        let none = vec![0.0; more.residual.len()];
+        Spinning::new(&model.frames, &frame.state.u).outward(&none, &mut more.residual);
+        for (contact, f) in frame.contact.iter_mut().zip(&more.residual) {
+            *contact += f;
+        }
+        exact.add_forces(&acting);
+        exact.act((&Exact::default(), &[]), (contact, &model.links), &mut more);
+        contact.couplings.start_exactly();
+        self.start_acceleration(model, frame, constraints);
+        self.exact = exact;
+        Ok(())
+    }
+
+    /// How dofs give way where supports are these.
+    pub(super) fn mobility<'a>(&'a self, constraints: &'a Constraints) -> Mobility<'a> {
+        Mobility {
+            inverse: &self.inverse,
+            fixed: &constraints.fixed,
+            spins: &self.spins,
+        }
+    }
+
     /// Sums of the highest squared frequencies of interfaces and couplings now, and of the rates at which interfaces take velocity away.
     pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> (f64, f64) {
         let step = &model.steps[frame.step];
@@ -393,6 +441,7 @@ pub(crate) struct ExplicitState {
     mass_added: f64,
     at_start: f64,
     loaded: bool,
+    exact: Exact,
 }
 
 crate::keep!(ExplicitState {
@@ -401,7 +450,8 @@ crate::keep!(ExplicitState {
     still,
     mass_added,
     at_start,
-    loaded
+    loaded,
+    exact
 });
 
 impl Explicit {
@@ -414,6 +464,7 @@ impl Explicit {
             mass_added: self.mass_added,
             at_start: self.at_start,
             loaded: self.loaded,
+            exact: self.exact.clone(),
         }
     }
 
@@ -426,6 +477,7 @@ impl Explicit {
             mass_added: state.mass_added,
             at_start: state.at_start,
             loaded: state.loaded,
+            exact: state.exact,
             ..Explicit::new(model, method)
         }
     }

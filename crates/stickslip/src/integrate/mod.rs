@@ -17,7 +17,7 @@
 //!   (`body/redistribution.rs`). That is what keeps contact forces from chattering and impacts from gaining energy.
 //!
 //! An explicit step (`explicit.rs`) needs neither Newton nor a matrix: `body/internal` gives the forces of the bodies cell by
-//! cell in vector lanes, interfaces act through springs, and the increment follows from the highest frequency (Lanczos) and the springs in
+//! cell in vector lanes, contact acts through springs, equations and ties hold exactly (`exact.rs`), and the increment follows from the highest frequency (Lanczos) and the springs in
 //! contact. An analysis of explicit steps alone never assembles a stiffness.
 //!
 //! **Invariant:** the ledger (`model/ledger.rs`) is closed by quantities that do not know of each other: work from loads and
@@ -35,6 +35,7 @@
 
 pub(crate) mod central_difference;
 mod drift;
+pub(crate) mod exact;
 pub(crate) mod explicit;
 pub(crate) mod implicit;
 pub(crate) mod impulse;

@@ -114,7 +114,7 @@ pub struct Limits {
     /// friction. It is shear that is not there.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub false_shear: f64,
-    /// In explicit steps, where springs hold what is tied or coupled: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
+    /// In explicit steps, where springs stand for rigid stops and ties by a penalty: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
     /// they give way over what the bodies do.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub explicit_opening: f64,

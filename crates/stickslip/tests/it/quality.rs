@@ -1226,7 +1226,8 @@ step = [{{ name = "fall", duration = 0.14, dynamic = {dynamic}, increments = {{ 
     assert!(figure(&good, "scheme-dissipation").value < 1e-3);
 }
 
-/// Two blocks that are glued, or held together by equations, swing in an explicit step: springs that are as soft as the cells beside them open, and the gate says by how much.
+/// Two blocks that are glued by a penalty, or held apart by a rigid stop, swing in an explicit step: springs that are as soft as the cells beside them open, and the gate says by how much. Glued by multipliers or held
+/// together by equations, they open by nothing.
 #[test]
 fn what_springs_hold_in_an_explicit_step_has_a_limit() {
     let swing = |cells: usize, joint: &str| {
@@ -1238,19 +1239,19 @@ body.b = {{ generate.rectangle = {{ from = [0, 1], to = [1, 2], cells = [{cells}
 material.m.isotropic = {{ young = 1e6, poisson = 0.3, density = 1 }}
 {joint}
 support.base = {{ set = "a.bottom", x = 0, y = 0 }}
-load.pull = {{ set = "b.top", traction.value = [0, 100] }}
+support.guide = {{ set = "b.bottom", x = 0 }}
+load.pull = {{ set = "b.top", traction.value = [0, -100] }}
 step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
 "#
         ))
     };
     let tied = "interface.tie = { secondary = \"b.bottom\", primary = \"a.top\", tied = true }";
-    let equal = |c: &str| {
-        format!(
-            "coupling.{c}.equation.terms = [{{ set = \"a.top\", component = \"{c}\" }}, {{ set = \"b.bottom\", component = \"{c}\", factor = -1 }}]"
-        )
+    let penalty = tied.replace(" }", ", enforcement.penalty = {} }");
+    let coupling = |kind: &str| {
+        let terms = "terms = [{ set = \"b.bottom\", component = \"y\" }, { set = \"a.top\", component = \"y\", factor = -1 }]";
+        format!("coupling.c.{kind} = {{ {terms} }}")
     };
-    let coupled = format!("{}\n{}", equal("x"), equal("y"));
-    for joint in [tied, &coupled] {
+    for joint in [&penalty, &coupling("gap")] {
         let coarse = swing(1, joint);
         trips(&coarse, "explicit-opening");
         let [few, many] =
@@ -1260,6 +1261,10 @@ step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
             worst > 2.0 * few && few > 2.0 * many && many > 0.0,
             "{worst} {few} {many}"
         );
+    }
+    for joint in [tied, &coupling("equation")] {
+        let figures = swing(1, joint).summary.quality.figures;
+        assert!(figures.iter().all(|f| f.figure != "explicit-opening"));
     }
 }
 

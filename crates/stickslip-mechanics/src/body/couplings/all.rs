@@ -1,7 +1,7 @@
 use super::Row;
 use super::elimination::Elimination;
 use super::pretension::{Drawn, Part, Pretension};
-use crate::system::{Links, Schedule};
+use crate::system::Schedule;
 
 /// What the rows of a coupling do.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +126,20 @@ pub struct Couplings {
     /// What counts.
     pub memory: CouplingsMemory,
     pub(super) explicit: bool,
+    /// Forces with which equations hold over an explicit increment, by row; empty before one.
+    pub(super) exact: Vec<ExactForce>,
     pub(super) dim: usize,
+}
+
+/// The force along an equation that an explicit increment holds exactly `[N]`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ExactForce {
+    /// From the start, so that the equation holds at the end.
+    pub from: f64,
+    /// At the end, so that it goes on holding.
+    pub to: f64,
+    /// What is reported: with what moving supports and values accelerate.
+    pub shown: f64,
 }
 
 /// How an equation is enforced.
@@ -207,6 +220,7 @@ impl Couplings {
                 ..CouplingsMemory::default()
             },
             explicit: false,
+            exact: Vec::new(),
             dim,
         }
     }
@@ -484,20 +498,4 @@ impl Couplings {
             }
         }
     }
-}
-
-/// The terms of a row, those of rigid bodies by the dofs that move them.
-pub(super) fn moved_by(row: &Row, links: &Links) -> Vec<(usize, f64)> {
-    let mut out: Vec<(usize, f64)> = Vec::new();
-    let mut add = |dof: usize, a: f64| match out.iter_mut().find(|(d, _)| *d == dof) {
-        Some(term) => term.1 += a,
-        None => out.push((dof, a)),
-    };
-    for (dof, a) in row.terms() {
-        match links.row(dof) {
-            None => add(dof, a),
-            Some(hidden) => hidden.into_iter().for_each(|(d, f)| add(d, f * a)),
-        }
-    }
-    out
 }

@@ -10,8 +10,7 @@ use crate::system::Component;
 /// A linear equation between displacements: the sum of factor times displacement has a value. It holds exactly, not by a stiff spring.
 ///
 /// Sets of n points stand for n equations, paired in the order of the points in the mesh; a set of one point pairs with all, itself left out. Equations that
-/// say the same twice do no harm. In explicit steps equations are springs, so stiff that increments are shorter
-/// by a third at most.
+/// say the same twice do no harm. They hold exactly in explicit steps, too.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

@@ -1,13 +1,13 @@
-//! Explicit dynamics: springs in place of multipliers.
+//! Explicit dynamics: equations that hold exactly, and springs in place of rigid stops.
 
 use std::collections::BTreeMap;
 
-use super::all::{Act, Hold};
+use super::all::{Act, ExactForce, Hold};
 use super::{Coupling, Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
 impl Couplings {
-    /// Enforces equations by springs, or by multipliers again. The energy `[J]` that the springs had and that is forgotten now is returned, negative.
+    /// Begins explicit increments, or ends them. The energy `[J]` that springs in place of rigid stops had and that is forgotten now is returned, negative.
     pub fn use_springs(&mut self, springs: bool) -> f64 {
         if self.explicit == springs {
             return 0.0;
@@ -19,9 +19,9 @@ impl Couplings {
         self.keep_forces()
     }
 
-    /// Lets springs in place of equations start at displacements `u` of the time `t` with the force of the multiplier: what an equation is off by there stretches no spring. Springs are stiff,
-    /// and what the tolerance of Newton's method leaves of an equation would be a jolt.
-    pub fn start_springs(&mut self, t: f64, u: &[f64]) {
+    /// Starts from displacements `u` of the time `t`: what an equation is off by there it goes on to be off by, and a spring in place of a stop that carries something has the force of the multiplier. What
+    /// the tolerance of Newton's method leaves would be a jolt.
+    pub fn start_explicit(&mut self, t: f64, u: &[f64]) {
         let rest = self.rows().map(|(i, coupling, row)| {
             match (self.act(i, coupling, t), self.memory.forces[i] != 0.0) {
                 (Act::Held(target), true) => row.sum(u) - target,
@@ -32,18 +32,57 @@ impl Couplings {
         self.memory.rest = rest.collect();
     }
 
-    /// By how much a row was off when a spring took the place of its equation.
+    /// The equations that an explicit increment to the time `t` holds exactly: the number of each row, the row, and what its sum has to be.
+    pub fn exact_rows(&self, t: f64) -> impl Iterator<Item = (usize, &Row, f64)> {
+        let rows = self.rows().filter(|_| self.explicit);
+        rows.filter_map(move |(i, coupling, row)| match self.act(i, coupling, t) {
+            Act::Held(target) if !self.hold[i].idle => Some((i, row, target + self.rest(i))),
+            _ => None,
+        })
+    }
+
+    /// The force that a row had at the last accepted state, so that its equation goes on holding `[N]`.
+    pub fn exact_force(&self, i: usize) -> f64 {
+        self.memory.multipliers[i]
+    }
+
+    /// Enters the forces along rows over the increment at hand, by number, and adds those at its end to the residual.
+    pub fn hold_exactly(&mut self, forces: &BTreeMap<usize, ExactForce>, residual: &mut [f64]) {
+        let mut exact = vec![ExactForce::default(); self.hold.len()];
+        for (i, _, row) in self.rows() {
+            let Some(force) = forces.get(&i) else {
+                continue;
+            };
+            exact[i] = *force;
+            row.terms()
+                .for_each(|(dof, a)| residual[dof] += a * force.to);
+        }
+        self.exact = exact;
+    }
+
+    /// Takes these forces for those of the last accepted state: what acts at the start of an explicit step.
+    pub fn start_exactly(&mut self) {
+        for (i, force) in self.exact.iter().enumerate() {
+            if self.explicit && *force != ExactForce::default() {
+                self.memory.multipliers[i] = force.to;
+                self.memory.forces[i] = force.to;
+            }
+        }
+    }
+
+    /// By how much a row was off when explicit increments began.
     pub(super) fn rest(&self, i: usize) -> f64 {
         self.memory.rest.get(i).copied().unwrap_or(0.0)
     }
 
-    /// The couplings that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried
+    /// The rigid stops that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried
     /// when the step began is in none of them.
     pub fn spring_energies(&self) -> Vec<(&str, f64)> {
         let mut out: Vec<(&str, f64)> = Vec::new();
         for (i, coupling, _) in self.rows() {
             let (hold, memory) = (self.hold[i], &self.memory);
-            if !self.explicit || !coupling.tie.firm() || hold.idle || hold.stiffness <= 0.0 {
+            let stop = matches!(coupling.tie, Tie::Gap { .. }) && coupling.tie.firm();
+            if !self.explicit || !stop || hold.idle || hold.stiffness <= 0.0 {
                 continue;
             }
             let away = match memory.forces[i] == 0.0 {
@@ -59,27 +98,30 @@ impl Couplings {
         out
     }
 
-    /// Stiffnesses of the springs in place of equations: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
-    /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is.
+    /// Stiffnesses of the springs in place of rigid stops: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
+    /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is. Equations of nothing that could move are idle.
     pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {
-        let held = |i: usize, c: &Coupling| {
-            let holds = matches!(self.act(i, c, t), Act::Held(_) | Act::Stopped(_));
-            if holds { 1.0 } else { 0.0 }
+        let of = |stops: bool| {
+            let counts = |i: usize, c: &Coupling| match self.act(i, c, t) {
+                Act::Stopped(_) => 1.0,
+                Act::Held(_) if !stops => 1.0,
+                _ => 0.0,
+            };
+            self.squared_frequencies(&counts, inverse_mass, links)
         };
-        let units = self.squared_frequencies(&held, inverse_mass, links);
-        let fit = |unit: f64| Hold {
-            stiffness: if unit > 0.0 { highest / unit } else { 0.0 },
-            idle: unit == 0.0,
+        let hold = |(all, stops): (f64, f64)| Hold {
+            stiffness: if stops > 0.0 { highest / stops } else { 0.0 },
+            idle: all == 0.0,
         };
-        self.hold = units.into_iter().map(fit).collect();
+        self.hold = of(false).into_iter().zip(of(true)).map(hold).collect();
     }
 
     /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof.
     pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
         let stiffness = |i: usize, coupling: &Coupling| match self.act(i, coupling, t) {
-            Act::Idle | Act::Pulled(_) | Act::Damped(_) => 0.0,
+            Act::Idle | Act::Pulled(_) | Act::Damped(_) | Act::Held(_) => 0.0,
             Act::Sprung(_) => coupling.tie.stiffness() * most(&coupling.schedule),
-            Act::Held(_) | Act::Stopped(_) => self.hold[i].stiffness,
+            Act::Stopped(_) => self.hold[i].stiffness,
         };
         let all = self.squared_frequencies(&stiffness, inverse_mass, links);
         all.into_iter().fold(0.0, f64::max)

@@ -1,7 +1,7 @@
 //! The stiffness by which multipliers are eliminated.
 
 use super::Couplings;
-use super::all::{Hold, moved_by};
+use super::all::Hold;
 use super::elimination::{Elimination, FIRM, Held, add_stiffness, compliance};
 use crate::system::{ContactBlock, Links};
 
@@ -18,7 +18,7 @@ impl Couplings {
         let mut elimination = std::mem::take(&mut self.elimination);
         elimination.held.clear();
         for (i, _, row) in self.rows() {
-            let free = moved_by(row, links).into_iter();
+            let free = links.moved(row.terms()).into_iter();
             let free = free.filter(|(dof, a)| !fixed[*dof] && *a != 0.0);
             let (carried, cells): (Vec<Held>, Vec<Held>) = free
                 .map(|(dof, a)| Held {

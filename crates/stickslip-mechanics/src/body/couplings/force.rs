@@ -68,6 +68,10 @@ impl Force for Couplings {
                         }
                         continue;
                     }
+                    if self.explicit && !gap {
+                        // Held exactly, by whoever makes the increment.
+                        continue;
+                    }
                     let stiffness = match self.explicit {
                         true => hold.stiffness,
                         false => self.eliminated_by(i),
@@ -157,20 +161,16 @@ impl Force for Couplings {
             let was = std::mem::replace(&mut memory.targets[i], target);
             match act {
                 Act::Held(_) => {
-                    let stretch = sum - target - memory.rest.get(i).unwrap_or(&0.0);
-                    let pull = self.hold[i].stiffness * stretch;
-                    let force = match self.explicit {
-                        true => memory.multipliers[i] + pull,
-                        false => self.iterate.now[i],
+                    let [from, to, shown] = match self.explicit {
+                        true => {
+                            let exact = self.exact.get(i).copied().unwrap_or_default();
+                            [exact.from, exact.to, exact.shown]
+                        }
+                        false => [memory.forces[i], self.iterate.now[i], self.iterate.now[i]],
                     };
-                    if self.explicit && !self.hold[i].idle {
-                        // the spring, and the force with which it started
-                        memory.stored += stretch * (memory.multipliers[i] + 0.5 * pull);
-                    } else {
-                        memory.multipliers[i] = force;
-                    }
-                    memory.work -= 0.5 * (memory.forces[i] + force) * (target - was);
-                    memory.forces[i] = force;
+                    memory.work -= 0.5 * (from + to) * (target - was);
+                    memory.multipliers[i] = to;
+                    memory.forces[i] = shown;
                 }
                 Act::Pulled(force) => {
                     memory.work -= 0.5 * (memory.forces[i] + force) * (sum - sum_before);

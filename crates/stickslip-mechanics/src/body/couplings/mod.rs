@@ -9,7 +9,7 @@
 //! row of an equation is an unknown of Newton's method, eliminated with a stiffness of 10² times what holds its points, bodies and contact
 //! (`fit.rs`, from the diagonal of the matrix and from contact in series with what its other points rest on), as in a method of multipliers with an update in every iteration: at equilibrium the equation holds to rounding,
 //! and equations that say the same twice do no harm. Points of couplings are always candidates. At the start of motion `couplings/motion.rs` finds the forces with which
-//! accelerations obey the equations. Small motions about a state, modes and answers to harmonic forces, have no unknowns for what equations determine. In explicit steps equations are springs that have at most the highest frequency of the bodies. The energy of springs counts with that
+//! accelerations obey the equations. Small motions about a state, modes and answers to harmonic forces, have no unknowns for what equations determine. In explicit steps equations hold exactly (`integrate/exact.rs`), and rigid stops are springs that have at most the highest frequency of the bodies. The energy of springs counts with that
 //! of the bodies, and the work of equations whose value changes with that of the supports.
 //!
 //! The cut of a pretension ([`Pretension`]) is a third kind of rows, made by `[pretension]` and not by a kind of coupling: there is no unknown for the
@@ -34,7 +34,7 @@ mod row;
 mod spring;
 mod state;
 
-pub use all::{Coupling, Couplings, CouplingsMemory, Meets, Tie};
+pub use all::{Coupling, Couplings, CouplingsMemory, ExactForce, Meets, Tie};
 pub use axial_spring::AxialSpring;
 pub use dashpot::Dashpot;
 pub use distributing::{Distributing, SetWeight, Weights};

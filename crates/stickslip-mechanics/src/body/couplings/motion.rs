@@ -1,7 +1,7 @@
 //! The forces of equations at the start of motion, and how points without mass go with those that have one.
 
 use super::Couplings;
-use super::all::{Act, moved_by};
+use super::all::Act;
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};
 
@@ -111,7 +111,7 @@ impl Couplings {
         };
         for (i, coupling, row) in self.rows() {
             let terms = match self.act(i, coupling, t) {
-                Act::Held(_) => moved_by(row, links),
+                Act::Held(_) => links.moved(row.terms()),
                 _ => continue,
             };
             if terms.iter().all(|(dof, _)| !massless[*dof]) {

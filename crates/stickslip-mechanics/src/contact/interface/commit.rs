@@ -257,19 +257,20 @@ impl Interface {
                 path: h.path + self.cycles() * path,
                 spent: h.spent + self.cycles() * dissipated,
                 limit,
-                sheared: self.sheared(e.tangential_stiffness, shear),
+                sheared: self.sheared(shear, e.tangential_stiffness),
                 stiffness: [e.normal_stiffness, e.tangential_stiffness],
             },
         }
     }
 
     /// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
-    pub(super) fn sheared(&self, stiffness: f64, shear: Vec3) -> f64 {
+    pub(super) fn sheared(&self, shear: Vec3, stiffness: f64) -> f64 {
         let updated = matches!(
             self.laws.enforcement.as_dyn().multipliers(),
             Multipliers::Augmented { .. }
         );
         let springs = match self.history.springs {
+            true if self.holds_exactly() => false,
             true => self.laws.tied || self.laws.friction_law().frictional(),
             false => self.laws.needs_tangential_stiffness() && !updated,
         };

@@ -57,6 +57,20 @@ impl Evaluations {
         }
     }
 
+    /// Gives a point whose rows are known this traction, and its force.
+    pub fn pull(&mut self, i: usize, traction: [f64; 3]) {
+        let e = &mut self.points[i];
+        e.response.traction = traction;
+        let batch = &mut self.batches[i / CHUNK];
+        if let (Some(force), Some(rows)) = (e.slots.force, e.slots.rows) {
+            let rows = &batch.rows[rows..rows + 3 * e.slots.n];
+            for (k, f) in batch.force[force..force + e.slots.n].iter_mut().enumerate() {
+                let along = (0..3).map(|q| traction[q] * rows[q * e.slots.n + k]);
+                *f = -e.area * along.sum::<f64>();
+            }
+        }
+    }
+
     /// The numbers of a point.
     pub fn batch(&self, i: usize) -> &Batch {
         &self.batches[i / CHUNK]
@@ -117,6 +131,8 @@ pub(super) struct Evaluation {
     pub over: bool,
     /// Whether it slides all the time.
     pub steady: bool,
+    /// Gap and slip of a tie that explicit increments hold exactly.
+    pub off: [f64; 3],
     /// Area that the point stands for.
     pub area: f64,
     pub normal_stiffness: f64,

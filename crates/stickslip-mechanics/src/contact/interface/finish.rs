@@ -19,6 +19,14 @@ impl Interface {
         e: &mut Evaluation,
         batch: &mut Batch,
     ) -> Option<[f64; 3]> {
+        if self.holds_exactly() {
+            // What it carries follows from how all else accelerates.
+            e.response.traction = [0.0; 3];
+            e.response.d_gap = [[0.0; 3]; 3];
+            add_force(e, [0.0; 3], batch);
+            add_rows(e, &[[0.0; 3]; 3], [0.0; 3], batch);
+            return None;
+        }
         let unknown = self.unknown() && !scene.wants.initial;
         let r = &e.response;
         let traction = if unknown { e.multiplier } else { r.traction };

@@ -96,3 +96,4 @@ pub use resultant::Resultant;
 pub use scar::Scar;
 pub use sheet::Sheet;
 pub use sides::WearReport;
+pub use springs::TieRow;

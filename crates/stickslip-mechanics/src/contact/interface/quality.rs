@@ -61,9 +61,9 @@ impl Interface {
         self.history.springs
     }
 
-    /// Energy of the springs that stand for a tie in an explicit step `[J]`; `None` where there are none.
+    /// Energy of the springs that a tie by a penalty is in an explicit step `[J]`; `None` where there are none.
     pub fn tie_spring_energy(&self) -> Option<f64> {
-        let springs = self.history.springs && self.laws.tied && self.laws.needs_normal_stiffness();
+        let springs = self.history.springs && self.laws.tied && !self.holds_exactly();
         springs.then(|| self.stored_energy())
     }
 

@@ -78,6 +78,10 @@ impl Interface {
         }
         let [e, f] = stencil.frame_before;
         let moved = add_scaled(scale(slid[0], e), slid[1], f);
+        let off = match self.holds_exactly() {
+            true => [stencil.gap - at.rest, slid[0], slid[1]],
+            false => [0.0; 3],
+        };
         let response = self.wearing(i, stencil, moved, &mut at);
         let worn = at.worn.depth(response.traction[0]);
         Evaluation {
@@ -102,6 +106,7 @@ impl Interface {
             carried: at.kept.shear,
             over: true,
             steady: at.slip.steady,
+            off,
             area: met.area,
             ..Evaluation::default()
         }
@@ -138,7 +143,7 @@ impl Interface {
             true => self.spring(enforcement.normal(), own),
             false => f64::INFINITY,
         };
-        let tangential = self.sticking(own);
+        let tangential = self.tangential_stiffness(own);
         let touches = self.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
         Stiffnesses {
             normal,

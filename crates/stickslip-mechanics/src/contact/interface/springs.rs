@@ -1,13 +1,84 @@
-//! Explicit dynamics: springs in place of multipliers, and how stiff they are.
+//! Explicit dynamics: springs in place of multipliers, and how stiff they are; ties that hold exactly.
 
 use super::definition::Interface;
 use crate::contact::enforcement::Multipliers;
-use crate::system::Links;
+use crate::math::norm;
+use crate::system::{Assembler, Links};
 
 /// Penetration of a point about to touch, relative to the cell beneath.
 const TOUCHED: f64 = 1e-6;
 
+/// One direction in which an explicit increment holds a point of a tie exactly.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TieRow {
+    /// The point.
+    pub point: usize,
+    /// The gap, or one of the two components of slip.
+    pub direction: usize,
+    /// Gradient of it, by dof.
+    pub terms: Vec<(usize, f64)>,
+    /// What it is, and should not be `[m]`.
+    pub off: f64,
+    /// Area that the point stands for `[m²]`.
+    pub area: f64,
+    /// What it is a sum of, rounding of which shows in it `[m]`.
+    pub size: f64,
+}
+
 impl Interface {
+    /// Whether explicit increments hold the interface exactly: a tie but for one by a penalty, which yields as it was told to.
+    pub(super) fn holds_exactly(&self) -> bool {
+        let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
+        self.laws.tied && self.history.springs && multipliers
+    }
+
+    /// What is to be held exactly, as it was at the last evaluation.
+    pub fn tie_rows(&self) -> Vec<TieRow> {
+        let mut out = Vec::new();
+        let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
+        let points = self.cache.last.points.iter().enumerate();
+        for (i, e) in points.filter(|_| self.holds_exactly()) {
+            let batch = self.cache.last.batch(i);
+            let Some(tangent) = batch.tangent(e) else {
+                continue;
+            };
+            let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
+            (self.cache.in_space).gradients(&mut dofs, &mut rows);
+            for (direction, row) in rows.chunks_exact(dofs.len()).enumerate() {
+                let terms = dofs.iter().copied().zip(row.iter().copied());
+                let terms: Vec<_> = terms.filter(|(_, a)| *a != 0.0).collect();
+                if !terms.is_empty() {
+                    let factors: f64 = terms.iter().map(|(_, a)| a.abs()).sum();
+                    out.push(TieRow {
+                        point: i,
+                        direction,
+                        terms,
+                        off: e.off[direction],
+                        area: e.area,
+                        size: factors * largest,
+                    });
+                }
+            }
+        }
+        out
+    }
+
+    /// Lets these tractions `[Pa]`, by point and along the directions of its rows, be those of the last evaluation, and adds their forces to a residual.
+    pub fn pull_ties(&mut self, tractions: &[(usize, [f64; 3])], out: Option<&mut Assembler>) {
+        for &(i, traction) in tractions {
+            self.cache.last.pull(i, traction);
+        }
+        let Some(out) = out else {
+            return;
+        };
+        let mut spatial = Assembler::new(out.residual.len());
+        for &(i, _) in tractions {
+            let (batch, e) = (self.cache.last.batch(i), &self.cache.last.points[i]);
+            spatial.add_residual(batch.dofs(e), batch.force(e).unwrap_or_default());
+        }
+        self.cache.in_space.assemble(&mut spatial, out);
+    }
+
     /// Enforces contact and stick by springs in explicit dynamics, whatever the enforcement: those of a penalty, or as stiff as the cells
     /// beneath.
     ///
@@ -24,10 +95,13 @@ impl Interface {
         self.history.rest.clear();
         let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
         if springs && multipliers && self.laws.needs_normal_stiffness() {
+            let exact = self.holds_exactly();
             let points = self.points.iter().zip(&self.history.points);
             self.history.rest = points
                 .map(|(p, h)| {
-                    if h.pressure > 0.0 || self.laws.tied && h.gap.is_finite() {
+                    if exact && h.gap.is_finite() {
+                        h.gap
+                    } else if h.pressure > 0.0 || self.laws.tied && h.gap.is_finite() {
                         h.gap + h.pressure / p.stiffness
                     } else {
                         0.0
@@ -35,12 +109,13 @@ impl Interface {
                 })
                 .collect();
         }
-        let points = self.points.iter().zip(&self.history.points);
-        let sheared = points.map(|(p, h)| self.sheared(self.sticking(p.stiffness), h.shear));
-        let sheared: Vec<f64> = sheared.collect();
-        for (h, sheared) in self.history.points.iter_mut().zip(sheared) {
-            h.sheared = sheared;
-        }
+        // Springs of stick come or go with the shear that there is; what holds exactly has none.
+        let points = self.history.points.iter().zip(&self.points);
+        let sheared: Vec<f64> = points
+            .map(|(h, p)| self.sheared(h.shear, self.tangential_stiffness(p.stiffness)))
+            .collect();
+        let points = self.history.points.iter_mut().zip(sheared);
+        points.for_each(|(h, sheared)| h.sheared = sheared);
         self.history.energy.stored = self.stored_energy();
         self.history.energy.stored - before
     }
@@ -49,6 +124,9 @@ impl Interface {
     /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own. For
     /// a rigid body the springs at all its points add up, each with what the body gives way there, `1/m + |arm|²/I` as inverse mass.
     pub fn highest_frequency(&self, inverse_mass: &[f64], links: &Links) -> f64 {
+        if self.holds_exactly() {
+            return 0.0;
+        }
         let inverse = |node: usize| inverse_mass[self.dofs.of(node, 0)];
         self.highest_eigenvalue(&|i| self.stiffest(i, links), &inverse, links)
     }

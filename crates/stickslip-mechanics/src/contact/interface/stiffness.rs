@@ -36,6 +36,15 @@ impl Interface {
         self.laws.unknown_multipliers() && !self.history.springs
     }
 
+    /// Stiffness against slip at a point whose own is this `[Pa/m]`; infinite where the law alone says what resists.
+    pub(super) fn tangential_stiffness(&self, own: f64) -> f64 {
+        match self.laws.needs_tangential_stiffness() {
+            true => self.spring(self.laws.enforcement.as_dyn().tangential(), own),
+            false if self.laws.lends_spring(self.history.springs) => own,
+            false => f64::INFINITY,
+        }
+    }
+
     /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
     pub(super) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
         let multipliers = self.laws.enforcement.as_dyn().multipliers();
@@ -49,14 +58,5 @@ impl Interface {
         // Never softer than asked for, and never so stiff that the bodies drown in rounding.
         let raised = start * 10_f64.powi(self.attempt.tightened as i32);
         raised.min(STIFFEST * own).max(start)
-    }
-
-    /// How stiffly a point sticks that has this stiffness of its `own`; infinite where nothing gives way.
-    pub(super) fn sticking(&self, own: f64) -> f64 {
-        match self.laws.needs_tangential_stiffness() {
-            true => self.spring(self.laws.enforcement.as_dyn().tangential(), own),
-            false if self.laws.lends_spring(self.history.springs) => own,
-            false => f64::INFINITY,
-        }
     }
 }

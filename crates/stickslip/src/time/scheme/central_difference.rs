@@ -4,7 +4,7 @@ use super::method::{Method, Scheme};
 use crate::registry::Samples;
 
 /// Central differences: explicit, second order, with lumped masses and without a matrix. Contact and stick are enforced by
-/// springs, whatever `enforcement` says: those of a penalty, or of the stiffness of the bodies' own cells.
+/// springs, whatever `enforcement` says: those of a penalty, or of the stiffness of the bodies' own cells. Equations, and ties but for those by a penalty, hold exactly.
 ///
 /// The increment follows from the highest frequency of the bodies and the stiffness of the contact. `increments.fixed` sets it instead;
 /// more than the stable one is refused. Give `increments.largest` to bound it.
