@@ -16,7 +16,7 @@ const NUMBERS: [u64; 30] = [
 ];
 
 /// Series and numbers of others that were wrong, disagreed or did not solve once.
-const ONCE_WRONG: [(u64, u64); 10] = [
+const ONCE_WRONG: [(u64, u64); 11] = [
     (4207, 55),
     (4207, 128),
     (4207, 148),
@@ -26,6 +26,7 @@ const ONCE_WRONG: [(u64, u64); 10] = [
     (4207, 275),
     (4311, 33),
     (4311, 86),
+    (5501, 460),
     (5501, 887),
 ];
 
