@@ -188,3 +188,31 @@ step = [{ increments.fixed = 3 }]
 "#,
     );
 }
+
+/// A load lifts what a jack presses down, by much less: nothing goes the way of the load.
+#[test]
+fn a_load_does_not_move_a_part_against_its_pretension() {
+    let row = solved_at_once(
+        r#"
+format = 1
+model.space = "plane-strain"
+material.soft.isotropic = { young = 2.4e5, poisson = 0.1 }
+material.hard.isotropic = { young = 2.2e6, poisson = 0.3 }
+body.lower = { generate.rectangle = { from = [-3, -2], to = [3, 0], cells = [6, 2] }, material = "soft" }
+body.upper = { generate.rectangle = { from = [-3, 0], to = [3, 2.5], cells = [7, 2] }, material = "hard" }
+body.side = { generate.rectangle = { from = [3, -2], to = [4.5, 2], cells = [2, 5] }, material = "soft" }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.6, roles = "as-named" }
+interface.side-low = { secondary = "lower.right", primary = "side.left", friction.coulomb.mu = 0.6 }
+interface.side-up = { secondary = "upper.right", primary = "side.left", friction.coulomb.mu = 0.6 }
+support.side = { set = "side.right", x = -6e-3, y = 0 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.roof = { set = "upper.top", x = 0, y = 0 }
+load.side = { set = "upper.right", traction.value = [-40, 20] }
+pretension.jack = { of = "upper", plane = { point = [0, 1.25], normal = [0, 1] } }
+step = [{ increments.fixed = 4, pretension.jack = { force = -5e3 } }]
+"#,
+    );
+    // What the side takes by friction is no more than it is pressed.
+    let pressed = row.get("joint.CFN2").expect("a force");
+    assert!((4e3..5e3).contains(&pressed), "{pressed}");
+}
