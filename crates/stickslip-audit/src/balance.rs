@@ -127,10 +127,6 @@ fn equations(results: &Results, external: &External, state: &State, report: &mut
             continue;
         };
         let step = results.case.step_at(state.t);
-        // In explicit steps equations are springs.
-        if results.case.steps[step].explicit() {
-            continue;
-        }
         // From the second step on values hold where no amplitude says otherwise; the way there is not followed.
         if !results.case.steps[step].lists("couplings", &coupling.name)
             || results.case.steps[step].end > state.t * (1.0 + 1e-9)

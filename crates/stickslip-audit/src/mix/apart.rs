@@ -366,6 +366,16 @@ pub const APART: &[(&str, &str, &str)] = &[
         "The weight of the middle one is what presses.",
     ),
     ("third-body", "kept-level", "The drive acts on the cap."),
+    (
+        "third-body",
+        "complex-modes",
+        "What slides steadily drags the body between the two to the limit of what holds it on its other side.",
+    ),
+    (
+        "weight",
+        "complex-modes",
+        "Friction at its limit tips over what is pressed by its weight alone and guided at its top, where it is tall.",
+    ),
     ("tied-foot", "periodic", "The foot has sides of its own."),
     (
         "side-body",
@@ -403,6 +413,26 @@ pub const APART: &[(&str, &str, &str)] = &[
         "Steady sliding drags a loose body away.",
     ),
     ("loose", "belt", "A belt drags a loose body away."),
+    (
+        "loose",
+        "side-load",
+        "Friction holds a loose body, and what presses it may be less than what pushes it aside.",
+    ),
+    (
+        "loose",
+        "centrifugal",
+        "Friction holds a loose body, and what presses it may be less than what pushes it aside.",
+    ),
+    (
+        "let-go",
+        "side-load",
+        "Friction holds what is let go, and what presses it may be less than what pushes it aside.",
+    ),
+    (
+        "let-go",
+        "centrifugal",
+        "Friction holds what is let go, and what presses it may be less than what pushes it aside.",
+    ),
     ("loose", "distributing-held", "There is one drive."),
     (
         "loose",

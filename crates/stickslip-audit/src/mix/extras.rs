@@ -3,6 +3,7 @@
 use super::feature::{Feature, nothing, row};
 use super::laws::PRESSURE;
 use super::sheet::{Sheet, number};
+use super::structure::ends;
 use crate::draw::Random;
 
 /// The rows.
@@ -110,6 +111,8 @@ pub const FEATURES: &[Feature] = &[
     ),
     row("", "side-load", 0.7, &[], |s, r| {
         let size = r.between(-0.1, 0.1) * PRESSURE;
+        // A light body would be lifted off by a push upwards.
+        let size = if s.has("weight") { size.abs() } else { size };
         let load = s.vector([size, -0.5 * size], s.view.modulus);
         let right = s.right();
         s.table(format!(
@@ -123,7 +126,9 @@ pub const FEATURES: &[Feature] = &[
         &["plane-strain", "axisymmetric"],
         |s, _| {
             let speed = number(0.05 / s.view.time());
-            let point = s.place([0.0, 0.0], 0.0);
+            // About a point below it the upper body would be thrown off the lower one where little presses it.
+            let top = ends(s, "upper").map_or(0.0, |e| e.1[1]);
+            let point = s.place([0.0, top], 0.0);
             let point = if s.space == super::sheet::Space::Ring {
                 String::new()
             } else {
@@ -141,6 +146,8 @@ pub const FEATURES: &[Feature] = &[
         &["press-and-slide", "press-and-release"],
         |s, r| {
             let mu = r.between(0.05, 0.5);
+            // Friction has to hold a loose body as it did, against a push of a twentieth of what presses it.
+            let mu = if s.has("loose") { mu.max(0.1) } else { mu };
             s.steps[1].keys.push(format!(
                 "change.joint = {{ friction.coulomb = {{ mu = {mu} }} }}"
             ));

@@ -3,7 +3,7 @@
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
-/// Part of the sizes below which a column does not help, and of the largest eigenvalue below which one is none.
+/// Part of the sizes below which a column is rounding or does not help, and of the largest eigenvalue below which one is none.
 const NO_HELP: f64 = 1e-10;
 const NO_EIGENVALUE: f64 = 1e-12;
 
@@ -16,11 +16,16 @@ const MOST: usize = 60;
 pub fn rest_of_nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let (mut active, mut x): (Vec<usize>, Vec<f64>) = Default::default();
     let size = norm(target);
+    // A column counts by its direction, which one that is rounding beside the others has none of.
+    let largest = columns.iter().map(|c| norm(c)).fold(0.0, f64::max);
+    let columns = columns.iter().map(|c| (c, norm(c)));
+    let columns = columns.filter(|(_, length)| *length > NO_HELP * largest);
+    let columns = columns.map(|(c, length)| c.iter().map(|v| v / length).collect());
+    let columns: &[Vec<f64>] = &columns.collect::<Vec<_>>();
     let mut rest = target.to_vec();
     for _ in 0..MOST * target.len().max(1) {
-        let gain = |c: &Vec<f64>| dot(c, &rest) / norm(c).max(f64::MIN_POSITIVE);
         let passive = (0..columns.len()).filter(|k| !active.contains(k));
-        let best = passive.map(|k| (k, gain(&columns[k])));
+        let best = passive.map(|k| (k, dot(&columns[k], &rest)));
         let best = best.max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((k, _)) = best.filter(|(_, gain)| *gain > NO_HELP * size) else {
             break;
@@ -101,5 +106,17 @@ mod tests {
         // Against all of them.
         let rest = rest_of_nonnegative(&cone, &[-1.0, 0.0, 0.0]);
         assert!((norm(&rest) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn neither_columns_of_rounding_nor_their_sizes_hide_the_others() {
+        let cone = [
+            vec![1.0, 0.5],
+            vec![0.0, -1e-16],
+            vec![1e-8, -1e-8],
+            vec![0.0, 0.0],
+        ];
+        let inside = rest_of_nonnegative(&cone, &[100.0, 0.0]);
+        assert!(norm(&inside) < 1e-9, "{inside:?}");
     }
 }

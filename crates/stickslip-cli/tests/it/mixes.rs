@@ -16,11 +16,12 @@ const NUMBERS: [u64; 30] = [
 ];
 
 /// Series and numbers of others that were wrong, disagreed or did not solve once.
-const ONCE_WRONG: [(u64, u64); 15] = [
+const ONCE_WRONG: [(u64, u64); 17] = [
     (4207, 55),
     (4207, 128),
     (4207, 148),
     (4207, 195),
+    (4207, 200),
     (4207, 240),
     (4207, 251),
     (4207, 275),
@@ -30,6 +31,7 @@ const ONCE_WRONG: [(u64, u64); 15] = [
     (5501, 301),
     (5501, 344),
     (5501, 404),
+    (5501, 460),
     (5501, 887),
     (5501, 941),
 ];

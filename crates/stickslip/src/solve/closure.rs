@@ -68,10 +68,14 @@ pub(crate) fn close(
         f.bodies.iter().for_each(|&b| clusters.of[b] = f.bodies[0]);
     }
     let pushes = pushes(model, external);
+    let mut pulls = vec![0.0; external.len()];
+    for (dof, force) in contact.couplings.pulls(trial.to).into_values().flatten() {
+        pulls[dof] += force;
+    }
     let mut u = frame.state.u.clone();
     let mut adrift = Vec::new();
     for _ in 0..MOST_STRETCHES {
-        let w = velocities(model, &clusters, external, &pushes);
+        let w = velocities(model, &clusters, (external, &pulls), &pushes);
         if w.iter().all(|w| *w == 0.0) {
             break;
         }
@@ -125,7 +129,12 @@ pub(crate) fn close(
 }
 
 /// Velocities of all dofs, the fastest cluster's of size one: along the load, as a body without friction starts from rest.
-fn velocities(model: &Model, clusters: &Clusters, external: &[f64], pushes: &[Push]) -> Vec<f64> {
+fn velocities(
+    model: &Model,
+    clusters: &Clusters,
+    (external, pulls): (&[f64], &[f64]),
+    pushes: &[Push],
+) -> Vec<f64> {
     let dofs = model.dofs;
     let mut w = vec![0.0; external.len()];
     for cluster in 0..model.bodies.len() {
@@ -144,7 +153,7 @@ fn velocities(model: &Model, clusters: &Clusters, external: &[f64], pushes: &[Pu
         if basis.is_empty() {
             // One body that can only turn.
             if let [only] = members.as_slice() {
-                turn(only, external, mass, &mut w);
+                turn(only, (external, pulls), mass, &mut w);
             }
             continue;
         }
@@ -189,12 +198,13 @@ fn common(members: &[&FreeBody]) -> Vec<Vec3> {
         .collect()
 }
 
-/// Adds the motion that the load gives a body which can only turn.
-fn turn(free: &FreeBody, external: &[f64], mass: f64, w: &mut [f64]) {
+/// Adds the motion that the load gives a body which can only turn, or of which a pretension has cut off a part: against that no load moves the part.
+fn turn(free: &FreeBody, (external, pulls): (&[f64], &[f64]), mass: f64, w: &mut [f64]) {
     for (_, motion) in &free.motions {
         let parts = motion.iter().zip(external).map(|(m, f)| m * f);
         let (force, size) = parts.fold((0.0, 0.0), |(s, a): (f64, f64), p| (s + p, a + p.abs()));
-        if force.abs() <= NO_FORCE * size {
+        let pull: f64 = motion.iter().zip(pulls).map(|(m, f)| m * f).sum();
+        if force.abs() <= NO_FORCE * size || force * (force + pull) <= 0.0 {
             continue;
         }
         let square: f64 = motion.iter().map(|m| m * m).sum();

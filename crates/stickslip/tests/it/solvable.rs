@@ -155,3 +155,64 @@ step = [{{}}]
         assert!((both / one - 1.0).abs() < 1e-6, "{rest}: {both} for {one}");
     }
 }
+
+/// The last row of the history of a problem that is solved without a smaller increment.
+fn solved_at_once(text: &str) -> support::Row {
+    let record = record(text);
+    assert_eq!(record.cutbacks, 0, "{text}");
+    record.increments.last().expect("a row").1.clone()
+}
+
+/// Equations beside soft bodies keep a linear solver from as many digits as a friction problem is asked with: it is solved with those that there are.
+#[test]
+fn a_friction_problem_takes_the_digits_that_there_are() {
+    solved_at_once(
+        r#"
+format = 1
+model.space = "solid"
+solver.method = "sparse"
+material.low.isotropic = { young = 19200, poisson = 0.18 }
+material.foot.isotropic = { young = 5683.2, poisson = 0.426 }
+material.up.isotropic = { young = 1.7664e7, poisson = 0.249 }
+body.lower = { generate.box = { from = [-980, -490, -834.96], to = [980, 490, 0], cells = [2, 2, 2], element = "tet10" }, material = "low" }
+body.upper = { generate.box = { from = [-392, -490, 0], to = [1381.8, 490, 856.52], cells = [3, 2, 2], element = "tet4" }, material = "up" }
+body.foot = { generate.box = { from = [-980, -490, -1422.96], to = [980, 490, -834.96], cells = [3, 2, 2] }, material = "foot" }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.399, primary-velocity = [3.92, 0, 0] }
+interface.tie = { secondary = "lower.bottom", primary = "foot.top", tied = true }
+reference.head = { point = [494.9, 0, 856.52] }
+coupling.head.kinematic = { reference = "head", set = "upper.top" }
+support.base = { set = "foot.bottom", x = 0, y = 0, z = 0 }
+support.guide = { set = "head", x = 0, y = 0, rotation-x = 0, rotation-y = 0, rotation-z = 0 }
+load.press = { set = "head", nodal-force.value = [0, 0, -1.278e8] }
+step = [{ increments.fixed = 3 }]
+"#,
+    );
+}
+
+/// A load lifts what a jack presses down, by much less: nothing goes the way of the load.
+#[test]
+fn a_load_does_not_move_a_part_against_its_pretension() {
+    let row = solved_at_once(
+        r#"
+format = 1
+model.space = "plane-strain"
+material.soft.isotropic = { young = 2.4e5, poisson = 0.1 }
+material.hard.isotropic = { young = 2.2e6, poisson = 0.3 }
+body.lower = { generate.rectangle = { from = [-3, -2], to = [3, 0], cells = [6, 2] }, material = "soft" }
+body.upper = { generate.rectangle = { from = [-3, 0], to = [3, 2.5], cells = [7, 2] }, material = "hard" }
+body.side = { generate.rectangle = { from = [3, -2], to = [4.5, 2], cells = [2, 5] }, material = "soft" }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.6, roles = "as-named" }
+interface.side-low = { secondary = "lower.right", primary = "side.left", friction.coulomb.mu = 0.6 }
+interface.side-up = { secondary = "upper.right", primary = "side.left", friction.coulomb.mu = 0.6 }
+support.side = { set = "side.right", x = -6e-3, y = 0 }
+support.base = { set = "lower.bottom", x = 0, y = 0 }
+support.roof = { set = "upper.top", x = 0, y = 0 }
+load.side = { set = "upper.right", traction.value = [-40, 20] }
+pretension.jack = { of = "upper", plane = { point = [0, 1.25], normal = [0, 1] } }
+step = [{ increments.fixed = 4, pretension.jack = { force = -5e3 } }]
+"#,
+    );
+    // What the side takes by friction is no more than it is pressed.
+    let pressed = row.get("joint.CFN2").expect("a force");
+    assert!((4e3..5e3).contains(&pressed), "{pressed}");
+}

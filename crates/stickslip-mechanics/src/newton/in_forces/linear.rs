@@ -5,8 +5,9 @@ use crate::newton::attempt::Attempt;
 use crate::newton::settings::Settings;
 use crate::system::{Assembler, Cause, StepFailure};
 
-/// Residual to which its solutions are found.
-const COLUMN: f64 = 1e-9;
+/// Residual to which its solutions are found, and by how much more is left where rounding keeps a solution from that.
+pub(super) const COLUMN: f64 = 1e-9;
+const COARSER: f64 = 10.0;
 
 /// The linear problem of one pass.
 pub(super) struct Linear<'a, 'b, 's> {
@@ -15,6 +16,8 @@ pub(super) struct Linear<'a, 'b, 's> {
     pub held: Assembler,
     /// Forces of the bulk at the iterate.
     pub rest: Vec<f64>,
+    /// Residual to which solutions are found.
+    pub tolerance: f64,
 }
 
 impl Linear<'_, '_, '_> {
@@ -32,14 +35,26 @@ impl Linear<'_, '_, '_> {
             .collect();
         let mut du = vec![0.0; b.len()];
         // As accurate as rounding lets it be: what holds points is soft, and would make much of what is left.
-        let settings = Settings {
-            linear_tolerance: COLUMN,
-            ..self.attempt.settings
-        };
-        let effort = (&settings, &mut *self.attempt.statistics);
-        system
-            .bulk
-            .solve(&self.held, &free, COLUMN, &mut du, effort)?;
+        let coarsest = self.attempt.settings.linear_tolerance;
+        loop {
+            let settings = Settings {
+                linear_tolerance: self.tolerance,
+                ..self.attempt.settings
+            };
+            let effort = (&settings, &mut *self.attempt.statistics);
+            let solved = (system.bulk).solve(&self.held, &free, self.tolerance, &mut du, effort);
+            match solved {
+                Err(failure)
+                    if failure.cause == Cause::LinearSolver && self.tolerance < coarsest =>
+                {
+                    self.tolerance = (COARSER * self.tolerance).min(coarsest);
+                }
+                solved => {
+                    solved?;
+                    break;
+                }
+            }
+        }
         system.links.impose(&mut du);
         Ok(du)
     }

@@ -2,7 +2,7 @@
 
 use super::account::Account;
 use super::columns::{Columns, MOST_UNKNOWNS};
-use super::linear::Linear;
+use super::linear::{COLUMN, Linear};
 use super::place::{At, Found, Place};
 use super::relaxation::Relaxation;
 use super::search::search;
@@ -57,6 +57,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
                 attempt,
                 held,
                 rest,
+                tolerance: COLUMN,
             },
             places,
             counts,

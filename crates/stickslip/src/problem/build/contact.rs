@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::super::{FacetShape, Interface as Table, Problem, Roles};
 use super::fault::problem_error;
+use super::held::HeldNodes;
 use super::mirrors::{self, Held};
 use super::schedules::Timeline;
 use super::sets::Sets;
@@ -34,7 +35,7 @@ pub(super) fn build(
     (mesh, space): (&Mesh, Space),
     bodies: &[Body],
     timeline: &Timeline,
-    held: &Held,
+    (held, held_nodes): (&Held, &HeldNodes),
 ) -> Result<Vec<Interface>, Error> {
     let surfaces = Surfaces {
         mesh,
@@ -49,6 +50,7 @@ pub(super) fn build(
             surfaces: &surfaces,
             table,
             held,
+            held_nodes,
             schedule: timeline.interface(problem, name),
         };
         let both = table.discretisation().as_dyn().two_sided()
@@ -97,6 +99,7 @@ struct Make<'a> {
     surfaces: &'a Surfaces<'a>,
     table: &'a Table,
     held: &'a Held<'a>,
+    held_nodes: &'a HeldNodes<'a>,
     schedule: Schedule,
 }
 
@@ -295,6 +298,10 @@ impl Make<'_> {
         let primary_nodes = numbering.nodes.len();
         let (points, mortar) =
             self.points(&facets, (&opposite, &tips), only.as_deref(), &mut numbering);
+        let points = match mortar {
+            Some(_) => points,
+            None => (self.held_nodes).once(points, (&numbering.nodes, primary_nodes)),
+        };
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(
                 secondary.1.clone(),

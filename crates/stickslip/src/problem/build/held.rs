@@ -2,12 +2,13 @@
 //!
 //! A multiplier of contact changes a motion. Where a support prescribes that of a node, or a reference point or another tie does, the constraint of the node would act
 //! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
-//! their neighbours take over (`contact/mortar/merge.rs`), and where both sides are clamped nothing is left to be kept apart (`Interface::clamped`).
+//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`Interface::clamped`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::body::couplings::{Coupling, Row, Tie};
 use crate::contact::interface::Interface;
+use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
 use crate::system::{Course, Dofs, Link, Links};
@@ -104,10 +105,13 @@ impl<'a> HeldNodes<'a> {
         }
     }
 
-    /// Nodes of the secondary, with an axis, that move as another one of it where nodes of the primary do as well, as at the ends of a period that both bodies have: one of the two has
-    /// a motion of its own. With a multiplier each only the sum of the two would be known, or, where meshes do not match, their difference by next to nothing.
-    fn repeated(&self, interface: &Interface) -> BTreeSet<(usize, usize)> {
-        let (theirs, own) = interface.nodes.split_at(interface.primary_nodes);
+    /// Nodes of the secondary, with an axis, that move as another one of it where nodes of the primary do as well, as at the ends of a period that both bodies have, and that one: one of
+    /// the two has a motion of its own. With a multiplier each only the sum of the two would be known, or, where meshes do not match, their difference by next to nothing.
+    fn repeated(
+        &self,
+        theirs: &[usize],
+        own: &[usize],
+    ) -> BTreeMap<(usize, usize), (usize, usize)> {
         let [theirs, own] =
             [theirs, own].map(|nodes| nodes.iter().copied().collect::<BTreeSet<_>>());
         let places = self
@@ -128,28 +132,51 @@ impl<'a> HeldNodes<'a> {
             .collect::<BTreeSet<_>>();
         // By node the one that it moves as.
         let mut first = BTreeMap::<(usize, usize), (usize, usize)>::new();
-        let mut repeated = BTreeSet::new();
         for pair in places
             .iter()
             .filter(|pair| met.contains(&pair[0].1) && both(&own, pair))
         {
-            let ends = pair.map(|mut place| {
-                while let Some(&next) = first.get(&place) {
-                    place = next;
-                }
-                place
-            });
+            let ends = pair.map(|place| root(&first, place));
             if ends[0] != ends[1] {
                 first.insert(ends[1], ends[0]);
-                repeated.insert(ends[1]);
             }
         }
-        repeated
+        let of = |place: &(usize, usize)| (*place, root(&first, *place));
+        first.keys().map(of).collect()
+    }
+
+    /// Points that stand at nodes, with one for all nodes that move as one: it takes over the areas of the others. The nodes are those of the primary and those of the secondary after it.
+    pub fn once(
+        &self,
+        points: Vec<ContactPoint>,
+        (nodes, primary_nodes): (&[usize], usize),
+    ) -> Vec<ContactPoint> {
+        let (theirs, own) = nodes.split_at(primary_nodes);
+        let repeated = self.repeated(theirs, own);
+        let node = |point: &ContactPoint| point.node().map(|n| nodes[n]);
+        let heir = |point: &ContactPoint| {
+            let node = node(point)?;
+            let as_one = |c: usize| repeated.get(&(node, c)).map(|first| first.0);
+            let first = as_one(0)?;
+            (1..self.dofs.dim)
+                .all(|c| as_one(c) == Some(first))
+                .then_some(first)
+        };
+        let (gone, mut kept): (Vec<_>, Vec<_>) =
+            points.into_iter().partition(|p| heir(p).is_some());
+        for point in gone {
+            let first = heir(&point);
+            if let Some(first) = kept.iter_mut().find(|p| node(p) == first) {
+                first.area += point.area;
+            }
+        }
+        kept
     }
 
     fn mark_one(&mut self, interface: &mut Interface) {
         let (tied, dim) = (interface.laws.tied, self.dofs.dim);
-        let repeated = self.repeated(interface);
+        let (theirs, own) = interface.nodes.split_at(interface.primary_nodes);
+        let repeated = self.repeated(theirs, own);
         interface.clamped = (interface.nodes.iter()).map(|&n| self.clamped(n)).collect();
         let Some(mortar) = &mut interface.mortar else {
             return;
@@ -161,7 +188,7 @@ impl<'a> HeldNodes<'a> {
                     true => [true; 3],
                     false => self.of(node, &self.held),
                 };
-                axes = std::array::from_fn(|c| axes[c] || repeated.contains(&(node, c)));
+                axes = std::array::from_fn(|c| axes[c] || repeated.contains_key(&(node, c)));
                 let across = interface.points[face.points[a]].across.0;
                 axes = std::array::from_fn(|c| axes[c] && !across[c]);
                 *held = match tied {
@@ -175,6 +202,17 @@ impl<'a> HeldNodes<'a> {
             self.tied.extend(own);
         }
     }
+}
+
+/// Where the chain of nodes that move as others ends.
+fn root(
+    first: &BTreeMap<(usize, usize), (usize, usize)>,
+    mut place: (usize, usize),
+) -> (usize, usize) {
+    while let Some(&next) = first.get(&place) {
+        place = next;
+    }
+    place
 }
 
 /// Dofs of bodies that equations keep equal in all steps.

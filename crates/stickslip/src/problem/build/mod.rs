@@ -221,8 +221,8 @@ impl Problem {
         let mut held_nodes = held::HeldNodes::new(&links, dofs, &supports, &couplings);
         let couplings = Couplings::new(couplings, space.dim());
         let held = mirrors::Held::new(&links, dofs, &supports, space);
-        let mut interfaces =
-            contact::build(self, &sets, (&mesh, space), &bodies, &timeline, &held)?;
+        let held = (&held, &held_nodes);
+        let mut interfaces = contact::build(self, &sets, (&mesh, space), &bodies, &timeline, held)?;
         held_nodes.mark(&mut interfaces);
         turning::attach((&frames, &corotations), &mut interfaces)?;
         turning::refuse_ties((&frames, &corotations), &interfaces, &steps)?;
