@@ -261,7 +261,7 @@ impl Explicit {
         let from = &drift.from().state.u;
         let moved = (&mut at.u[..], &mut at.v[..]);
         let more = (self.exact).correct(&mobility, (&model.links, dt), (from, &placed), moved)?;
-        self.exact.restart(&mobility, &more, drift);
+        self.exact.restart(&mobility, &more, drift.start());
         Ok(more)
     }
 

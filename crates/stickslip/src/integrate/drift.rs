@@ -19,7 +19,7 @@ use crate::solve::spin::Spin;
 use crate::system::{Constraints, Dofs, Spinning, State};
 
 /// The rigid bodies that turn freely in space over an explicit increment.
-pub(crate) struct Drift<'a> {
+pub(super) struct Drift<'a> {
     dofs: Dofs,
     spinning: Spinning,
     /// The hidden points of those whose rotations nothing holds.

@@ -12,10 +12,10 @@
 
 use std::collections::BTreeMap;
 
-use super::drift::Drift;
 use crate::body::couplings::ExactForce;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
+use crate::model::frame::Frame;
 use crate::solve::spin::Spin;
 use crate::system::{Assembler, Cause, Links, StepFailure};
 
@@ -283,8 +283,7 @@ impl Exact {
     }
 
     /// Lets the start of an increment have had these forces as well, which [`correct`](Self::correct) found.
-    pub fn restart(&self, mobility: &Mobility, more: &[f64], drift: &mut Drift) {
-        let from = drift.start();
+    pub fn restart(&self, mobility: &Mobility, more: &[f64], from: &mut Frame) {
         let mut push = vec![0.0; from.state.a.len()];
         self.spread(more, &mut push);
         let mut change = vec![0.0; push.len()];

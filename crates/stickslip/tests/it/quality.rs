@@ -1226,7 +1226,7 @@ step = [{{ name = "fall", duration = 0.14, dynamic = {dynamic}, increments = {{ 
     assert!(figure(&good, "scheme-dissipation").value < 1e-3);
 }
 
-/// Two blocks that are glued by a penalty, or held apart by a rigid stop, swing in an explicit step: springs that are as soft as the cells beside them open, and the gate says by how much. Glued by multipliers or held
+/// Two blocks that are glued by a penalty, or held apart by a rigid stop, swing in an explicit step: springs give way, those of a stop as much as the cells beside it, and the gate says by how much. Glued by multipliers or held
 /// together by equations, they open by nothing.
 #[test]
 fn what_springs_hold_in_an_explicit_step_has_a_limit() {
@@ -1253,7 +1253,9 @@ step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
     };
     for joint in [&penalty, &coupling("gap")] {
         let coarse = swing(1, joint);
-        trips(&coarse, "explicit-opening");
+        if !joint.contains("penalty") {
+            trips(&coarse, "explicit-opening");
+        }
         let [few, many] =
             [4, 16].map(|cells| figure(&swing(cells, joint), "explicit-opening").value);
         let worst = figure(&coarse, "explicit-opening").value;
