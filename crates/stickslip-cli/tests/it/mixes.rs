@@ -16,7 +16,7 @@ const NUMBERS: [u64; 30] = [
 ];
 
 /// Series and numbers of others that were wrong, disagreed or did not solve once.
-const ONCE_WRONG: [(u64, u64); 17] = [
+const ONCE_WRONG: [(u64, u64); 18] = [
     (4207, 55),
     (4207, 128),
     (4207, 148),
@@ -29,6 +29,7 @@ const ONCE_WRONG: [(u64, u64); 17] = [
     (4311, 86),
     (5501, 28),
     (5501, 301),
+    (5501, 326),
     (5501, 344),
     (5501, 404),
     (5501, 460),

@@ -102,10 +102,14 @@ impl Pretension {
         Ok(rows)
     }
 
+    /// How many of these rows, the first, keep its sides from sliding over each other.
+    pub fn across(&self, rows: usize) -> usize {
+        rows + 1 - 2 * self.shares.len()
+    }
+
     /// What each of its rows is for.
     pub(super) fn parts(&self, rows: usize) -> impl Iterator<Item = Part> + '_ {
-        let across = rows + 1 - 2 * self.shares.len();
-        (std::iter::repeat_n(Part::Across, across))
+        (std::iter::repeat_n(Part::Across, self.across(rows)))
             .chain(self.shares.iter().map(|share| Part::Along(*share)))
             .chain(std::iter::repeat_n(Part::Equal, self.shares.len() - 1))
     }

@@ -29,8 +29,8 @@ pub(super) struct HeldNodes<'a> {
     always: Vec<bool>,
     /// What follows that.
     led: Led,
-    /// Dofs that equations keep equal in all steps, as at the ends of a period.
-    equal: Vec<[usize; 2]>,
+    /// Dofs that are kept equal in all steps: by equations, as at the ends of a period, and at one place, on the two sides of a cut.
+    equal: [Vec<[usize; 2]>; 2],
     /// Points of secondaries of ties so far.
     tied: BTreeSet<usize>,
 }
@@ -76,7 +76,7 @@ impl<'a> HeldNodes<'a> {
             held,
             always,
             led,
-            equal: equal(couplings),
+            equal: [equal(couplings), cut(couplings)],
             tied: BTreeSet::new(),
         }
     }
@@ -105,7 +105,7 @@ impl<'a> HeldNodes<'a> {
         }
     }
 
-    /// Nodes of the secondary, with an axis, that move as another one of it where nodes of the primary do as well, as at the ends of a period that both bodies have, and that one: one of
+    /// Nodes of the secondary, with an axis, that move as another one of it, and that one: at the same place, or where nodes of the primary move alike as well, as at the ends of a period that both bodies have. One of
     /// the two has a motion of its own. With a multiplier each only the sum of the two would be known, or, where meshes do not match, their difference by next to nothing.
     fn repeated(
         &self,
@@ -114,28 +114,27 @@ impl<'a> HeldNodes<'a> {
     ) -> BTreeMap<(usize, usize), (usize, usize)> {
         let [theirs, own] =
             [theirs, own].map(|nodes| nodes.iter().copied().collect::<BTreeSet<_>>());
-        let places = self
-            .equal
-            .iter()
-            .map(|pair| pair.map(|dof| self.dofs.locate(dof)));
-        let places: Vec<[(usize, usize); 2]> = places.filter(|[a, b]| a.1 == b.1).collect();
+        let [apart, together] = self.equal.each_ref().map(|pairs| {
+            let places = pairs
+                .iter()
+                .map(|pair| pair.map(|dof| self.dofs.locate(dof)));
+            let of_one_axis = places.filter(|[a, b]| a.1 == b.1);
+            of_one_axis.collect::<Vec<[(usize, usize); 2]>>()
+        });
         let both = |nodes: &BTreeSet<usize>, pair: &[(usize, usize); 2]| {
             pair.iter().all(|(node, _)| nodes.contains(node))
         };
         let along = |c: usize| {
-            places
-                .iter()
-                .any(|pair| pair[0].1 == c && both(&theirs, pair))
+            let mut pairs = apart.iter().filter(|pair| pair[0].1 == c);
+            pairs.any(|pair| both(&theirs, pair))
         };
         let met = (0..self.dofs.dim)
             .filter(|&c| along(c))
             .collect::<BTreeSet<_>>();
         // By node the one that it moves as.
         let mut first = BTreeMap::<(usize, usize), (usize, usize)>::new();
-        for pair in places
-            .iter()
-            .filter(|pair| met.contains(&pair[0].1) && both(&own, pair))
-        {
+        let apart = apart.iter().filter(|pair| met.contains(&pair[0].1));
+        for pair in apart.chain(&together).filter(|pair| both(&own, pair)) {
             let ends = pair.map(|place| root(&first, place));
             if ends[0] != ends[1] {
                 first.insert(ends[1], ends[0]);
@@ -217,18 +216,36 @@ fn root(
 
 /// Dofs of bodies that equations keep equal in all steps.
 fn equal(couplings: &[Coupling]) -> Vec<[usize; 2]> {
-    let acts = |c: &&Coupling| c.schedule.pieces.iter().all(|p| p.course != Course::Off);
     let plain = |c: &&Coupling| !c.referred && c.tie == Tie::Equation { value: 0.0 };
-    let rows = couplings.iter().filter(plain).filter(acts);
-    let rows = rows.flat_map(|c| &c.rows);
-    let pair = |row: &Row| {
-        let terms: Vec<(usize, f64)> = row.terms().filter(|(_, a)| *a != 0.0).collect();
-        match terms[..] {
-            [(a, f), (b, g)] if f == -g => Some([a, b]),
-            _ => None,
+    let rows = couplings.iter().filter(plain).filter(|c| always(c));
+    rows.flat_map(|c| &c.rows).filter_map(pair).collect()
+}
+
+/// Dofs of the two sides of cuts that pretensions keep equal in all steps.
+fn cut(couplings: &[Coupling]) -> Vec<[usize; 2]> {
+    let mut out = Vec::new();
+    for coupling in couplings.iter().filter(|c| always(c)) {
+        if let Tie::Pretension(p) = &coupling.tie {
+            let rows = &coupling.rows[..p.across(coupling.rows.len())];
+            out.extend(rows.iter().filter_map(pair));
         }
-    };
-    rows.filter_map(pair).collect()
+    }
+    out
+}
+
+/// Whether it acts in all steps.
+fn always(coupling: &Coupling) -> bool {
+    let mut pieces = coupling.schedule.pieces.iter();
+    pieces.all(|p| p.course != Course::Off)
+}
+
+/// The two displacements that a row says are equal.
+fn pair(row: &Row) -> Option<[usize; 2]> {
+    let terms: Vec<(usize, f64)> = row.terms().collect();
+    match terms[..] {
+        [(a, f), (b, g)] if f == -g => Some([a, b]),
+        _ => None,
+    }
 }
 
 /// What follows, in all steps, reference points whose motions are prescribed in all steps. Two multipliers, of contact and of a coupling, would act on one motion that
