@@ -397,7 +397,7 @@ fn scars_beyond_first_order_and_the_limit_of_explicit_wear_are_told() {
         told[0].contains(&format!("{limit:.3e}")),
         "{limit} {told:?}"
     );
-    let large = run("50.0, primary-coefficient = 50.0");
+    let large = run("80.0, primary-coefficient = 80.0");
     let told = findings(&large, DoctorCause::DeepWear);
     assert!(told[0].contains("slope"), "{told:?}");
     assert_eq!(findings(&large, DoctorCause::ExplicitWear), [""; 0]);
