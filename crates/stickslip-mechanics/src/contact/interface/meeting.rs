@@ -46,7 +46,7 @@ impl Interface {
         let x = self.coordinates(u);
         match &self.primary {
             Primary::Rigid(..) => self.meeting_obstacle(&x, &speeds, largest, t),
-            Primary::Facets(_) => match self.meeting_of_boxes(&x, &speeds, largest) {
+            Primary::Facets(_) => match self.meeting_of_boxes(&x, &speeds, largest, t) {
                 Some(0.0) => self.meeting_facets(&x, &speeds, largest, t),
                 Some(way) => Meeting { way, ..none },
                 None => none,
@@ -141,7 +141,7 @@ impl Interface {
     }
 
     /// How far the motion can go until the boxes around both sides touch; `None` if they never do.
-    fn meeting_of_boxes(&self, x: &[Vec3], speeds: &[Vec3], largest: f64) -> Option<f64> {
+    fn meeting_of_boxes(&self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Option<f64> {
         let Primary::Facets(facets) = &self.primary else {
             return None;
         };
@@ -162,10 +162,13 @@ impl Interface {
         let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
         // Surfaces that have entered each other by part of a cell have not passed each other.
         let entered = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
+        // What counts as no gap.
+        let offsets = (0..self.points.len()).map(|i| self.offset(i, t));
+        let closed = offsets.fold(0.0, f64::max);
         let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
         for c in 0..self.dofs.dim {
             for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
-                let apart = upper[0][c] - lower[1][c];
+                let apart = upper[0][c] - lower[1][c] - closed;
                 let fastest = v_lower[1][c] - v_upper[0][c];
                 let slowest = v_lower[0][c] - v_upper[1][c];
                 if apart > slack {
@@ -219,7 +222,13 @@ impl Interface {
             // Along the motion another facet may be met before the nearest one.
             let mut way = f64::INFINITY;
             for &f in &search.candidates[i] {
-                way = way.min(along_ray(&facets[f], x, speeds, position, v, largest));
+                way = way.min(along_ray(
+                    &facets[f],
+                    x,
+                    speeds,
+                    (position, v, offset),
+                    largest,
+                ));
             }
             if way * largest > CLOSE * TOUCHING * point.size {
                 meeting.way = meeting.way.min(way);
@@ -247,13 +256,12 @@ fn outward(x: &[Vec3]) -> Vec3 {
     }
 }
 
-/// When a point at `position` that moves with `v` meets a facet; infinite if it does not.
+/// When a point at `position` that moves with `v` meets a facet at a distance that counts as none; infinite if it does not.
 fn along_ray(
     facet: &Facet,
     x: &[Vec3],
     speeds: &[Vec3],
-    position: Vec3,
-    v: Vec3,
+    (position, v, offset): (Vec3, Vec3, f64),
     largest: f64,
 ) -> f64 {
     let count = facet.nodes.len() as f64;
@@ -268,7 +276,7 @@ fn along_ray(
         if closing.is_nan() || closing <= SLIDING * largest {
             continue;
         }
-        let s = dot(sub(position, corners[0]), normal) / size / closing;
+        let s = (dot(sub(position, corners[0]), normal) / size - offset) / closing;
         if s < 0.0 || s >= way {
             continue;
         }
