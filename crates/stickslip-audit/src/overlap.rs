@@ -312,9 +312,13 @@ fn slips(results: &Results, pair: &Pair, sizes: &Scale, bulk: Option<&Bulk>, rep
                     (way, obstacle.foot(x1[node], state.t)?.normal)
                 }
                 Side::Body { facets, .. } => {
-                    let foot = foot(&results.mesh, facets, &x0, x0[node])?;
+                    let under = foot(&results.mesh, facets, &x0, x0[node])?;
                     let sum = |s: Vec3, (n, w): &(usize, f64)| along(s, *w, moved(*n));
-                    (foot.weights.iter().fold([0.0; 3], sum), foot.normal)
+                    let way = under.weights.iter().fold([0.0; 3], sum);
+                    // What counts as no gap turns with the surface.
+                    let after = foot(&results.mesh, facets, &x1, along(under.place, 1.0, way));
+                    let turn = after.map_or([0.0; 3], |f| sub(f.normal, under.normal));
+                    (along(way, under.gap, turn), under.normal)
                 }
             };
             let own = tangential(sub(moved(node), carried), normal);
