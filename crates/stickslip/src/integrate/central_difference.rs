@@ -82,9 +82,7 @@ impl Integrator for Explicit {
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
         self.turn(&end, &mut at, (&mut forces, &drift), &mut total);
-        let mut exact = std::mem::take(&mut self.exact_after);
-        exact.show(&more, &constraints.fixed, contact, &mut forces);
-        self.exact_after = exact;
+        (self.exact_after).show(&more, &constraints.fixed, contact, &mut forces);
         let none = vec![0.0; u.len()];
         there.outward(&none, &mut forces);
         let mut acted = self.out.residual.clone();

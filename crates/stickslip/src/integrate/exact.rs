@@ -207,7 +207,7 @@ impl Exact {
         let mut r: Vec<f64> = apply(x);
         let start = weighed(&r, &r);
         for ((r, b), g) in r.iter_mut().zip(b).zip(&give) {
-            // What nothing can move needs no force.
+            // A row needs no force where supports hold all of its dofs.
             *r = if *g > 0.0 { b - *r } else { 0.0 };
         }
         let whole = weighed(size, size) + start;
@@ -305,10 +305,11 @@ impl Exact {
             seen[dof] = free(dof);
         }
         let (b, size) = (self.sums(&seen), self.sizes(&seen));
-        let mut forces = std::mem::take(&mut self.forces);
-        let found = self.solve(mobility, (&b, &size), &mut forces);
+        // The forces of the increment before are a good guess.
+        let mut forces = self.forces.clone();
+        self.solve(mobility, (&b, &size), &mut forces)?;
         self.forces = forces;
-        found
+        Ok(())
     }
 
     /// Accelerations of the dofs in question by forces `f` by dof.
@@ -320,7 +321,7 @@ impl Exact {
 
     /// Hands the forces to couplings and ties and adds them to the residual: `before` are those that the rows had at the start of the increment, and `more` what they had as well to hold at its end.
     pub fn act(
-        &mut self,
+        &self,
         (before, more): (&Exact, &[f64]),
         (contact, links): (&mut Contact, &Links),
         out: &mut Assembler,

@@ -26,7 +26,7 @@ pub struct TieRow {
 }
 
 impl Interface {
-    /// Whether explicit increments hold the interface exactly: a tie but for one by a penalty, which yields as it was told to.
+    /// Whether explicit increments hold the interface exactly: it is a tie, and not one by a penalty, which is a spring.
     pub(super) fn holds_exactly(&self) -> bool {
         let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
         self.laws.tied && self.history.springs && multipliers
@@ -35,9 +35,12 @@ impl Interface {
     /// What is to be held exactly, as it was at the last evaluation.
     pub fn tie_rows(&self) -> Vec<TieRow> {
         let mut out = Vec::new();
+        if !self.holds_exactly() {
+            return out;
+        }
         let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
         let points = self.cache.last.points.iter().enumerate();
-        for (i, e) in points.filter(|_| self.holds_exactly()) {
+        for (i, e) in points {
             let batch = self.cache.last.batch(i);
             let Some(tangent) = batch.tangent(e) else {
                 continue;
